@@ -89,7 +89,7 @@ def test_a_command_that_fails_ends_the_launch_with_a_sentence(command: str, mess
 
 
 def test_a_command_that_hangs_is_ended() -> None:
-    with pytest.raises(DescriptionError, match=r"gave no answer within 0\.2 s"):
+    with pytest.raises(DescriptionError, match=r"did not finish within 0\.2 s"):
         resolve(f"{PYTHON} -c 'import time; time.sleep(600)'", timeout_s=0.2)
 
 
@@ -114,7 +114,7 @@ def test_what_a_killed_command_left_behind_may_go_on_writing(tmp_path: Path) -> 
         "import subprocess, sys, time\n"
         f"subprocess.Popen([sys.executable, {str(daemon)!r}], start_new_session=True)\ntime.sleep(60)\n"
     )
-    with pytest.raises(DescriptionError, match="gave no answer within 1 s"):
+    with pytest.raises(DescriptionError, match="did not finish within 1 s"):
         resolve(f"{PYTHON} {starter}", timeout_s=1.0)
     for reader in threading.enumerate():  # an exception of theirs fails the test
         if reader is not threading.current_thread():

@@ -248,7 +248,7 @@ def test_what_follows_a_found_folder_is_a_path_in_it(written: str, meant: str, t
         ("<rosparam>[1]</rosparam>", "rosparam needs the attribute 'param'"),
         ('<rosparam>{a: !!python/object/apply:os.system ["id"]}</rosparam>', "could not determine a constructor"),
         ("<rosparam>&amp;a [*a]</rosparam>", "a value contains itself"),
-        ("<rosparam>{a: rad(1/0)}</rosparam>", "'rad(1/0)' is no angle in radians"),
+        ("<rosparam>{a: rad(1/0)}</rosparam>", "'rad(1/0)' is not an angle in radians"),
         ("<rosparam>" + "[" * 5000 + "</rosparam>", "invalid YAML: nested too deeply"),
         ('<rosparam command="burn"/>', "rosparam command 'burn'; there are"),
         ('<include file="/no/such.launch"/>', "no launch file '/no/such.launch' to include"),
@@ -278,7 +278,7 @@ def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
     )
     assert len(plan.nodes) == 1
     assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
-        "<nodde> is no tag of launch files; it is ignored",
+        "<nodde> is not a tag of launch files; it is ignored",
         "attribute 'colour' of <param> is not known; it is ignored",
         "<master> has no effect since ROS 0.7; it is ignored",
     ]

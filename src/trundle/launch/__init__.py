@@ -1,4 +1,4 @@
-"""Launch files: what enters is roslaunch XML, what leaves is a plan; nothing is started here."""
+"""Launch files: parsed from roslaunch XML into a plan; nothing is started here."""
 
 import lazy_loader
 

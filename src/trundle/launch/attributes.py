@@ -1,4 +1,4 @@
-"""The attributes of one launch element: substituted, typed, with `if` and `unless` decided."""
+"""Attributes of a launch element: substituted and typed, with `if` and `unless` evaluated."""
 
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.xmlnode import XmlNode
@@ -9,7 +9,7 @@ from .values import read_flag
 
 
 class Attributes:
-    """Reads attributes of an element; those that are not known are named once, and ignored."""
+    """Attributes of one element; unknown ones are reported and ignored."""
 
     def __init__(
         self, node: XmlNode, scope: Scope, substitution: Substitution, report: Diagnostics, known: tuple[str, ...]
@@ -19,7 +19,7 @@ class Attributes:
         self._scope = scope
         self._substitution = substitution
         self.is_active = self._evaluate_if_unless()
-        """Whether `if` and `unless` let the element count; nothing else of it may be looked at where they do not."""
+        """True if `if` and `unless` keep the element; otherwise none of its other attributes may be read."""
         if self.is_active:
             for name in node.attributes():
                 if name not in known and name not in ("if", "unless"):
@@ -39,19 +39,19 @@ class Attributes:
             ) from None
 
     def text(self, name: str) -> str | None:
-        """An attribute after substitution, or None where it is absent."""
+        """Attribute after substitution; None if absent."""
         value = self.node.attribute(name)
         return None if value is None else self.resolve(value)
 
     def resolve(self, text: str) -> str:
-        """Replace the substitutions of a text that belongs to this element."""
+        """Substitute a text of this element."""
         return self._substitution.resolve(text, self._scope, self.at)
 
     def required(self, name: str, *, empty: bool = False) -> str:
-        """An attribute that must be there.
+        """Required attribute after substitution.
 
         Raises:
-            DescriptionError: absent, or empty where that is not allowed.
+            DescriptionError: the attribute is absent, or empty without `empty`.
         """
         value = self.text(name)
         if value is None or not (value or empty):
@@ -59,10 +59,10 @@ class Attributes:
         return value
 
     def flag(self, name: str) -> bool:
-        """True or false, any case; absent is false.
+        """True or false in any case; absent is false.
 
         Raises:
-            DescriptionError: anything else; unlike `if`, roslaunch takes no 1 or 0 here.
+            DescriptionError: the value is neither; unlike `if`, 1 and 0 are invalid, as in roslaunch.
         """
         value = self.text(name)
         if value is None or value.lower() == "false":
@@ -72,7 +72,7 @@ class Attributes:
         raise DescriptionError(self.at, f"<{self.node.tag}> {name}: {value!r} is neither 'true' nor 'false'")
 
     def number(self, name: str, *, default: float) -> float:
-        """A number; absent is the default."""
+        """Number, or `default` if absent."""
         value = self.text(name)
         try:
             return default if value is None else float(value)
@@ -80,14 +80,14 @@ class Attributes:
             raise DescriptionError(self.at, f"<{self.node.tag}> {name}: {value!r} is not a number") from None
 
     def namespace(self) -> str | None:
-        """The attribute `ns`, or None.
+        """Attribute `ns`, or None.
 
         Raises:
-            DescriptionError: present and empty, or private.
+            DescriptionError: the namespace is empty or private.
         """
         value = self.text("ns")
         if value == "":
             raise DescriptionError(self.at, f"<{self.node.tag}> has an empty 'ns'; leave it out to stay in this one")
         if value is not None and value.startswith("~"):
-            raise DescriptionError(self.at, f"<{self.node.tag}> ns {value!r}: a namespace belongs to no single node")
+            raise DescriptionError(self.at, f"<{self.node.tag}> ns {value!r}: a namespace cannot be private")
         return value

@@ -1,4 +1,4 @@
-"""Arguments that the command line gives a launch."""
+"""Command-line arguments of a launch."""
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -10,21 +10,23 @@ _USE = re.compile(r"""\$\(\s*arg\s+([^\s)]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\
 
 
 class CommandLine:
-    """`name:=value` words, and the files that see them: those it names, and what these include with pass_all_args."""
+    """`name:=value` arguments, and the files they apply to: those on the command line, and their includes with
+    pass_all_args.
+    """
 
     def __init__(self, arguments: Mapping[str, str]) -> None:
         self.arguments = arguments
         self._files: list[XmlNode] = []
 
     def apply_to(self, root: XmlNode) -> None:
-        """Have a file see the arguments."""
+        """Register a file that sees the arguments."""
         self._files.append(root)
 
     def check_unused(self) -> None:
-        """Refuse an argument that no file declares or uses; roslaunch lets a misspelt one do nothing in silence.
+        """Reject arguments that no file declares or uses; roslaunch silently ignores misspelt ones.
 
         Raises:
-            DescriptionError: with the nearest name there is, and the others.
+            DescriptionError: an argument is unknown; the text names the closest match and all arguments.
         """
         texts = [text for root in self._files for text in _texts(root)]
         known = {name for root in self._files for name in _declared(root)} | set(_used(texts))
@@ -38,21 +40,21 @@ class CommandLine:
 
 
 def nearest(name: str, names: Collection[str]) -> str | None:
-    """The one of some names that one is most like; None: it is like none of them."""
-    from difflib import get_close_matches  # slow to load, and most names are there
+    """Most similar of some names; None if none is similar."""
+    from difflib import get_close_matches  # lazy: slow to import, rarely needed
 
     return next(iter(get_close_matches(name, names, n=1)), None)
 
 
 def _used(texts: Iterable[str]) -> Iterator[str]:
-    """Names that $(arg …) and an expression's arg(…) ask for, declared or not."""
+    """Names in $(arg …) and in arg(…) of expressions, declared or not."""
     for text in texts:
         for match in _USE.finditer(text):
             yield match[1] or match[2]
 
 
 def _declared(node: XmlNode) -> Iterator[str]:
-    """Names of a file's <arg>s, whether or not their `if` holds; those in an <include> are another file's."""
+    """Names of a file's <arg>s, whatever their `if`; those in an <include> belong to the included file."""
     if node.tag == "arg" and (name := node.attribute("name")):
         yield name
     for child in node.children if node.tag != "include" else ():

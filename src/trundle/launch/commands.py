@@ -27,13 +27,13 @@ class XacroExpander(Protocol):
 
 
 class CommandRunner(Protocol):
-    """Runs a program to its end."""
+    """Runs a program until it exits."""
 
     def __call__(self, argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
-        """Return what it wrote to standard output.
+        """Return its standard output.
 
         Raises:
-            ValueError: it could not be run, failed or took too long; the message says which.
+            ValueError: the program cannot be run, failed or timed out; the text says which.
         """
         ...
 
@@ -47,17 +47,17 @@ def resolve_params(
     run: CommandRunner = run_command,
     timeout_s: float = _TIMEOUT_S,
 ) -> tuple[LaunchParam, ...]:
-    """Run the plan's commands; afterwards every parameter has a value, or None, which is named: it cannot be set.
+    """Replace commands in the plan's parameters by their output; null values, which ROS cannot store, are reported.
 
     Args:
-        expand_xacro: called in place of any command whose program is `xacro` or `xacro.py`, wherever it is meant to
-            live: ROS-less machines have none, and `xacro.py` is gone since Noetic.
-        env: for the commands that are run.
+        expand_xacro: called instead of commands named `xacro` or `xacro.py` in any folder: machines without ROS have
+            none, and `xacro.py` was removed in Noetic.
+        env: environment of the commands.
         run: runs all other commands.
-        timeout_s: for each command [s].
+        timeout_s: timeout of each command [s].
 
     Raises:
-        DescriptionError: at the `<param>` whose command failed; nothing is started then, as with roslaunch.
+        DescriptionError: a command failed, at its `<param>`; the launch is aborted, as by roslaunch.
     """
     resolved: list[LaunchParam] = []
     for param in plan.params:
@@ -68,7 +68,7 @@ def resolve_params(
             except ValueError as error:
                 raise DescriptionError(param.at, f"param {param.name!r}: {error}") from None
         if value is None:
-            report.warn(param.at, f"parameter {param.name!r} is null, which ROS has no value for; it is not set")
+            report.warn(param.at, f"parameter {param.name!r} is null, which ROS parameters cannot be; it is not set")
         resolved.append(replace(param, value=value))
     return tuple(resolved)
 
@@ -92,14 +92,14 @@ def _output(
 
 
 def _xacro_arguments(argv: Sequence[str]) -> Sequence[str] | None:
-    """Return what follows the program where that is xacro, else None."""
+    """Arguments of a xacro command; None for other commands."""
     if argv[0] == "rosrun" and len(argv) >= 3 and argv[1] == "xacro":
         return argv[3:]
     return argv[1:] if PurePath(argv[0].replace("\\", "/")).name in XACRO else None
 
 
 def _split(line: str) -> list[str]:
-    """Split as a shell would; on Windows backslashes stay and quotes go."""
+    """Split like a shell; on Windows, keep backslashes and strip quotes."""
     try:
         if os.name != "nt":
             return shlex.split(line)

@@ -1,4 +1,4 @@
-"""Reads files that launch files name, which may be anything."""
+"""Reading of files named in launch files."""
 
 import os
 
@@ -6,10 +6,10 @@ from trundle import files
 
 
 def read_file(name: str) -> bytes:
-    """Read a file.
+    """Read a file's bytes.
 
     Raises:
-        ValueError: there is none, or it cannot be read; the message says so.
+        ValueError: the file does not exist or cannot be read.
     """
     if not os.path.exists(name):
         raise ValueError(f"no file {name!r}")

@@ -1,4 +1,4 @@
-"""Reads the XML of launch files of ROS 1."""
+"""XML of ROS 1 launch files."""
 
 from pathlib import Path
 
@@ -8,10 +8,10 @@ from trundle.xmlnode import XmlNode, parse_xml, read_xml
 
 
 def read_launch_file(file: Path, report: Diagnostics) -> XmlNode:
-    """Read the XML of a launch file.
+    """Parse a launch file.
 
     Raises:
-        DescriptionError: it cannot be read, or is one of ROS 2.
+        DescriptionError: the file cannot be parsed, or is for ROS 2.
     """
     refuse_ros2_language(file, is_launch=True)
     root = read_xml(file)
@@ -22,7 +22,7 @@ def read_launch_file(file: Path, report: Diagnostics) -> XmlNode:
 
 
 def parse_launch_text(text: str, name: str) -> XmlNode:
-    """Parse a launch file that is in no file; `name` is how messages call it.
+    """Parse a launch file's text; `name` stands for its path in messages.
 
     Raises:
         DescriptionError: as `read_launch_file`.

@@ -1,4 +1,4 @@
-"""Reads <machine>: where the nodes that name it are to run."""
+"""<machine>: addresses of the machines that nodes name."""
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.xmlnode import XmlNode
@@ -16,10 +16,10 @@ _DEFAULTS = ("true", "false", "never")
 def read_machine(
     node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> None:
-    """Read a machine; one that is the default is that of the nodes that follow.
+    """Read a <machine>; a default one applies to the nodes after it.
 
     Raises:
-        DescriptionError: where roslaunch refuses it.
+        DescriptionError: roslaunch rejects it, too.
     """
     attributes = Attributes(node, scope, substitution, report, (*_KNOWN, *_OLD))
     if not attributes.is_active:

@@ -1,4 +1,4 @@
-"""Packages that a launch needs and that are not there."""
+"""Packages that a launch needs but that are not installed."""
 
 from collections.abc import Iterable
 
@@ -10,27 +10,27 @@ from .plan import LaunchNode
 
 
 class MissingPackageError(DescriptionError):
-    """A `$(find)` of a package that is not there."""
+    """A `$(find)` of an unknown package."""
 
 
 class MissingPackages:
-    """Those that a second reading comes across, which goes on where the first one ended."""
+    """Missing packages found by a second, tolerant reading after the first one failed."""
 
     def __init__(self) -> None:
         self._places: dict[str, tuple[Source, str]] = {}
 
     def add(self, name: str, at: Source, what_for: str = "") -> None:
-        """Keep the first place that needs a package; `what_for` continues the sentence."""
+        """Record the first place that needs a package; `what_for` completes the error's sentence."""
         self._places.setdefault(name, (at, what_for))
 
     def add_nodes(self, nodes: Iterable[LaunchNode], packages: PackageFinder) -> None:
-        """Add the packages of nodes, as far as they are not there."""
+        """Record the missing packages of nodes."""
         for node in nodes:
             if packages.find_folder(node.package) is None:
                 self.add(node.package, node.at, f" for the node {node.full_name}")
 
     def combined_error(self, first: MissingPackageError) -> DescriptionError:
-        """The error that names them all, the first in full."""
+        """Error that names all missing packages, the first in full."""
         others = sorted(self._places.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
         more = [
             DescriptionError(at, f"no package {name!r}{what_for}{repository_hint(name)}")

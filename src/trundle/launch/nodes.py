@@ -1,4 +1,4 @@
-"""Reads <node> and <test> with what stands inside them."""
+"""<node> and <test> with their child elements."""
 
 from typing import Literal
 
@@ -36,10 +36,10 @@ _NODE_ONLY = ("respawn", "respawn_delay", "output")
 def read_node(
     node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> None:
-    """Read a node or a test; its parameters are set, it goes into the draft.
+    """Read a <node> or <test> into the plan, with its parameters.
 
     Raises:
-        DescriptionError: where roslaunch refuses it.
+        DescriptionError: roslaunch rejects it, too.
     """
     is_test = node.tag == "test"
     known = (*_NODE, *_TEST_ONLY) if is_test else _NODE
@@ -63,7 +63,7 @@ def read_node(
     if attributes.flag("clear_params"):
         builder.clear(inside.namespace)
     private = _read_children(node, inside, own, substitution, builder, report)
-    # ~params of the scope first, so that the node's own win.
+    # ~params of the scope first, so that the node's own override them.
     for key, (value, at) in [*scope.private_params.items(), *private.items()]:
         builder.set_param(f"{inside.namespace}/{key}", value, at)
 
@@ -101,10 +101,10 @@ def read_node(
 def _read_children(
     node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> dict[str, PrivateParam]:
-    """Read what stands inside: remappings and environment go into `own`, ~params are handed back."""
+    """Read child elements: remappings and environment into `own`; returns the ~params."""
     private: dict[str, PrivateParam] = {}
     for child in node.children:
-        match child.tag.lower():  # roslaunch hears capitals here, and nowhere above
+        match child.tag.lower():  # roslaunch ignores case here only
             case "param":
                 attributes = Attributes(child, inside, substitution, report, PARAM_ATTRIBUTES)
                 if attributes.is_active:

@@ -1,16 +1,16 @@
-"""What reading a launch file needs to know about packages."""
+"""Package lookup needed by launch files."""
 
 from pathlib import Path
 from typing import Protocol
 
 
 class PackageFinder(Protocol):
-    """Knows where packages live."""
+    """Finds the folders of packages."""
 
     def find_folder(self, name: str, /) -> Path | None:
-        """Return what `$(find name)` stands for, or None."""
+        """Folder that `$(find name)` stands for; None if the package is unknown."""
         ...
 
     def why_not_found(self, name: str, /) -> str:
-        """Say in a sentence that there is no such package, and where it was looked for."""
+        """Error message for an unknown package, with the folders searched."""
         ...

@@ -1,4 +1,4 @@
-"""Reads <param> and <rosparam>."""
+"""<param> and <rosparam>."""
 
 from typing import Literal
 
@@ -29,10 +29,10 @@ PARAM_ATTRIBUTES = ("name", "type", *_SOURCES)
 
 
 def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
-    """Read a <param>: its name as written, and its value or the command that will give it.
+    """Read a <param>: its name as written, and its value or the command for it.
 
     Raises:
-        DescriptionError: no name, not exactly one source of the value, or a value that is not of its type.
+        DescriptionError: no name, not exactly one source of the value, or a value that does not fit its type.
     """
     at = attributes.at
     given = {source: text for source in _SOURCES if (text := attributes.text(source)) is not None}
@@ -41,7 +41,7 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
         what = "none" if not given else " and ".join(map(repr, given))
         raise DescriptionError(at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {what}")
     ((source, text),) = given.items()
-    # The type is the one attribute that roslaunch does not substitute.
+    # roslaunch does not substitute this attribute either.
     type_name = (attributes.node.attribute("type") or "auto").lower().strip()
     if type_name not in _TYPES:
         raise DescriptionError(at, f"param {name!r}: no type {type_name!r}; types are {', '.join(_TYPES)}")
@@ -65,10 +65,10 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
 def read_rosparam(
     node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> None:
-    """Read a <rosparam>; YAML is loaded here, `dump` and `delete` become steps.
+    """Read a <rosparam>; `load` sets parameters, `dump` and `delete` become steps.
 
     Raises:
-        DescriptionError: unreadable YAML, a missing file, or attributes that do not go together.
+        DescriptionError: unreadable YAML, a missing file, or attributes that exclude each other.
     """
     attributes = Attributes(node, scope, substitution, report, ("command", "ns", "file", "param", "subst_value"))
     if not attributes.is_active:
@@ -114,7 +114,7 @@ def _load(attributes: Attributes, builder: PlanBuilder, name: str, file: str | N
 
 
 def _set(builder: PlanBuilder, name: str, value: ParamValue, attributes: Attributes) -> None:
-    """Set a value; a mapping becomes one parameter for each of its leaves."""
+    """Set a value; a mapping sets one parameter per leaf."""
     if not isinstance(value, dict):
         builder.set_param(name, value, attributes.at)
         return

@@ -1,4 +1,4 @@
-"""What a launch asks for: nodes, parameters and commands, resolved, with nothing started."""
+"""Launch plan: nodes, parameters and commands, resolved but not started."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,18 +13,18 @@ ParamType: TypeAlias = Literal["auto", "str", "int", "double", "bool", "yaml"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParamCommand:
-    """A command whose output becomes a parameter's value: `<param command>`, not yet run."""
+    """A `<param command>`, not yet run; its output becomes the value."""
 
     line: str
-    """As written, substituted; to be split as a shell would, and run without one."""
+    """Command line after substitution, to be split like a shell's and run without a shell."""
     type: ParamType
-    """How the output is read."""
+    """Type of the output."""
     at: Source
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchParam:
-    """One parameter to set before any node starts."""
+    """A parameter to set before any node starts."""
 
     name: str
     """Global name."""
@@ -34,20 +34,20 @@ class LaunchParam:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchNode:
-    """One node to start."""
+    """A node to start."""
 
     name: str
-    """Without namespace."""
+    """Name without namespace."""
     namespace: str
     """Global, without trailing slash; the root is '/'."""
     package: str
     type: str
     arguments: str = ""
-    """As written, substituted; split as a shell would before use."""
+    """Arguments after substitution, to be split like a shell's."""
     remappings: tuple[tuple[str, str], ...] = ()
-    """(from, to) as written; an earlier pair with the same `from` is already gone."""
+    """(from, to) as written; for equal `from`, only the last."""
     env: tuple[tuple[str, str], ...] = ()
-    """In order; the last one of a name wins."""
+    """(name, value) in order; the last of a name wins."""
     output: Literal["log", "screen"] = "log"
     respawn: bool = False
     respawn_delay_s: float = 0.0
@@ -56,7 +56,7 @@ class LaunchNode:
     launch_prefix: str = ""
     machine: str = ""
     address: str | None = ""
-    """Of the machine it is to run on; empty: this one, None: there is no such machine."""
+    """Address of the node's machine; '' for this one, None if the machine is unknown."""
     at: Source
 
     @property
@@ -67,7 +67,7 @@ class LaunchNode:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchTest:
-    """A `<test>`: a node that only `trundle test` runs, and what it may take."""
+    """A `<test>`: a node run by `trundle test` only, with its limits."""
 
     name: str
     """The attribute `test-name`."""
@@ -78,30 +78,30 @@ class LaunchTest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ParamStep:
-    """A `<rosparam command="dump|delete">`: done before any parameter is set, in the order of the file."""
+    """A `<rosparam command="dump|delete">`, executed in file order before any parameter is set."""
 
     command: Literal["dump", "delete"]
     name: str
     """Global name of the parameter or namespace."""
     file: str = ""
-    """Where `dump` writes to."""
+    """Output file of `dump`."""
     at: Source
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchArgument:
-    """An `<arg>` of the file that was asked for."""
+    """An `<arg>` of a launch file on the command line."""
 
     name: str
     default: str | None
-    """None where the argument is required or fixed."""
+    """None if the argument is required or fixed."""
     doc: str = ""
     required: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchPlan:
-    """Everything that launch files ask for, in order."""
+    """Contents of launch files, in order."""
 
     nodes: tuple[LaunchNode, ...] = ()
     params: tuple[LaunchParam, ...] = ()
@@ -110,5 +110,5 @@ class LaunchPlan:
     steps: tuple[ParamStep, ...] = ()
     arguments: tuple[LaunchArgument, ...] = ()
     files: tuple[Path, ...] = ()
-    """Every launch file read, in order of first reading."""
+    """All launch files read, in order of first reading."""
     tests: tuple[LaunchTest, ...] = ()

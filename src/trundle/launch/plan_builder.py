@@ -1,4 +1,4 @@
-"""A launch plan while its files are read."""
+"""Builder of a launch plan."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -12,14 +12,14 @@ _MAX_PARAMS = 200_000
 
 
 class PlanBuilder:
-    """Collects nodes and parameters; a parameter set twice keeps its place and takes the later value."""
+    """Collects nodes and parameters; a parameter set again keeps its position and takes the later value."""
 
     def __init__(self, report: Diagnostics) -> None:
         self._report = report
         self.arguments: list[LaunchArgument] = []
         self._machines: dict[str, tuple[object, ...]] = {"": ("",), "localhost": ("",)}
         self.default_machine = ""
-        """That of the nodes that follow and name none."""
+        """Default machine of the nodes that follow."""
         self._nodes: dict[str, LaunchNode] = {}
         self._tests: list[LaunchTest] = []
         self._params: dict[str, LaunchParam] = {}
@@ -41,7 +41,7 @@ class PlanBuilder:
         self._nodes[node.full_name] = node
 
     def add_machine(self, name: str, settings: tuple[object, ...], at: Source) -> None:
-        """Add a machine by its address and what else tells it from others.
+        """Add a machine; `settings` start with its address.
 
         Raises:
             DescriptionError: another one has the same name.
@@ -59,7 +59,7 @@ class PlanBuilder:
         self._clear[namespace] = None
 
     def set_param(self, name: str, value: ParamValue | ParamCommand, at: Source) -> None:
-        """Set a parameter; dictionaries that come from YAML arrive unrolled."""
+        """Set a parameter; YAML dictionaries are already split into leaves."""
         name = canonical_name(name)
         parent = name.rpartition("/")[0]
         while parent:
@@ -68,7 +68,7 @@ class PlanBuilder:
                 self._report.warn(at, f"parameter {name!r} lies below the parameter {parent!r} of {there}")
             parent = parent.rpartition("/")[0]
         if len(self._params) >= _MAX_PARAMS:
-            raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters; the launch cannot mean that")
+            raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters")
         self._params[name] = LaunchParam(name=name, value=value, at=at)
 
     def build(self) -> LaunchPlan:
@@ -83,7 +83,7 @@ class PlanBuilder:
         )
 
     def _with_machine(self, node: LaunchNode) -> LaunchNode:
-        """With its machine's address, which may come after it."""
+        """Node with its machine's address; the <machine> may follow the node."""
         if node.machine not in self._machines:
             there = ", ".join(repr(name) for name in self._machines if name not in ("", "localhost")) or "none"
             what = f"node {node.name!r}: no machine {node.machine!r}, so it cannot be launched; machines: {there}"

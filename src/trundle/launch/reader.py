@@ -1,4 +1,4 @@
-"""Reads launch files into a plan, by roslaunch's rules of scope and order."""
+"""Reads launch files into a plan, with roslaunch's rules of scope and order."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -24,9 +24,9 @@ from .scope import Scope
 from .substitution import Substitution
 
 _MAX_INCLUDE_DEPTH = 64
-"""A file that includes itself ends here; no honest launch nests a tenth as deep."""
-_MAX_TOLD = 8
-"""How many files an error names that one included the other."""
+"""Limit against files that include themselves; real launches nest less than a tenth as deep."""
+_MAX_INCLUDES_IN_ERROR = 8
+"""Includes listed in an error."""
 
 
 def read_launch(
@@ -40,19 +40,19 @@ def read_launch(
     texts: Sequence[tuple[str, str]] = (),
     namespace: str = "/",
 ) -> LaunchPlan:
-    """Read launch files as one launch; nothing is started and no command is run.
+    """Read launch files as one launch, without starting nodes or running commands.
 
     Args:
         files: one or several, read in order.
-        texts: (name, XML) of launch files that are none, such as standard input; read after the files.
-        packages: answers `$(find …)`.
-        report: takes warnings: unknown tags and attributes, deprecations, what is read but not supported.
+        texts: (name, XML) of launch files not on disk, such as standard input; read after the files.
+        packages: resolves `$(find …)`.
+        report: receives warnings: unknown tags and attributes, deprecations, unsupported features.
         arguments: `name:=value` of the command line.
-        env: answers `$(env …)` and `$(optenv …)`; no other environment is looked at.
-        namespace: the one everything is put in.
+        env: environment for `$(env …)` and `$(optenv …)`.
+        namespace: prefix of all names.
 
     Raises:
-        DescriptionError: with file and line, where roslaunch would refuse the file too.
+        DescriptionError: the file is invalid, with file and line; roslaunch rejects it, too.
     """
     command_line = CommandLine(arguments or {})
 
@@ -85,7 +85,7 @@ def read_launch_text(
     arguments: Mapping[str, str] | None = None,
     env: Mapping[str, str] | None = None,
 ) -> LaunchPlan:
-    """Read a launch file's text; `name` is how messages call it.
+    """Read a launch file's text; `name` stands for its path in messages.
 
     Raises:
         DescriptionError: as `read_launch`.
@@ -103,10 +103,10 @@ def read_arguments(
     arguments: Mapping[str, str] | None = None,
     env: Mapping[str, str] | None = None,
 ) -> tuple[LaunchArgument, ...]:
-    """Read the arguments that a launch file itself declares, and nothing else of it.
+    """Read only the <arg>s that a launch file itself declares.
 
     Raises:
-        DescriptionError: the file is no launch file, or an argument cannot be read.
+        DescriptionError: the file is not a launch file, or an <arg> is invalid.
     """
     command_line = CommandLine(arguments or {})
     reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line)
@@ -115,7 +115,7 @@ def read_arguments(
 
 
 class _Reader:
-    """Walks launch files; what it finds goes into the draft."""
+    """Walks launch files and fills a plan builder."""
 
     def __init__(
         self,
@@ -126,7 +126,7 @@ class _Reader:
         command_line: CommandLine,
         missing: MissingPackages | None = None,
     ) -> None:
-        """With `missing`, go on behind whatever cannot be read: only what is missing is of interest."""
+        """`missing`: collect missing packages, skipping elements that cannot be read."""
         self.builder = PlanBuilder(report)
         self._report = report
         self._command_line = command_line
@@ -134,13 +134,13 @@ class _Reader:
         self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name, missing=missing)
 
     def read_root(self, root: XmlNode, file: Path, namespace: str) -> None:
-        """Read a file of the command line."""
+        """Read a file given on the command line."""
         arguments = dict(self._command_line.arguments)
         scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=arguments)
         self._launch(root, scope, depth=0)
 
     def read_declared(self, root: XmlNode, file: Path) -> None:
-        """Read the arguments of a file; one that is required and was not given counts as empty."""
+        """Read the <arg>s of a file; required ones not given become ''."""
         scope = Scope(namespace="/", file=str(file), arguments=dict(self._command_line.arguments))
         for node in _launch_of(root).all("arg"):
             self._arg(node, scope, scope, top=True)
@@ -201,7 +201,7 @@ class _Reader:
             case "master":
                 self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored")
             case tag:
-                self._report.warn(node.at, f"<{tag}> is no tag of launch files; it is ignored")
+                self._report.warn(node.at, f"<{tag}> is not a tag of launch files; it is ignored")
 
     def _group(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
         attributes = self._attributes(node, scope, "ns", "clear_params")
@@ -269,7 +269,7 @@ class _Reader:
             self._launch(read_launch_file(Path(file), self._report), passed, depth=depth + 1)
         except DescriptionError as error:
             way = f"; included at {node.at}"
-            if depth >= _MAX_TOLD or error.what.endswith(way):
+            if depth >= _MAX_INCLUDES_IN_ERROR or error.what.endswith(way):
                 raise
             raise type(error)(error.at, error.what + way) from None
         if unused := sorted(given - passed.declared):
@@ -278,7 +278,7 @@ class _Reader:
 
 
 def _launch_of(root: XmlNode) -> XmlNode:
-    """The <launch> of a file, which roslaunch takes wherever it stands."""
+    """<launch> element of a file; like roslaunch, accepts it at any depth."""
     if root.tag == "launch":
         return root
     found: list[XmlNode] = []

@@ -1,4 +1,4 @@
-"""Reads <remap> and <env>, which hold for the nodes that follow."""
+"""<remap> and <env>, which apply to the nodes after them."""
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.names import canonical_name, is_legal_name
@@ -10,7 +10,7 @@ from .substitution import Substitution
 
 
 def read_remap(node: XmlNode, scope: Scope, target: Scope, substitution: Substitution, report: Diagnostics) -> None:
-    """Read a <remap> with what is known in `scope`; it holds in `target`.
+    """Read a <remap>, substituted in `scope`, into `target`.
 
     Raises:
         DescriptionError: a name is absent or not legal.
@@ -26,7 +26,7 @@ def read_remap(node: XmlNode, scope: Scope, target: Scope, substitution: Substit
 
 
 def read_env(node: XmlNode, scope: Scope, target: Scope, substitution: Substitution, report: Diagnostics) -> None:
-    """Read an <env> with what is known in `scope`; it holds in `target`.
+    """Read an <env>, substituted in `scope`, into `target`.
 
     Raises:
         DescriptionError: no name or no value.

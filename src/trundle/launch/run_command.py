@@ -1,4 +1,4 @@
-"""Runs a program for what it prints, bounded in time and size."""
+"""Runs a program and captures its output, bounded in time and size."""
 
 import contextlib
 import os
@@ -11,19 +11,19 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import IO
 
 _MAX_BYTES = 64 * 1024 * 1024
-"""The largest robot descriptions are a few MB."""
+"""Output limit; the largest robot descriptions are a few MB."""
 _CHUNK_BYTES = 65536
 _QUIET_S = 5.0
-"""Somebody waits for the command; after so long it is said for what."""
+"""Delay of the "still waiting" message."""
 _LAST_S = 1.0
-"""What was killed may have left a program behind that holds its output open."""
+"""Grace period after a kill: a surviving child may hold the output open."""
 
 
 def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
-    """Run a program without a shell; what it says on standard error is passed on.
+    """Run a program without a shell; standard error is passed on.
 
     Raises:
-        ValueError: it could not be run, failed, took too long or said too much, and is killed with all it started.
+        ValueError: the program cannot be run, failed, timed out or wrote too much; it is killed with its children.
     """
     pipe = subprocess.PIPE
     try:
@@ -57,7 +57,7 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: fl
     if any(reader.is_full for reader in readers):
         raise ValueError(f"command {argv[0]!r} wrote more than {_MAX_BYTES // 2**20} MiB")
     if is_late:
-        raise ValueError(f"command {argv[0]!r} gave no answer within {timeout_s:g} s")
+        raise ValueError(f"command {argv[0]!r} did not finish within {timeout_s:g} s")
     if process.returncode != 0:
         last = errors.decode(errors="replace").strip().splitlines()[-10:]
         said = ": " + "\n".join(last) if last else ""
@@ -67,11 +67,11 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: fl
     try:
         return output.decode()
     except UnicodeDecodeError:
-        raise ValueError(f"command {argv[0]!r} wrote something that is no text") from None
+        raise ValueError(f"command {argv[0]!r} wrote output that is not UTF-8 text") from None
 
 
 class _Reader(threading.Thread):
-    """Reads a stream to its end, or until that is too much."""
+    """Reads a stream to its end or the size limit."""
 
     def __init__(self, stream: IO[bytes], when_full: Callable[[], None]) -> None:
         super().__init__(daemon=True)
@@ -82,7 +82,7 @@ class _Reader(threading.Thread):
         self.start()
 
     def run(self) -> None:
-        with contextlib.suppress(ValueError):  # given up and closed
+        with contextlib.suppress(ValueError):  # abandoned and closed
             while chunk := os.read(self._stream.fileno(), _CHUNK_BYTES):
                 self.data += chunk
                 if len(self.data) > _MAX_BYTES:
@@ -96,6 +96,6 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
         try:
             os.killpg(process.pid, signal.SIGKILL)
         except ProcessLookupError:
-            return  # it has ended by itself
+            return  # already exited
     else:
         process.kill()

@@ -1,4 +1,4 @@
-"""What is in force at one place of a launch file: namespace, arguments, remappings, environment, ~params."""
+"""Scope in a launch file: namespace, arguments, remappings, environment, ~params."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,29 +14,29 @@ PrivateParam: TypeAlias = tuple[ParamValue | ParamCommand, Source]
 
 @dataclass(slots=True, kw_only=True)
 class Scope:
-    """One launch file, group or node element while it is read.
+    """Scope of a launch file, group or node element.
 
-    A child starts with copies of its parent's settings, so that nothing set in a group is seen behind it.
+    A child copies its parent's settings, so that settings in a group do not leak out.
     """
 
     namespace: str
     """Global; the root is '/'."""
     file: str
-    """The launch file, as messages call it."""
+    """Path of the launch file, for messages."""
     arguments: dict[str, str] = field(default_factory=dict[str, str])
     declared: set[str] = field(default_factory=set[str])
-    """Arguments that this file has declared so far, set or not."""
+    """Arguments declared so far in this file, set or not."""
     lenient_arguments: bool = False
-    """Included with pass_all_args: arguments may be declared twice and fixed ones override what was passed."""
+    """True if included with pass_all_args: arguments may be declared twice, and fixed ones override passed ones."""
     remappings: dict[str, str] = field(default_factory=dict[str, str])
     env: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
     private_params: dict[str, PrivateParam] = field(default_factory=dict[str, PrivateParam])
-    """For every node that follows."""
+    """~params of the nodes that follow."""
     anonymous: dict[str, str] = field(default_factory=dict[str, str])
-    """What `$(anon x)` became in this file."""
+    """Results of `$(anon x)` in this file."""
 
     def child(self, namespace: str | None = None) -> "Scope":
-        """Open a scope within this file, in another namespace where one is given."""
+        """Create a child scope in the same file, optionally in another namespace."""
         return Scope(
             namespace=self.join(namespace) if namespace else self.namespace,
             file=self.file,
@@ -50,12 +50,10 @@ class Scope:
         )
 
     def included(self, namespace: str | None, file: str, arguments: Iterable[tuple[str, str]]) -> "Scope":
-        """Open the scope of an included file, which sees no argument but those it is passed."""
+        """Create the scope of an included file, with only the passed arguments."""
         scope = self.child(namespace)
         scope.file = file
-        if (
-            self.private_params
-        ):  # as roslaunch has it: ~params that the file sets are seen behind it, if any were before
+        if self.private_params:  # as roslaunch: ~params set in the file leak out if any were set before
             scope.private_params = self.private_params
         scope.arguments = dict(arguments)
         scope.declared = set()
@@ -64,15 +62,15 @@ class Scope:
         return scope
 
     def join(self, name: str) -> str:
-        """Make a name global."""
+        """Resolve a name to a global one."""
         return canonical_name(join_names(self.namespace, name)) or "/"
 
     def remap(self, source: str, target: str) -> None:
-        """Remap for the nodes that follow; a later one of the same source wins and goes last."""
+        """Remap for the nodes that follow; a repeated source moves to the end."""
         self.remappings.pop(source, None)
         self.remappings[source] = target
 
     def set_private_param(self, name: str, value: PrivateParam) -> None:
-        """Set a ~param for the nodes that follow; a later one of the same name goes last."""
+        """Set a ~param for the nodes that follow; a repeated name moves to the end."""
         self.private_params.pop(name, None)
         self.private_params[name] = value

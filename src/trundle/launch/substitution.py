@@ -1,4 +1,4 @@
-"""Replaces `$(arg x)`, `$(find p)`, `$(env V)`, … in launch files, as roslaunch does."""
+"""Substitution args of launch files: `$(arg x)`, `$(find p)`, `$(env V)`, …, as in roslaunch."""
 
 import os
 import re
@@ -18,32 +18,32 @@ from .values import convert_value
 
 _COMMAND = re.compile(r"\$+\(([^)]+)\)")
 _LONGEST = 400
-"""Characters of an expression, and of what is wrong with it, in an error."""
+"""Maximum length of an expression, and of its error, in a message."""
 _BASE_NAMES: Mapping[str, Any] = {"true": True, "false": False, **PYTHON_NAMES, **MATH_NAMES}
-"""The names roslaunch gives every expression, beside the functions that depend on the file.
+"""Names available in every expression, besides the functions that depend on the file.
 
-It does not mean some of Python's to be there; Python gives them to its expressions, and files use them.
+Includes Python builtins: roslaunch does not intend them, but its eval provides them and launch files use them.
 """
 _COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Substitution:
-    """Knows everything that is the same at every place of a launch."""
+    """Substitution of a whole launch."""
 
     packages: PackageFinder
     env: Mapping[str, str]
     anonymous: Callable[[str], str]
-    """Makes a name nobody else has."""
+    """Creates a unique name."""
     missing: MissingPackages | None = None
-    """Takes the packages that are not there; None: the first one is an error."""
+    """Collects missing packages; None: the first one raises."""
     interpreter: Interpreter = field(default_factory=Interpreter)
-    """Evaluates every `$(eval …)` of the launch."""
+    """Evaluates every `$(eval …)`."""
 
     def resolve(self, text: str, scope: Scope, at: Source) -> str:
         """Replace every `$(…)` of an attribute.
 
-        `find` comes last, as its path may hold the others and an argument's value may hold a `find`.
+        `find` is replaced last: arguments may contain it, and its path may contain the others.
 
         Raises:
             DescriptionError: unknown argument, variable, package or command.
@@ -69,7 +69,7 @@ class Substitution:
             if words[0] not in commands:
                 return match[0]
             before = match[0][: match[0].index("$(")]
-            # As in roslaunch, what follows a folder up to a blank is a path in it, with or without a slash.
+            # As in roslaunch, text after a folder up to a blank is a path in it, with or without a slash.
             between = "/" if words[0] == "find" and match.string[match.end() :][:1] not in ("", " ", "/", "\\") else ""
             return before + self._command(words[0], words[1:], body, scope, at) + between
 
@@ -115,7 +115,7 @@ class Substitution:
     def _find(self, name: str, at: Source) -> str:
         folder = self.packages.find_folder(name)
         if name == "xacro" and (folder is None or not os.path.isdir(folder)):
-            # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognisable, and one word.
+            # Trundle expands xacro itself; `$(find xacro)/xacro` only has to stay recognizable as one word.
             return "xacro"
         if folder is not None:
             return str(folder)
@@ -145,12 +145,12 @@ class Substitution:
 
         functions = {f.__name__: wrap_function(f) for f in (arg, env, optenv, find, anon, dirname)}
         try:
-            if "__" in text:  # roslaunch's own rule, and its own words
+            if "__" in text:  # roslaunch's rule and text
                 raise ExpressionError("may not contain double underscores")
             return str(self.interpreter.evaluate(text, _Names(scope.arguments, functions)))
         except DescriptionError:
             raise
-        except Exception as error:  # the expression may raise whatever Python raises
+        except Exception as error:  # user code may raise anything
             what = f"not a Python expression: {error.msg}" if isinstance(error, SyntaxError) else str(error)
             raise DescriptionError(
                 at, f"$(eval {text[:_LONGEST]}): {what[:_LONGEST] or type(error).__name__}"
@@ -158,7 +158,7 @@ class Substitution:
 
 
 class _Names(Mapping[str, Any]):
-    """Names of an expression: functions and constants first, then the arguments of the file, typed."""
+    """Names in an expression: functions and constants first, then the file's arguments, typed."""
 
     def __init__(self, arguments: Mapping[str, str], functions: Mapping[str, Any]) -> None:
         self._arguments = arguments

@@ -1,4 +1,4 @@
-"""Text to parameter values: roslaunch's typing rules, and YAML with ROS' angles."""
+"""Parameter values from text: roslaunch's typing rules, and YAML with rosparam's angles."""
 
 import datetime
 import math
@@ -15,10 +15,10 @@ from .plan import ParamType, ParamValue
 
 
 def convert_value(text: str, kind: ParamType) -> ParamValue:
-    """Read a parameter's text as the type its `<param>` names.
+    """Convert a parameter's text to its type.
 
     Raises:
-        ValueError: the text is not of that type; the message says so.
+        ValueError: the text does not fit the type.
     """
     match kind:
         case "auto":
@@ -46,7 +46,7 @@ def _auto_value(text: str) -> ParamValue:
     try:
         if "." in text:
             return float(text)
-        # Python reads 1_000 as a number, ROS does not.
+        # Python accepts 1_000 as a number, ROS does not.
         if "_" not in text:
             return int(text)
     except ValueError:
@@ -56,10 +56,10 @@ def _auto_value(text: str) -> ParamValue:
 
 
 def read_flag(text: str) -> bool:
-    """Read true, false, 1 or 0 in any case.
+    """Parse true, false, 1 or 0 in any case.
 
     Raises:
-        ValueError: anything else.
+        ValueError: the text is none of these.
     """
     match text.strip().lower():
         case "true" | "1":
@@ -71,7 +71,7 @@ def read_flag(text: str) -> bool:
 
 
 class _Loader(BoundedLoader):
-    """Plain YAML data and rosparam's angles; no Python objects."""
+    """YAML loader for plain data and rosparam's angles, without Python objects."""
 
     def __init__(self, stream: str) -> None:
         super().__init__(stream)
@@ -83,8 +83,8 @@ def _radians(loader: _Loader, node: yaml.ScalarNode) -> float:
     inner = text[4:-1] if text.startswith("rad(") else text
     try:
         return float(loader.interpreter.evaluate(inner, MATH_NAMES))
-    except Exception:  # the expression may raise whatever Python raises
-        raise ValueError(f"{text!r} is no angle in radians") from None
+    except Exception:  # user code may raise anything
+        raise ValueError(f"{text!r} is not an angle in radians") from None
 
 
 def _degrees(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> float:
@@ -93,7 +93,7 @@ def _degrees(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> float:
     try:
         return float(inner) * math.pi / 180.0
     except ValueError:
-        raise ValueError(f"{text!r} is no angle in degrees") from None
+        raise ValueError(f"{text!r} is not an angle in degrees") from None
 
 
 _Loader.add_constructor("!radians", _radians)
@@ -103,10 +103,10 @@ _Loader.add_implicit_resolver("!degrees", re.compile(r"deg\([^)]*\)$"), ["d"])
 
 
 def load_yaml(text: str) -> ParamValue:
-    """Read YAML as rosparam does, dates as text.
+    """Parse YAML as rosparam does; dates become text.
 
     Raises:
-        ValueError: not YAML, too large, or something that is no plain data; the message is one sentence.
+        ValueError: the text is invalid, too large, or contains more than plain data.
     """
     try:
         return _plain(load_plain_yaml(text, _Loader))
@@ -123,7 +123,7 @@ def _plain(value: Any) -> ParamValue:
             return {str(key): _plain(item) for key, item in value.items()}
         case list() | tuple() | set():
             return [_plain(item) for item in value]
-        case datetime.date():  # datetime too; the parameter server has no use for either
+        case datetime.date():  # covers datetime; parameters can be neither
             return value.isoformat()
         case _:
             return value

@@ -1,4 +1,6 @@
-"""xacro for programs that run it themselves: Clearpath's env_run sets variables, then runs the rest of its line."""
+"""xacro for commands that run it themselves, such as Clearpath's env_run, which sets variables and runs its
+arguments.
+"""
 
 import os
 import shlex
@@ -9,16 +11,16 @@ from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 
 XACRO = ("xacro", "xacro.py")
-"""Names of the program."""
+"""Names of the executable."""
 
 
 @contextmanager
 def provide_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[list[str], dict[str, str]]]:
-    """Yield a command and its environment in which ours is the xacro that is named and not installed.
+    """Yield a command and its environment, with Trundle's xacro in place of one that is not installed.
 
     Args:
-        argv: a program and what it is told; xacro may be among the latter by a path that leads nowhere.
-        env: PATH gets ours behind all else, so that one that is installed goes first.
+        argv: a program and its arguments; paths to a missing xacro are replaced.
+        env: PATH is extended at its end, so that an installed xacro takes precedence.
     """
     if os.name != "posix":
         yield list(argv), dict(env)
