@@ -1,4 +1,4 @@
-"""Processes and tasks: started, watched over, respawned, stopped; no ROS in here."""
+"""Supervised processes and tasks: start, watch, respawn, stop; independent of ROS."""
 
 import lazy_loader
 

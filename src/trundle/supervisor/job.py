@@ -1,4 +1,4 @@
-"""What the supervisor watches over: something that starts, ends with an exit code, and can be stopped."""
+"""Jobs of the supervisor: start, exit code, stop."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -6,7 +6,7 @@ from typing import Protocol
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StopTimeouts:
-    """How long each way of asking a job to end may take [s]; the defaults are roslaunch's."""
+    """Timeouts of the steps of stopping a job [s]; defaults as in roslaunch."""
 
     interrupt_s: float = 15.0
     terminate_s: float = 2.0
@@ -14,42 +14,42 @@ class StopTimeouts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RespawnPolicy:
-    """What a job's end means."""
+    """Consequences of a job's end."""
 
     respawn: bool = False
     respawn_delay_s: float = 0.0
     required: bool = False
-    """Its end, however clean, ends everything."""
+    """True: its end, even with exit code 0, ends the launch."""
 
 
 class Job(Protocol):
-    """One program or task; started again after its end where it is respawned."""
+    """A program or task, restarted after its end if respawned."""
 
     @property
     def name(self) -> str:
-        """How messages call it; unique among the jobs of a supervisor."""
+        """Name in messages; unique in a supervisor."""
         ...
 
     async def start(self) -> str:
-        """Start, and return how to speak of what runs now: 'with pid [4711]'.
+        """Start, and return a description for messages: 'with pid [4711]'.
 
         Raises:
-            JobError: it cannot be started.
+            JobError: the job cannot be started.
         """
         ...
 
     async def wait(self) -> int:
-        """Return the exit code once it has ended; negative: the signal that ended it."""
+        """Wait for the end and return the exit code; negative: the signal that ended it."""
         ...
 
     async def stop(self, timeouts: StopTimeouts) -> None:
-        """Ask it to end, ever more firmly; afterwards nothing of it is left. Harmless when it does not run."""
+        """Stop with escalating signals; afterwards nothing of the job runs. No-op if it is not running."""
         ...
 
     def last_output(self) -> list[str]:
-        """The last lines it wrote, oldest first."""
+        """Last lines of output, oldest first."""
         ...
 
 
 class JobError(Exception):
-    """A job cannot be started; the text says why."""
+    """A job cannot be started; the text gives the reason."""

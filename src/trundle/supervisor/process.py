@@ -1,4 +1,4 @@
-"""A job that runs as a process of its own, with everything it starts in one group."""
+"""A job in a process of its own, which leads a process group."""
 
 import asyncio
 import contextlib
@@ -17,37 +17,37 @@ from .process_tree import ProcessTree
 _POSIX = os.name == "posix"
 _CHUNK_BYTES = 65536
 _MAX_LINE = 10_000
-"""Characters of a line kept in memory; a program that never ends its line must not fill it."""
+"""Characters kept of a line, against programs that never end one."""
 _KEPT_LINES = 10
 _EXIT_GRACE_S = 1.0
-"""How long a program's last output may take to arrive after its end: a child of its own may hold the pipe open."""
+"""Wait for the last output after a program's end [s]: its child may hold the pipe open."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProcessCommand:
-    """A program to run."""
+    """A program with its environment and output settings."""
 
     name: str
     argv: tuple[str, ...]
     env: Mapping[str, str]
-    """All of it; nothing is inherited."""
+    """Complete environment; nothing is inherited."""
     cwd: Path | None = None
     output: Literal["screen", "log"] = "log"
-    """Where standard output goes; standard error always goes to the screen, as with roslaunch."""
+    """Destination of standard output; standard error always goes to the screen, as in roslaunch."""
     log_file: Path | None = None
-    """Takes standard output where `output` is 'log'; None drops it."""
+    """Log file for `output` 'log'; None drops the output."""
 
 
 class ProcessJob:
     """Runs a program; its lines go to `show` or to its log file."""
 
     def __init__(self, command: ProcessCommand, show: Callable[[str, str], None], *, tree: ProcessTree) -> None:
-        """Prepare.
+        """Create; `start` runs the program.
 
         Args:
             command: the program.
-            show: takes the job's name and one line, without its end.
-            tree: what it belongs to, with all that it starts.
+            show: called with the job's name and each line, without newline.
+            tree: owner of the process and its descendants.
         """
         self.name = command.name
         self._command = command
@@ -106,7 +106,7 @@ class ProcessJob:
             self._signal(process, number)
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(process.wait(), timeout_s)
-        # The group outlives its leader where that left children behind.
+        # The group outlives its leader if it left children behind.
         self._signal(process, signal.SIGKILL if _POSIX else signal.SIGTERM)
         await process.wait()
 
@@ -122,7 +122,7 @@ class ProcessJob:
                 process.terminate()
 
     async def _read(self, stream: asyncio.StreamReader, *, to_screen: bool) -> None:
-        """Take a stream in as it comes: a program that writes faster than the screen waits, we do not grow."""
+        """Read a stream; a program that writes faster than the screen blocks, so memory stays bounded."""
         with contextlib.ExitStack() as stack:
             log: IO[str] | None = None
             if not to_screen and self._command.log_file is not None:

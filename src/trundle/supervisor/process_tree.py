@@ -1,4 +1,4 @@
-"""Every process that programs start, and those start in turn: none outlives the supervisor, even one that is killed."""
+"""Descendants of the supervisor's programs: none outlives the supervisor, even if that is killed."""
 
 import contextlib
 import os
@@ -14,29 +14,29 @@ from .windows_job import enter_job_object
 
 _POSIX = os.name == "posix"
 _KILL_S = 2.0
-"""How long killed processes may take to be gone."""
+"""Wait for killed processes to disappear [s]."""
 
 
 class ProcessTree:
-    """Programs and their descendants, known by process group and by a variable that they inherit.
+    """Programs and their descendants, identified by process group and an inherited environment variable.
 
-    A watcher process, which holds one end of a pipe, kills them when this process dies without closing the tree; on
-    Windows a job object does. Also a context manager.
+    A watcher process at the other end of a pipe kills them if this process dies without closing the tree; on Windows, a
+    job object does. Also a context manager.
     """
 
     def __init__(self, *, terminate_s: float = 2.0) -> None:
-        """`terminate_s`: how long what is left in the end may take after SIGTERM."""
+        """`terminate_s`: wait after SIGTERM for processes left at `close` [s]."""
         self._mark = uuid.uuid4().hex
         self._terminate_s = terminate_s
         self._groups: set[int] = set()
         self._watcher: subprocess.Popen[str] | None = None
 
     def environment(self, env: Mapping[str, str]) -> dict[str, str]:
-        """The variables of a program that is to belong to the tree."""
+        """Environment for a program of the tree."""
         return {**env, tree_watcher.VARIABLE: self._mark}
 
     def watch(self) -> None:
-        """Have the tree end with this process; before its first program starts."""
+        """Start the watcher, unless it runs; call before starting a program."""
         if not _POSIX:
             enter_job_object()
         elif self._watcher is None:
@@ -52,12 +52,12 @@ class ProcessTree:
             )
 
     def add(self, group: int) -> None:
-        """Take in a program that leads its process group."""
+        """Add a program that leads its process group."""
         self._groups.add(group)
         self._notify_watcher()
 
     def discard(self, group: int) -> None:
-        """Drop a program that has ended, unless it left processes in its group: its number may be given again."""
+        """Remove an ended program, unless its group still has processes: the ID may be reused."""
         try:
             if _POSIX:
                 os.killpg(group, 0)
@@ -66,7 +66,7 @@ class ProcessTree:
             self._notify_watcher()
 
     def close(self) -> None:
-        """End what programs have left behind; asked first, then killed."""
+        """Terminate, then kill, the processes left."""
         if self._watcher is None:
             return
         if not tree_watcher.kill_tree(self._mark, self._groups, signal.SIGTERM, self._terminate_s):
@@ -84,5 +84,5 @@ class ProcessTree:
     def _notify_watcher(self) -> None:
         assert self._watcher is None or self._watcher.stdin is not None
         if self._watcher is not None and self._watcher.stdin is not None:
-            with contextlib.suppress(OSError):  # somebody killed it
+            with contextlib.suppress(OSError):  # the watcher was killed
                 print(*self._groups, file=self._watcher.stdin, flush=True)

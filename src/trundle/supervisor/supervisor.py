@@ -1,4 +1,4 @@
-"""Starts jobs, watches over them, starts them again, and stops them in reverse order."""
+"""Starts, watches and respawns jobs, and stops them in reverse order."""
 
 import asyncio
 import contextlib
@@ -14,18 +14,18 @@ EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawn
 _QUICK_DEATH_S = 2.0
 _LONGEST_BACK_OFF_S = 10.0
 _LAST_WORDS_S = 5.0
-"""How long a stopped job's last output may take to arrive."""
+"""Wait for a stopped job's last output [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """Something that happened to a job, in a sentence."""
+    """An event of a job, with its message."""
 
     kind: EventKind
     name: str
     text: str
     code: int | None = None
-    """Of a job that finished or died, its exit code."""
+    """Exit code, for 'finished' and 'died'."""
 
 
 @dataclass(slots=True)
@@ -38,10 +38,10 @@ class _WatchedJob:
 
 
 class Supervisor:
-    """Watches over jobs on the running asyncio loop."""
+    """Supervises jobs on the running asyncio loop."""
 
     def __init__(self, listener: Callable[[Event], None], *, timeouts: StopTimeouts | None = None) -> None:
-        """`listener` is told what happens, on the loop's thread."""
+        """`listener` is called with each event, on the loop's thread."""
         self._listener = listener
         self._timeouts = timeouts or StopTimeouts()
         self._watched: dict[str, _WatchedJob] = {}
@@ -50,7 +50,7 @@ class Supervisor:
         self._stop = asyncio.Event()
 
     async def start(self, job: Job, policy: RespawnPolicy | None = None) -> bool:
-        """Start a job; tell whether it runs. One that cannot be started is reported, never raised."""
+        """Start a job; True if it runs. Failure to start is reported as an event."""
         assert job.name not in self._watched, f"two jobs named {job.name!r}"
         watched = _WatchedJob(job, policy or RespawnPolicy())
         self._watched[job.name] = watched
@@ -64,12 +64,12 @@ class Supervisor:
         return runs
 
     async def wait(self) -> str | None:
-        """Return when a required job ended (its name), or when no job is left (None)."""
+        """Wait until a required job ended (returns its name) or no job is left (None)."""
         await self._ended.wait()
         return self._required
 
     async def stop(self) -> None:
-        """Stop every job, the last started first."""
+        """Stop all jobs, the last started first."""
         self._stop.set()
         running = [w for w in reversed(self._watched.values()) if w.watch is not None and not w.watch.done()]
         for watched in running:
@@ -77,12 +77,12 @@ class Supervisor:
         await asyncio.gather(*(watched.job.stop(self._timeouts) for watched in running))
         if watches := [watched.watch for watched in running if watched.watch is not None]:
             _, deaf = await asyncio.wait(watches, timeout=_LAST_WORDS_S)
-            for watch in deaf:  # a task that does not obey its cancellation is left behind
+            for watch in deaf:  # a task that ignores its cancellation is abandoned
                 watch.cancel()
         self._ended.set()
 
     def exit_codes(self) -> dict[str, int | None]:
-        """Each job's last exit code; None while it runs."""
+        """Last exit code of each job; None while it runs."""
         return {name: watched.code for name, watched in self._watched.items()}
 
     async def _start(self, watched: _WatchedJob) -> bool:
@@ -108,7 +108,7 @@ class Supervisor:
             if not watched.policy.respawn:
                 self._end(watched, code)
                 return
-            # A program that dies at once would otherwise be started hundreds of times a second.
+            # Back off, or a program that dies at once would start hundreds of times a second.
             quick_deaths = quick_deaths + 1 if time.monotonic() - since < _QUICK_DEATH_S else 0
             back_off_s = min(0.1 * 2**quick_deaths, _LONGEST_BACK_OFF_S) if quick_deaths else 0.0
             delay_s = max(watched.policy.respawn_delay_s, back_off_s)
@@ -118,7 +118,7 @@ class Supervisor:
             if self._stop.is_set() or not await self._start(watched):
                 self._end(watched, code)
                 return
-            if self._stop.is_set():  # it began to run while everything was being stopped
+            if self._stop.is_set():  # stop() was called during the start
                 await watched.job.stop(self._timeouts)
 
     def _report_end(self, watched: _WatchedJob, code: int) -> None:

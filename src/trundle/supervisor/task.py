@@ -11,7 +11,7 @@ from .job import StopTimeouts
 
 
 class TaskJob:
-    """Runs a coroutine function; what it returns is the exit code."""
+    """Runs a coroutine function that returns the exit code."""
 
     def __init__(self, name: str, run: Callable[[], Coroutine[Any, Any, int]]) -> None:
         self.name = name
@@ -32,7 +32,7 @@ class TaskJob:
         error = self._task.exception()
         if error is None:
             return self._task.result()
-        # A reason the user can mend is one sentence; anything else is our bug, and its trace is the only clue.
+        # A TrundleError is one sentence for the user; anything else is a bug, and needs its traceback.
         self._last = (str(error) if isinstance(error, TrundleError) else _trace(error)).splitlines()
         return 1
 

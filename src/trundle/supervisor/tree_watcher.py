@@ -1,7 +1,7 @@
-"""Finds and kills the processes of a tree; run as a program, it does so when the process that started it dies.
+"""Finds and kills the processes of a tree; run as a program, does so when its parent dies.
 
-It reads a line of process groups, again at each change, on standard input, whose other end only the starter holds. Of
-the standard library alone: it runs without Trundle's own modules.
+Standard input, held open by the parent only, has a line of process groups after each change. Uses only the standard
+library, since it runs without Trundle's modules.
 """
 
 import os
@@ -11,15 +11,17 @@ import time
 from collections.abc import Collection
 
 VARIABLE = "TRUNDLE_PROCESS_TREE"
-"""Inherited by every process of the tree, with its mark as value; Linux alone shows another process's variables."""
+"""Environment variable of every process of the tree, with its mark as value; only Linux shows other processes'
+environment.
+"""
 _PROC = "/proc"
 _POLL_S = 0.02
 _MAX_S = 10.0
-"""A process that hangs in the kernel is not waited for."""
+"""Time limit, for processes that hang in the kernel."""
 
 
 def signal_tree(mark: str, groups: Collection[int], number: int) -> bool:
-    """Send a signal to every process of the tree, 0: none; tell whether there was one."""
+    """Send a signal to all processes of the tree (0: only check); True if there were any."""
     sent = False
     send, targets = (os.kill, _members(mark, groups)) if sys.platform == "linux" else (os.killpg, list(groups))
     for target in targets:
@@ -32,7 +34,7 @@ def signal_tree(mark: str, groups: Collection[int], number: int) -> bool:
 
 
 def _members(mark: str, groups: Collection[int]) -> list[int]:
-    """The processes that live in one of the groups, or inherited the mark."""
+    """IDs of processes in one of the groups, or with the mark."""
     wanted = f"\0{VARIABLE}={mark}\0".encode()
     found: list[int] = []
     for name in filter(str.isdecimal, os.listdir(_PROC)):
@@ -41,7 +43,7 @@ def _members(mark: str, groups: Collection[int]) -> list[int]:
                 state, _, group = file.read().rpartition(b")")[2].split()[:3]
             with open(f"{_PROC}/{name}/environ", "rb") as file:
                 is_marked = wanted in b"\0" + file.read() + b"\0"
-        except OSError:  # it has ended, or is another user's
+        except OSError:  # it ended, or belongs to another user
             continue
         if state not in b"ZX" and (is_marked or int(group) in groups):
             found.append(int(name))
@@ -49,10 +51,10 @@ def _members(mark: str, groups: Collection[int]) -> list[int]:
 
 
 def kill_tree(mark: str, groups: Collection[int], number: int, timeout_s: float) -> bool:
-    """Send a signal until no process is left or the time is over; tell whether none is."""
+    """Send a signal until no process is left, or until the timeout; True if none is left."""
     end = time.monotonic() + timeout_s
     is_first = True
-    # What a process starts while it is looked for is found by the next look.
+    # The next pass finds processes started during this one.
     while signal_tree(mark, groups, number if is_first or number == signal.SIGKILL else 0):
         is_first = False
         if time.monotonic() > end:

@@ -1,4 +1,4 @@
-"""Windows' job object, which ends its processes with the last that holds it."""
+"""Windows job object, which kills its processes when its last handle closes."""
 
 import ctypes
 import sys
@@ -36,13 +36,13 @@ class _ExtendedLimits(ctypes.Structure):
 
 @cache
 def enter_job_object() -> None:
-    """Put this process, and so all that it starts from now on, into a job that ends with it."""
+    """Put this process and its future children into a job object that closes when this process ends."""
     if sys.platform != "win32":
         return
     kernel = ctypes.WinDLL("kernel32", use_last_error=True)
     kernel.CreateJobObjectW.restype = ctypes.c_void_p
     kernel.GetCurrentProcess.restype = ctypes.c_void_p
-    job = ctypes.c_void_p(kernel.CreateJobObjectW(None, None))  # held until the process ends, then closed by Windows
+    job = ctypes.c_void_p(kernel.CreateJobObjectW(None, None))  # Windows closes the handle at process end
     limits = _ExtendedLimits()
     limits.BasicLimitInformation.LimitFlags = _KILL_ON_JOB_CLOSE
     kernel.SetInformationJobObject(job, _EXTENDED_LIMITS, ctypes.byref(limits), ctypes.sizeof(limits))
