@@ -1,4 +1,4 @@
-"""ROS names: legality, resolution, remapping arguments, and legal names for what SDF names freely."""
+"""ROS names: legality, resolution, remapping arguments, and legal names from SDF names."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The arguments every ROS 1 executable understands: `a:=b`, `__name:=n`, `_param:=value`."""
+"""Command-line arguments of ROS 1 executables: `a:=b`, `__name:=n`, `_param:=value`."""
 
 import re
 from collections.abc import Iterable
@@ -9,12 +9,12 @@ _REMAP = re.compile(r"(?P<from>(?:[~/A-Za-z]|__?)[A-Za-z0-9_/]*):=(?P<to>.*)", r
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arguments:
-    """A command line, sorted into what ROS reads and what is left for the program."""
+    """Parsed command line: ROS arguments, and the rest for the program."""
 
     remappings: dict[str, str] = field(default_factory=dict[str, str])
-    """Names as written, not yet resolved."""
+    """Names as written, unresolved."""
     params: dict[str, str] = field(default_factory=dict[str, str])
-    """Private parameters; each value is YAML text."""
+    """Private parameters; values are YAML text."""
     name: str | None = None
     namespace: str | None = None
     log: str | None = None
@@ -25,7 +25,7 @@ class Arguments:
 
 
 def parse_arguments(arguments: Iterable[str]) -> Arguments:
-    """Sort a command line; what ROS does not read keeps its order in `rest`.
+    """Parse a command line; non-ROS arguments keep their order in `rest`.
 
     Unknown `__keys` are dropped, as roscpp and rospy do.
     """

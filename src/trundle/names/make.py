@@ -1,4 +1,4 @@
-"""Makes ROS names: anonymous ones, and legal ones from the freer names of SDF."""
+"""Generated ROS names: anonymous ones, and legal ones from SDF names."""
 
 import os
 import re
@@ -9,17 +9,17 @@ _ILLEGAL = re.compile(r"[^A-Za-z0-9_]")
 
 
 def anonymous_name(base: str) -> str:
-    """Make a name nobody else has: base_host_pid_milliseconds, as rospy does."""
-    import socket  # of all that make names only this one talks to the network
+    """Create a unique name: base_host_pid_milliseconds, as rospy does."""
+    import socket  # lazy: only this function needs it
 
     return _ILLEGAL.sub("_", f"{base}_{socket.gethostname()}_{os.getpid()}_{int(time.time() * 1000)}")
 
 
 def ros_name(sdf_name: str) -> str:
-    """Map an SDF name to a legal ROS name.
+    """Convert an SDF name to a legal ROS name.
 
-    The one rule: `::` and `/` separate namespaces; in each part every character but letters, digits and `_` becomes
-    `_`; a part that does not begin with a letter gets `n_` in front. Legal names come out unchanged.
+    `::` and `/` separate namespaces; in each part, characters other than letters, digits and `_` become `_`, and a part
+    that does not begin with a letter gets the prefix `n_`. Legal names stay unchanged.
     """
     parts = [_ILLEGAL.sub("_", part) for part in re.split(r"::|/", sdf_name) if part]
     legal = [part if part[0].isalpha() else f"n_{part}" for part in parts]
@@ -27,7 +27,7 @@ def ros_name(sdf_name: str) -> str:
 
 
 def ros_names(sdf_names: Iterable[str]) -> dict[str, str]:
-    """Map SDF names to legal ROS names that stay distinct: the second `left_arm` becomes `left_arm_2`."""
+    """Convert SDF names to distinct legal ROS names: the second `left_arm` becomes `left_arm_2`."""
     given = list(dict.fromkeys(sdf_names))
     taken = {name for name in given if ros_name(name) == name}
     result: dict[str, str] = {}

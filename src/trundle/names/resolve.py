@@ -1,4 +1,4 @@
-"""ROS names: which are legal, how a written name becomes a global one."""
+"""Legality and resolution of ROS names."""
 
 import re
 from collections.abc import Mapping
@@ -8,35 +8,35 @@ _LEGAL_BASE = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
 def is_legal_name(name: str) -> bool:
-    """Tell whether a graph name is legal; the empty name is, as it stands for the namespace."""
+    """True if a graph name is legal; '' is, as it stands for the namespace."""
     return not name or (_LEGAL.fullmatch(name) is not None and "//" not in name)
 
 
 def is_legal_base_name(name: str) -> bool:
-    """Tell whether a name without namespace, such as a node's, is legal."""
+    """True if a name without namespace, such as a node's, is legal."""
     return _LEGAL_BASE.fullmatch(name) is not None
 
 
 def canonical_name(name: str) -> str:
-    """Drop doubled and trailing slashes; keep a leading one."""
+    """Remove doubled and trailing slashes; keep a leading one."""
     parts = "/".join(part for part in name.split("/") if part)
     return "/" + parts if name.startswith("/") else parts
 
 
 def join_names(namespace: str, name: str) -> str:
-    """Put a name below a namespace; global and private names stay as they are."""
+    """Prepend a namespace; global and private names stay unchanged."""
     if name.startswith(("/", "~")) or not namespace:
         return name
     return namespace + name if namespace.endswith("/") else f"{namespace}/{name}"
 
 
 def parent_namespace(name: str) -> str:
-    """Return the namespace a name lives in, with its trailing slash: '/a/b' lives in '/a/'."""
+    """Namespace of a name, with trailing slash: '/a/' for '/a/b'."""
     return name.rstrip("/").rpartition("/")[0] + "/"
 
 
 def resolve_name(name: str, node: str, remappings: Mapping[str, str] | None = None) -> str:
-    """Return the global name that a node means by `name`.
+    """Resolve a name to a global name.
 
     Args:
         name: as written: '/global', '~private', 'relative', or '' for the node's namespace.
