@@ -103,4 +103,4 @@ def test_a_script_whose_python_has_no_rospy_is_told_the_way_out(programs: list[P
     done = subprocess.run(COMMAND, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 1
     first, *_ = done.stderr.splitlines()
-    assert first.startswith(f"trundle exec: {programs[0]}: its Python has no rospy, which a ROS has")
+    assert first.startswith(f"trundle exec: {programs[0]}: its Python has no rospy, which comes with ROS")

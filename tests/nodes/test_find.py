@@ -136,7 +136,7 @@ def test_a_program_that_has_to_be_compiled_is_named_with_its_source(tmp_path: Pa
     missing = find_node("arm", "arm", lambda _: tmp_path, env={})
     assert isinstance(missing, MissingNode)
     assert missing.why.endswith(
-        f"; it is C++ that is not compiled yet: {tmp_path}/CMakeLists.txt:2 builds it (target 'arm_node') "
+        f"; C++ not compiled yet: {tmp_path}/CMakeLists.txt:2 builds it (target 'arm_node') "
         "from src/arm.cpp; catkin_make compiles it"
     )
     other = find_node("arm", "leg", lambda _: tmp_path, env={})

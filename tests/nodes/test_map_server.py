@@ -44,7 +44,7 @@ def test_negated_maps_and_modes(picture: Path) -> None:
     ("text", "reason"),
     [
         ("image: map.pgm\n", "the key 'origin' is missing"),
-        ("[1]", "no mapping"),
+        ("[1]", "not a YAML mapping"),
         ("a: [", "expected"),
         (f"image: none.pgm\n{_KEYS}", "none.pgm"),
         (f"image: map.yaml\n{_KEYS}", "map.yaml: it is no image"),

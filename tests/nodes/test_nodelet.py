@@ -20,7 +20,7 @@ def test_a_nodelet_that_a_stand_in_can_be_is_it(stage) -> None:
 def test_another_is_named_before_anything_starts(stage, capsys) -> None:
     words = "standalone image_proc/rectify"
     assert stage.start("nodelet/nodelet", words, name="rectify").result(PATIENCE_S) == 1
-    why = "nodelet image_proc/rectify: compiled code that nothing stands in for"
+    why = "nodelet image_proc/rectify: compiled code without a stand-in"
     assert why in capsys.readouterr().err
     found = find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=words)
     assert isinstance(found, MissingNode)

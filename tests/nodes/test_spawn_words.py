@@ -54,7 +54,7 @@ def test_what_indigo_called_gazebo_is_sdf() -> None:
 @pytest.mark.parametrize(
     ("line", "reason"),
     [
-        ("-urdf -gazebo -param p -model a", "-gazebo: the model is urdf already; one of -urdf, -sdf is needed"),
+        ("-urdf -gazebo -param p -model a", "-gazebo: the model is urdf already; give one of -urdf, -sdf"),
         ("-urdf -param p", "-model NAME is missing"),
         ("-urdf -param p -model", "-model needs a value"),
         ("-J a b -model a", "a number is needed: could not convert string to float: 'b'"),

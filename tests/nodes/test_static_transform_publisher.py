@@ -64,7 +64,7 @@ def test_the_new_one_reads_a_parameter() -> None:
     assert code == 255
     assert node.log.logged[-1] == (
         "fatal",
-        "Could not read TF: parameter mount is no transform: 'child_frame_id' is missing",
+        "Could not read TF: parameter mount is not a transform: 'child_frame_id' is missing",
     )
 
 

@@ -227,7 +227,7 @@ def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
         f"  missing   /b  no executable 'gone' in {package}, and no stand-in for p/gone",
         "  stand-in  /c  tf2_ros/static_transform_publisher",
     ]
-    assert nodelet.startswith("  missing   /d  nodelet image_proc/rectify: compiled code that nothing stands in for")
+    assert nodelet.startswith("  missing   /d  nodelet image_proc/rectify: compiled code without a stand-in")
     assert "node /b: no executable 'gone'" in done.stderr
     assert "node /c: launch-prefix 'nice' is not used; the stand-in runs within this process" in done.stderr
 
@@ -338,7 +338,7 @@ def test_a_null_is_no_parameter_and_the_rest_are_set(launch: Launch, trundle, pa
     (package / "main.launch").write_text("<launch><rosparam>{a: ~, b: 1}</rosparam></launch>")
     done = launch("p", "main.launch", "--headless", "--duration", "0.1")
 
-    assert "parameter '/a' is null, which ROS has no value for; it is not set" in done.stderr
+    assert "parameter '/a' is null, which ROS parameters cannot be; it is not set" in done.stderr
     assert trundle("param", "list").stdout.split()[:1] == ["/b"]
 
 
@@ -590,4 +590,4 @@ def test_a_node_whose_python_has_no_rospy_is_told_the_way_out(launch: Launch, pa
     (package / "main.launch").write_text('<launch><node pkg="p" type="asks.py" name="asks"/></launch>')
     done = launch("p", "main.launch", "--headless")
     assert "[asks-1] process has died [exit code 1]" in done.stdout
-    assert "\n[asks-1] its Python has no rospy, which a ROS has" in done.stdout
+    assert "\n[asks-1] its Python has no rospy, which comes with ROS" in done.stdout

@@ -1,4 +1,4 @@
-"""Stand-ins for stock executables: nodes that launch files name, run in this process."""
+"""Built-in replacements for stock executables that launch files name; they run in this process."""
 
 import lazy_loader
 

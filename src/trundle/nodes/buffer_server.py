@@ -1,4 +1,4 @@
-"""tf2_ros/buffer_server: answers where frames are, as an action, for those who keep no buffer of their own."""
+"""tf2_ros/buffer_server: transform lookup as an action, for clients without a buffer."""
 
 import asyncio
 from collections.abc import Callable
@@ -28,9 +28,10 @@ _POLL_S = 0.02
 
 
 class BufferServer:
-    """One action, `tf2_buffer_server`, that any number of clients ask at once.
+    """The action `tf2_buffer_server`, with concurrent goals.
 
-    Parameters, of the namespace: buffer_size 120 [s], publish_frame_service, use_node_namespace (the action is `~`).
+    Parameters, in the node's namespace: buffer_size (120 [s]), publish_frame_service, use_node_namespace (the action is
+    `~`).
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -38,7 +39,7 @@ class BufferServer:
         self._node = node
 
     async def run(self) -> int:
-        """Answer until cancelled."""
+        """Serve until cancelled."""
         node = self._node
         namespace = node.resolve("")
         settings = NodeParams(await node.params.get(namespace, {}), namespace)
@@ -52,7 +53,7 @@ class BufferServer:
         return 0
 
     async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
-        """Look until it is found or the time is over; to have an answer, be it an error, is a success."""
+        """Retry until the lookup succeeds or times out; the goal succeeds either way, with the error in the result."""
         accept()
         clock = self._node.clock
         end_ns = clock.now_ns() + to_nsec(goal.timeout)
@@ -86,7 +87,7 @@ class BufferServer:
         )
 
     def _identity(self, frame: str, stamp_ns: int) -> Transform:
-        """A frame in itself, known or not."""
+        """Identity transform of a frame, known or not."""
         latest = None if self._buffer.is_static(frame) else self._buffer.latest(frame)
         stamp_ns = stamp_ns or (latest.stamp_ns if latest is not None else 0)
         return Transform(
@@ -99,7 +100,7 @@ class BufferServer:
 
 
 def _check_frame(name: str, what: str) -> None:
-    """Refuse, in tf2's words, what tf2 does not take for a frame."""
+    """Reject invalid frame names, with tf2's error texts."""
     text = f"passed to lookupTransform argument {what} in tf2 frame_ids cannot"
     if not name:
         raise TransformError(f"Invalid argument {text} be empty")

@@ -1,4 +1,4 @@
-"""Which stock executables have a stand-in; a stand-in is imported only when a launch asks for it."""
+"""Catalogue of built-in replacements for stock executables; each is imported only on use."""
 
 BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("arbotix_controllers", "gripper_controller"): "trundle.nodes.arbotix:GripperController",
@@ -96,10 +96,10 @@ NODELETS: dict[str, str] = {
     ),
     "yocs_cmd_vel_mux/CmdVelMuxNodelet": "trundle.nodes.cmd_vel_mux:CmdVelMux",
 }
-"""Class of a nodelet as launch files name it → "module:Class"."""
+"""Nodelet class as in launch files → "module:Class"."""
 
 WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
-"""Those that open a world, and so tell the time."""
+"""Nodes that simulate a world, and so publish /clock."""
 
 WINDOWS = frozenset(
     key
@@ -110,13 +110,13 @@ WINDOWS = frozenset(
     ("dynamic_reconfigure", "reconfigure_gui"),
     ("arbotix_python", "arbotix_gui"),
 }
-"""Those that are seen: each opens the page."""
+"""Nodes with a window: each opens the page."""
 
 CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
-"""Those that open the page of the simulated world."""
+"""Nodes that open the page of the simulated world."""
 
 OURS_ALWAYS = frozenset({"gazebo_ros"})
-"""Packages whose programs would start another simulator: ours stands in even where the original is installed."""
+"""Packages that are replaced even if installed, since their programs would start another simulator."""
 
 _IN_PYTHON = (
     "arbotix_",
@@ -134,4 +134,4 @@ _IN_PYTHON = (
 ROSCPP = frozenset(
     key for key in BUILTIN_NODES if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
 )
-"""Those whose originals are C++: such nodes name their loggers otherwise."""
+"""Nodes whose originals use roscpp, which names loggers differently."""

@@ -1,4 +1,4 @@
-"""yocs_cmd_vel_mux: the velocity command of whoever has the highest priority and is not silent, as on a TurtleBot 2."""
+"""yocs_cmd_vel_mux: forwards the active velocity command of the highest priority, as on a TurtleBot 2."""
 
 import asyncio
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _POLL_S = 0.02
 
 @dataclass(slots=True, eq=False)
 class CmdVelSubscriber:
-    """A topic of commands."""
+    """An input topic."""
 
     name: str
     topic: str
@@ -27,15 +27,15 @@ class CmdVelSubscriber:
     received_ns: int = 0
 
     def is_expired(self, now_ns: int) -> bool:
-        """Whether it was not heard within its timeout."""
+        """True if the last message is older than the timeout."""
         return now_ns - self.received_ns > self.timeout_s * 1e9
 
 
 class CmdVelMux:
-    """Passes on one source at a time; `~active` says which, "idle" if none.
+    """Forwards one input at a time; `~active` names it, "idle" if none.
 
     `~yaml_cfg_file` names a file with `subscribers` (name, topic, timeout, priority) and `publisher` (output); topics
-    are the node's own. A source keeps its turn until it is silent, unless one of a higher priority speaks.
+    are private. An input stays active until it times out or one of higher priority publishes.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -78,10 +78,10 @@ class CmdVelMux:
 
 
 def _read(path: str) -> tuple[list[CmdVelSubscriber], str]:
-    """Read a configuration.
+    """Read the configuration file.
 
     Raises:
-        ParamError: there is none, or it is of no use.
+        ParamError: the file is missing or invalid.
     """
     try:
         tree = load_yaml(read_file(path).decode())

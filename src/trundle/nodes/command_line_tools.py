@@ -1,4 +1,4 @@
-"""ROS' command line tools where launch files start them as nodes: rostopic pub, rosbag record, …"""
+"""ROS command-line tools started as nodes by launch files: rostopic pub, rosbag record, …"""
 
 import asyncio
 import contextlib
@@ -12,11 +12,11 @@ from trundle.ros import Node
 from .host import NodeHost
 
 _TIMEOUT_S = 5.0
-"""How long a tool may take to end after SIGINT: a bag is closed readable."""
+"""Timeout after SIGINT, for a bag to be closed."""
 
 
 class CommandLineTool:
-    """Runs `trundle COMMAND…` as a process of its own, and ends with its exit code."""
+    """Runs `trundle COMMAND…` in a process, and returns its exit code."""
 
     command: tuple[str, ...]
     takes_remappings = True
@@ -28,7 +28,7 @@ class CommandLineTool:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Run to the tool's end."""
+        """Run until the tool exits."""
         node = self._node
         environment = {
             **os.environ,
@@ -38,7 +38,7 @@ class CommandLineTool:
         }
         words: list[str] = []
         if self.takes_remappings:
-            await node.shutdown()  # the tool is the node of this name
+            await node.shutdown()  # the tool registers under this name itself
             words = [f"__name:={node.name.rpartition('/')[2]}", *(f"{a}:={b}" for a, b in node.remappings.items())]
         self._tree.watch()
         process = await asyncio.create_subprocess_exec(
@@ -56,7 +56,7 @@ class CommandLineTool:
 
 
 async def _end(process: asyncio.subprocess.Process) -> None:
-    """Ask it to end, then make it."""
+    """Send SIGINT, and kill after a timeout."""
     if process.returncode is not None:
         return
     with contextlib.suppress(ProcessLookupError):
@@ -112,6 +112,6 @@ class TfMonitor(CommandLineTool):
 
 
 class ViewFrames(CommandLineTool):
-    """tf/view_frames, tf2_tools/view_frames.py: the tree as a picture in the folder that it is run in"""
+    """tf/view_frames, tf2_tools/view_frames.py: writes the tree to frames.svg in the working directory"""
 
     command = ("tf", "tree", "-o", "frames.svg")

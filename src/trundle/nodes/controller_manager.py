@@ -1,4 +1,4 @@
-"""controller_manager's programs: they load, start, stop and unload the controllers of a simulated robot."""
+"""Programs of controller_manager: load, start, stop and unload controllers of a simulated robot."""
 
 import argparse
 import asyncio
@@ -14,33 +14,33 @@ from .host import NodeHost
 
 _PACKAGE = "controller_manager_msgs"
 _WAIT_S = 120.0
-"""The original's 30 s end many a start of several robots on a slow machine."""
+"""The original's 30 s are too short for several robots on a slow machine."""
 _FAREWELL_S = 1.0
 _BEST_EFFORT, _STRICT = 1, 2
 
 
 class _ArgumentParser(argparse.ArgumentParser):
-    """Says what is wrong with the words instead of ending the program."""
+    """Raises a UsageError instead of exiting."""
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message}; {self.format_usage().strip()}")
 
 
 class _ControllerManagerClient:
-    """The services of one robot's controller_manager."""
+    """Client of one robot's controller_manager services."""
 
     def __init__(self, node: Node, namespace: str = "") -> None:
         self._node = node
         self._prefix = f"{namespace.rstrip('/')}/controller_manager" if namespace else "controller_manager"
 
     async def wait(self, timeout_s: float | None) -> None:
-        """Wait until it is there.
+        """Wait for the services.
 
-        A launch file's seconds are meant for Gazebo: as long as the simulation here is made ready, which takes its
-        time where large meshes are cut up for the first time, they are not over.
+        A launch file's timeout is meant for Gazebo: it is extended while the simulation loads, since the first convex
+        decomposition of large meshes takes long.
 
         Raises:
-            RosError: it did not come in time.
+            RosError: timeout.
         """
         for name in ("load_controller", "switch_controller", "unload_controller"):
             while True:
@@ -53,24 +53,24 @@ class _ControllerManagerClient:
                     break
 
     async def load(self, name: str) -> bool:
-        """Load one by its parameters."""
+        """Load a controller from its parameters."""
         return (await self._call("load_controller", "LoadController", name=name)).ok
 
     async def unload(self, name: str) -> bool:
-        """Forget one."""
+        """Unload a controller."""
         return (await self._call("unload_controller", "UnloadController", name=name)).ok
 
     async def switch(self, *, start: Sequence[str] = (), stop: Sequence[str] = (), strictness: int = _STRICT) -> bool:
-        """Stop some and start others."""
+        """Stop and start controllers."""
         fields = {"start_controllers": list(start), "stop_controllers": list(stop), "strictness": strictness}
         return (await self._call("switch_controller", "SwitchController", **fields)).ok
 
     async def loaded(self) -> list[Message]:
-        """What is loaded."""
+        """Loaded controllers."""
         return list((await self._call("list_controllers", "ListControllers")).controller)
 
     async def types(self) -> list[str]:
-        """What could be."""
+        """Available controller types."""
         return list((await self._call("list_controller_types", "ListControllerTypes")).types)
 
     async def _call(self, service: str, kind: str, **fields: Any) -> Message:
@@ -80,7 +80,7 @@ class _ControllerManagerClient:
 
 
 class Spawner:
-    """Loads controllers and starts them; when it is ended by itself, stops and unloads them again."""
+    """Loads and starts controllers; stops and unloads them when cancelled."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -89,7 +89,7 @@ class Spawner:
         self._loaded: list[str] = []
 
     async def run(self) -> int:
-        """Stay until cancelled."""
+        """Run until cancelled."""
         node = self._node
         words = _ArgumentParser(prog="spawner", add_help=False)
         words.add_argument("--stopped", action="store_true")
@@ -135,7 +135,7 @@ class Spawner:
             node.log.error(f"Failed to start controllers: {', '.join(self._loaded)}")
 
     async def _wait_for(self, topic: str) -> None:
-        """Wait until a std_msgs/Bool on a topic says so."""
+        """Wait for `true` on a std_msgs/Bool topic."""
         said = asyncio.Event()
 
         def on_message(message: Message) -> None:
@@ -149,7 +149,7 @@ class Spawner:
 
 
 class Unspawner:
-    """Stops controllers; when it is ended by itself, starts them again."""
+    """Stops controllers; starts them again when cancelled."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -157,7 +157,7 @@ class Unspawner:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Stay until cancelled."""
+        """Run until cancelled."""
         node = self._node
         words = _ArgumentParser(prog="unspawner", add_help=False)
         words.add_argument("--namespace", default="")
@@ -180,7 +180,7 @@ class Unspawner:
 
 
 class ControllerManagerTool:
-    """The command line of that name: list, list-types, load, unload, start, stop, spawn, kill, reload-libraries."""
+    """Command-line tool: list, list-types, load, unload, start, stop, spawn, kill, reload-libraries."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -188,7 +188,7 @@ class ControllerManagerTool:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Do one thing and end."""
+        """Execute one command."""
         words = _ArgumentParser(prog="controller_manager", add_help=False)
         commands = ("list", "list-types", "load", "unload", "start", "stop", "spawn", "kill", "reload-libraries")
         words.add_argument("command", choices=commands)
@@ -228,7 +228,7 @@ class ControllerManagerTool:
         if command in ("unload", "kill"):
             done = done and await manager.unload(name)
         if not done:
-            print(f"could not {command} {name!r}; the log of the robot's controller_manager says why", file=sys.stderr)
+            print(f"could not {command} {name!r}; see the log of the robot's controller_manager", file=sys.stderr)
             return False
         past = {"load": "Loaded", "unload": "Unloaded", "start": "Started", "stop": "Stopped", "spawn": "Spawned"}
         print(f"{past.get(command, 'Killed')} {name!r} successfully")

@@ -1,4 +1,4 @@
-"""depthimage_to_laserscan: the middle rows of a depth image as a laser scan."""
+"""depthimage_to_laserscan: converts the middle rows of a depth image to a laser scan."""
 
 import math
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ _ENCODINGS: dict[str, tuple[type[np.generic], float]] = {
     "16UC1": (np.uint16, 0.001),
     "mono16": (np.uint16, 0.001),
 }
-"""Encoding → number type and metres of its unit."""
+"""Encoding → dtype, unit [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pinhole:
-    """What is needed of a camera's calibration, in pixels."""
+    """Intrinsics of the camera [px]."""
 
     focal_px: float
     center_x_px: float
@@ -31,14 +31,14 @@ class Pinhole:
 def scan_from_depths(
     depths: NDArray[np.float64], camera: Pinhole, *, rows: int, nearest_m: float, farthest_m: float
 ) -> tuple[float, float, NDArray[np.float32]]:
-    """Make a scan: angle_min, angle_max [rad] and one range [m] for each column, from right to left.
+    """Convert to a scan: angle_min, angle_max [rad] and one range [m] per column, from right to left.
 
     Args:
-        depths: (height, width) along the optical axis [m]; NaN or infinite where nothing was measured.
-        camera: the camera.
-        rows: how many about the middle are looked at; the nearest of a column counts.
-        nearest_m: ranges outside are left out: NaN, or infinite where that was measured.
-        farthest_m: likewise.
+        depths: (height, width) along the optical axis [m]; NaN or infinite without measurement.
+        camera: intrinsics.
+        rows: number of rows about the middle; the nearest range of a column is used.
+        nearest_m: minimum range [m]; other ranges become NaN, or infinite if infinity was measured.
+        farthest_m: maximum range [m].
     """
     height, width = depths.shape
     first = max(0, int(camera.center_y_px - rows / 2))
@@ -50,7 +50,7 @@ def scan_from_depths(
     empty = np.where(np.isinf(band).any(axis=0), np.inf, np.nan)
     columns = np.where(np.isfinite(nearest), nearest, empty)
     angle_min, angle_max = -math.atan(slopes[-1]), -math.atan(slopes[0])
-    # The columns are evenly spaced in the image, the scan's rays in angle: where two meet, the nearer counts.
+    # Columns are evenly spaced in the image, rays in angle: where two coincide, the nearer range is used.
     increment = (angle_max - angle_min) / max(width - 1, 1)
     places = np.clip(np.rint((-np.arctan(slopes) - angle_min) / increment).astype(int), 0, width - 1)
     scan = np.full(width, np.nan)
@@ -60,7 +60,7 @@ def scan_from_depths(
 
 
 class DepthImageToLaserScan:
-    """Turns `image` with its camera_info into `scan`."""
+    """Converts `image` with its camera_info to `scan`."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -86,12 +86,14 @@ class DepthImageToLaserScan:
         return 0
 
     def _options(self) -> list[Option]:
-        """As the original's Depth.cfg."""
+        """Options of the original's Depth.cfg."""
         return [
-            Option(name="scan_height", value=self._rows, lower=1, upper=500, description="Rows that are looked at"),
-            Option(name="scan_time", value=self._scan_time_s, lower=0.0, upper=1.0, description="Of a scan [s]"),
-            Option(name="range_min", value=self._nearest_m, lower=0.0, upper=10.0, description="Nearest [m]"),
-            Option(name="range_max", value=self._farthest_m, lower=0.0, upper=10.0, description="Farthest [m]"),
+            Option(name="scan_height", value=self._rows, lower=1, upper=500, description="Rows to use"),
+            Option(
+                name="scan_time", value=self._scan_time_s, lower=0.0, upper=1.0, description="Time between scans [s]"
+            ),
+            Option(name="range_min", value=self._nearest_m, lower=0.0, upper=10.0, description="Minimum range [m]"),
+            Option(name="range_max", value=self._farthest_m, lower=0.0, upper=10.0, description="Maximum range [m]"),
             Option(name="output_frame_id", value=self._frame, description="Frame of the scan"),
         ]
 
@@ -110,7 +112,9 @@ class DepthImageToLaserScan:
             return
         if image.encoding not in _ENCODINGS:
             if not self._said:
-                self._node.log.error(f"encoding {image.encoding!r} is no depth; there are {', '.join(_ENCODINGS)}")
+                self._node.log.error(
+                    f"encoding {image.encoding!r} is not a depth encoding; supported: {', '.join(_ENCODINGS)}"
+                )
             self._said = True
             return
         self._scan.publish(self._fields(image, self._camera))
@@ -132,7 +136,7 @@ class DepthImageToLaserScan:
 
 
 def read_depths(image: Message) -> NDArray[np.float64]:
-    """(height, width) of a depth image [m]; zero of an integer encoding means nothing was measured."""
+    """Depths (height, width) of a depth image [m]; zeros of integer encodings become NaN."""
     kind, unit_m = _ENCODINGS[image.encoding]
     stored = np.dtype(kind).newbyteorder(">" if image.is_bigendian else "<")
     rows = np.asarray(image.data, dtype=np.uint8).reshape(image.height, image.step)

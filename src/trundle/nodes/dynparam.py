@@ -1,4 +1,4 @@
-"""dynamic_reconfigure/dynparam: options of running nodes from the command line."""
+"""dynamic_reconfigure/dynparam: reads and sets options of running nodes."""
 
 import argparse
 from collections.abc import Callable, Coroutine, Mapping
@@ -18,7 +18,7 @@ _PYTHON_OBJECT = "tag:yaml.org,2002:python/object/new:"
 
 
 class Dynparam:
-    """Does one command, and ends with 1 where it cannot."""
+    """Executes one command; exit code 1 on failure."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -26,10 +26,10 @@ class Dynparam:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Do it."""
+        """Execute the command."""
         try:
             args = _parser().parse_args(_shielded(self._arguments))
-        except SystemExit as end:  # argparse has said why
+        except SystemExit as end:  # argparse printed the error
             return int(end.code or 0)
         command: Callable[[Node, argparse.Namespace], Coroutine[None, None, None]] = args.command
         try:
@@ -80,10 +80,10 @@ async def _values(node: Node, args: argparse.Namespace) -> Options:
 
 
 def _mapping(text: str) -> Mapping[str, object]:
-    """A YAML mapping of options, as written by hand or dumped by the original.
+    """Parse a YAML mapping of options, written by hand or dumped by the original.
 
     Raises:
-        ValueError: it is none.
+        ValueError: the text is not a mapping.
     """
     value = load_yaml(text, _Loader)
     if not isinstance(value, dict):
@@ -92,7 +92,7 @@ def _mapping(text: str) -> Mapping[str, object]:
 
 
 class _Loader(BoundedLoader):
-    """Takes what the original dumps, an object of Python, for the mapping that it is."""
+    """YAML loader that reads the Python object dumped by the original as a mapping."""
 
 
 def _dumped(loader: yaml.SafeLoader, _suffix: str, node: yaml.Node) -> Any:
@@ -104,7 +104,7 @@ _Loader.add_multi_constructor(_PYTHON_OBJECT, _dumped)
 
 
 def _shielded(words: list[str]) -> list[str]:
-    """Negative numbers are values, not options."""
+    """Protect negative numbers from argparse, which takes them for options."""
     return [f" {word}" if word[:1] == "-" and word[1:2].isdigit() else word for word in words]
 
 

@@ -1,4 +1,4 @@
-"""Finds what a launch file means by a package and a type."""
+"""Resolves the package and type of a node in a launch file."""
 
 import importlib
 import os
@@ -23,32 +23,32 @@ FindPackage: TypeAlias = Callable[[str], Path | None]
 
 @dataclass(frozen=True, slots=True)
 class Executable:
-    """A program in the package's folder, to be run as a process."""
+    """An executable of the package, run as a process."""
 
     path: Path
 
 
 @dataclass(frozen=True, slots=True)
 class BuiltinReplacement:
-    """A stand-in of ours, to be run in this process."""
+    """A built-in replacement, run in this process."""
 
     target: str
     """module:Class"""
 
     def load(self) -> BuiltinNodeClass:
-        """Import it."""
+        """Import the class."""
         module, _, name = self.target.partition(":")
         return cast(BuiltinNodeClass, getattr(importlib.import_module(module), name))
 
     @property
     def command(self) -> tuple[str, ...] | None:
-        """The words behind `trundle` that are the same program, where it is a command line tool."""
+        """Arguments of the equivalent `trundle` command, if this is a command-line tool."""
         return getattr(self.load(), "command", None)
 
 
 @dataclass(frozen=True, slots=True)
 class MissingNode:
-    """Neither; the launch goes on without."""
+    """Neither; the launch continues without the node."""
 
     why: str
 
@@ -56,18 +56,17 @@ class MissingNode:
 def find_node(
     package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str], arguments: str = ""
 ) -> Executable | BuiltinReplacement | MissingNode:
-    """Find a node: an executable in the package's folder, a stand-in, a program built elsewhere; or what is missing.
+    """Find a node: an executable in the package's folder, a built-in replacement, or a program in a build folder.
 
-    Where a package's sources lie in the workspace, its program is a script for a ROS that need not be installed:
-    one that imports rospy, or messages, gives way to the stand-in on a machine without. Before the programs of a
-    package that is installed the stand-in goes always: its window needs no display, its messages no sockets.
+    The replacement takes precedence over programs of installed packages, as its window needs no display and its
+    messages no sockets. It also replaces scripts in a source workspace whose ROS modules (rospy, messages) are missing.
 
     Args:
-        package: as the launch file names it.
-        type_name: the executable.
-        find_package: knows where packages live.
-        env: what a process would be started with.
-        arguments: of its command line; of a nodelet they say what it is.
+        package: package name.
+        type_name: executable name.
+        find_package: returns a package's folder.
+        env: environment of the process.
+        arguments: command line, which names a nodelet's class.
     """
     target = BUILTIN_NODES.get((package, type_name))
     if target is not None and package in OURS_ALWAYS:
@@ -99,23 +98,23 @@ def find_node(
 
 
 def _to_compile(folder: Path, name: str) -> str:
-    """Continue a sentence about a program that is not there, where its package builds it."""
+    """Hint to append for a missing program that its package's CMakeLists.txt builds."""
     program = next((each for each in cmake_programs(folder) if each.name == name), None)
     if program is None:
         return ""
     sources = ", ".join(program.sources[:_SOURCES_NAMED]) + (", …" if len(program.sources) > _SOURCES_NAMED else "")
     target = f" (target {program.target!r})" if program.target != name else ""
     where = f"{program.file}:{program.line}"
-    return f"; it is C++ that is not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
+    return f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
 
 
 def missing_nodelet(name: str) -> str:
-    """Why a nodelet cannot be loaded."""
-    return f"nodelet {name}: compiled code that nothing stands in for; there are: {', '.join(NODELETS)}"
+    """Error message for a nodelet without replacement."""
+    return f"nodelet {name}: compiled code without a stand-in; available: {', '.join(NODELETS)}"
 
 
 def _nodelet(arguments: str) -> MissingNode | None:
-    """What a nodelet's command line asks for in vain; None: there is what it asks for."""
+    """Missing nodelet class of a nodelet command line; None if it is available."""
     match arguments.split():
         case ["load" | "standalone", name, *_] if name not in NODELETS:
             return MissingNode(missing_nodelet(name))
@@ -124,13 +123,13 @@ def _nodelet(arguments: str) -> MissingNode | None:
 
 
 def _built(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Path | None:
-    """A program that catkin or colcon has put elsewhere than into the package's folder."""
+    """Program installed by catkin or colcon outside the package's folder."""
     paths = (path for home in program_folders(package, folder, env) for path in _files(home, name))
     return next((path for path in paths if os.access(path, os.X_OK)), None)
 
 
 def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) -> set[str]:
-    """Names that `find_node` knows in a package."""
+    """Names that `find_node` resolves in a package."""
     found = {name for owner, name in BUILTIN_NODES if owner == package}
     for home in [folder, *program_folders(package, folder, env)] if folder is not None else ():
         for root, folders, files in os.walk(home):
@@ -140,12 +139,12 @@ def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) 
 
 
 def same_named_programs(folder: Path, program: Path) -> list[Path]:
-    """All programs of a package that have the name of the one given, which is among them."""
+    """All programs of a package with the same name, including `program`."""
     return [path for path in _files(folder, program.name) if os.access(path, os.X_OK)]
 
 
 def _files(folder: Path, name: str) -> Iterator[Path]:
-    """Every file of that name in a package, as rosrun searches it; names may hold folders."""
+    """Files of this name in a package, in rosrun's search order; the name may contain folders."""
     direct = folder / name
     if "/" in name:
         if os.path.isfile(direct) and folder.resolve() in direct.resolve().parents:

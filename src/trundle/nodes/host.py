@@ -1,4 +1,4 @@
-"""What a stand-in is, and what it may ask of the program it runs in."""
+"""Interfaces between built-in nodes and the program that hosts them."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Slider:
-    """A joint that a user may move by hand; limits are finite [rad] or [m]."""
+    """A joint slider; limits are finite [rad] or [m]."""
 
     name: str
     lower: float
@@ -25,61 +25,61 @@ class Slider:
 
 
 class Display(Protocol):
-    """Shows the graph in a browser; a launch has one page, however many rviz nodes it starts."""
+    """Web page of the graph; one per launch, shared by all rviz nodes."""
 
     def offer_sliders(self, sliders: Sequence[Slider], move: Callable[[str, float], None]) -> None:
-        """Let the user move joints; `move` takes a joint's name and position, on any thread."""
+        """Show joint sliders; `move` is called with a joint's name and position, on any thread."""
         ...
 
     def drive_on(self, topic: str) -> None:
-        """Have the page's pad drive what listens there; the first topic that is asked for stays."""
+        """Connect the page's joystick pad to a velocity topic; the first call wins."""
         ...
 
     def show_image(self, topic: str) -> None:
-        """Have the page show the images of a topic, beside those of an rviz configuration."""
+        """Show an image topic, besides those of an rviz configuration."""
         ...
 
     def offer_options(self) -> None:
-        """Let the user change the options of every node that has some, as rqt_reconfigure does."""
+        """Show the options of all nodes, as rqt_reconfigure does."""
         ...
 
     def show_graph(self) -> None:
-        """Have the page draw who publishes what to whom, as rqt_graph does."""
+        """Show the node graph, as rqt_graph does."""
         ...
 
     def plot(self, fields: Sequence[str]) -> None:
-        """Have the page draw numbers over time, as rqt_plot does; fields are `/topic/field/…`."""
+        """Plot message fields `/topic/field/…` over time, as rqt_plot does."""
         ...
 
     def offer_joystick(self, move: Callable[[Sequence[float], Sequence[int]], None]) -> None:
-        """Let the user move a joystick, on the page or a real one; `move` takes axes and buttons as `joy` has them."""
+        """Offer the page's joystick or a gamepad; `move` is called with axes and buttons as in sensor_msgs/Joy."""
         ...
 
     async def show(self, node: Node, *, config: str | None, fixed_frame: str | None) -> int:
-        """Show until the page is closed for good or the call is cancelled; return an exit code.
+        """Show until the page is closed or the call is cancelled; returns an exit code.
 
         Args:
             node: the rviz node, for subscriptions and publications of its displays and tools.
-            config: an .rviz file as the launch file names it; it may not be there.
-            fixed_frame: overrides the file's.
+            config: path of an .rviz file, which may not exist.
+            fixed_frame: overrides that of `config`.
         """
         ...
 
 
 class Simulator(Protocol):
-    """The one simulation of a launch, on a thread of its own.
+    """The simulation of a launch, on a thread of its own.
 
-    All but `open`, `close`, `post` and `show` is called on that thread.
+    All methods but `open`, `close`, `post` and `show` must be called on that thread.
     """
 
     @property
     def simulation(self) -> "Simulation":
-        """The world in motion."""
+        """The running world."""
         ...
 
     @property
     def sensors(self) -> "Sequence[CameraSensor | InstrumentSensor]":
-        """Everything there that measures."""
+        """All sensors of the world."""
         ...
 
     @property
@@ -87,41 +87,41 @@ class Simulator(Protocol):
 
     @property
     def is_lockstep(self) -> bool:
-        """Whether time waits for nodes, as it does flat out; they then act by it alone, that runs repeat."""
+        """True if sim time waits for nodes, as at maximum speed; nodes then use sim time only, for repeatability."""
         ...
 
     async def open(
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
-        """Read a world and let it run.
+        """Load and run a world.
 
         Args:
-            node: publishes its time; its callbacks run on the thread.
-            world: a file of the launch, or one that is found where Gazebo looks.
-            paused: whether time stands still at first.
-            env: variables beside the launch's own, such as GAZEBO_MODEL_PATH.
-            record: folder for state logs, "" for the usual one; None: none are written.
+            node: publishes /clock; its callbacks run on the simulation's thread.
+            world: path, or name searched in Gazebo's resource path.
+            paused: True: start paused.
+            env: additional environment, such as GAZEBO_MODEL_PATH.
+            record: folder of state logs, "" for the default; None: no logs.
 
         Raises:
-            TrundleError: no such world, one that cannot be read, or there is one already.
+            TrundleError: the world is missing or invalid, or another one is open.
         """
         ...
 
     def close(self) -> None:
-        """End the simulation; waits for its thread, so that it is not called there, nor on the graph's loop."""
+        """Stop the simulation and join its thread; call neither on that thread nor on the graph's loop."""
         ...
 
     def post(self, call: Callable[[], None]) -> None:
-        """Have a function called between two strides, even while the simulation is paused; from any thread."""
+        """Call a function between steps, even while paused; thread-safe."""
         ...
 
     def set_paused(self, paused: bool) -> None: ...
 
     def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
-        """Add the model that an SDF or URDF text describes.
+        """Add a model from SDF or URDF text.
 
         Raises:
-            TrundleError: the name is taken, or the text is no model.
+            TrundleError: the name exists, or the text is invalid.
         """
         ...
 
@@ -129,54 +129,54 @@ class Simulator(Protocol):
         """Remove a model.
 
         Raises:
-            TrundleError: there is none.
+            TrundleError: the model does not exist.
         """
         ...
 
     def edit(self, world: "World") -> None:
-        """Go on with other gravity, masses, limits or lights.
+        """Change gravity, masses, limits or lights.
 
         Raises:
-            TrundleError: it cannot be simulated; nothing has changed.
+            TrundleError: the world cannot be simulated; nothing has changed.
         """
         ...
 
     def set_speed(self, speed: float | None) -> None:
-        """Simulate so many seconds a second of the wall; None: as many as there can be."""
+        """Set the target real-time factor; None: as fast as possible."""
         ...
 
     def reset(self, *, time: bool) -> None:
-        """Put every model back to where it was when it came; `time` goes back to zero, too."""
+        """Reset all models to their initial poses; with `time`, also sim time to zero."""
         ...
 
     async def show(self, node: Node) -> int:
-        """Be the window until it is cancelled; return an exit code."""
+        """Show the world's window until cancelled; returns an exit code."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeHost:
-    """What the program offers its stand-ins."""
+    """Services of the host program for built-in nodes."""
 
     display: Display | None = None
-    """None: headless; rviz idles."""
+    """None if headless; rviz then idles."""
     simulator: Simulator | None = None
-    """None: nothing can be simulated here."""
+    """None if simulation is not available."""
     env: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Variables that the launch file sets for this node."""
+    """Environment set by the launch file for this node."""
     tree: ProcessTree = field(default_factory=ProcessTree)
-    """The node's own processes belong to it, and end with it."""
+    """Tree of the node's own processes, which end with it."""
 
 
 class BuiltinNode(Protocol):
-    """A node that runs in this process in place of a stock executable.
+    """A node that runs in this process and replaces a stock executable.
 
-    Made on the graph's loop with `(node, arguments, host)`: `arguments` is the command line without the program and
-    without what ROS itself reads. It tells and waits for time through `node.clock` alone.
+    Created on the graph's loop with `(node, arguments, host)`: `arguments` is the command line without program and ROS
+    arguments. Time is read and awaited through `node.clock` only.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None: ...
 
     async def run(self) -> int:
-        """Do what the original does until it would exit; return its exit code. Cancelled when everything stops."""
+        """Run like the original until it would exit; returns its exit code. Cancelled at shutdown."""
         ...

@@ -1,4 +1,4 @@
-"""joint_state_publisher: says where joints are that nothing measures."""
+"""joint_state_publisher: publishes positions of joints without sensors."""
 
 import math
 from dataclasses import dataclass
@@ -29,20 +29,20 @@ _OPTIONS = (
 
 @dataclass(slots=True, kw_only=True)
 class FreeJoint:
-    """A joint whose position this node decides, or hears of."""
+    """A joint whose state this node sets, or receives."""
 
     lower: float
     upper: float
     """[rad] or [m]"""
     continuous: bool = False
     position: float | None = None
-    """None is not published."""
+    """None: not published."""
     velocity: float | None = None
     effort: float | None = None
     is_rising: bool = True
 
     def sweep(self, delta: float) -> None:
-        """Move by `delta` up to a limit, then back; a continuous joint starts again at its lower limit."""
+        """Move by `delta` between the limits, back and forth; a continuous joint wraps to its lower limit."""
         if self.position is None:
             return
         if self.is_rising:
@@ -66,11 +66,11 @@ class DependentJoint:
 
 
 class JointSet:
-    """The joints of a robot, as the original picks them out of its URDF."""
+    """Joints selected from a URDF as by the original."""
 
     def __init__(self, options: NodeParams, profile: Distro) -> None:
         self.names: list[str] = []
-        """In file order."""
+        """Joint names in file order."""
         self.free: dict[str, FreeJoint] = {}
         self.dependent: dict[str, DependentJoint] = _dependent(options.section("dependent_joints"))
         self._options = options
@@ -78,14 +78,16 @@ class JointSet:
         self._skipped = ("fixed", "floating") if profile.planar_is_free else ("fixed", "floating", "planar")
 
     def read(self, robot: XmlNode, report: Diagnostics) -> None:
-        """Take in a URDF's joints; one without limits is named and left out."""
+        """Add a URDF's joints; those without limits are reported and skipped."""
         for joint in robot.all("joint"):
             kind, name = joint.attribute("type") or "", joint.attribute("name") or ""
             if kind in self._skipped:
                 continue
             limits = (-math.pi, math.pi) if kind == "continuous" else _limits(joint)
             if limits is None:
-                report.warn(joint.at, f"joint {name!r} is not fixed, nor continuous, but has no limits; it is left out")
+                report.warn(
+                    joint.at, f"joint {name!r} is neither fixed nor continuous, but has no limits; it is ignored"
+                )
                 continue
             self.names.append(name)
             self._add(joint, name, limits, continuous=kind == "continuous")
@@ -106,7 +108,7 @@ class JointSet:
             return
         if name in self.dependent:
             return
-        # A zero of 0 is none to the original: such a joint is in the middle where 0 lies outside its limits.
+        # The original ignores a zero of 0: the joint is centred if 0 lies outside its limits.
         zero = self._zeros.number(name, 0.0) or (0.0 if lower <= 0.0 <= upper else (lower + upper) / 2.0)
         self.free[name] = FreeJoint(
             lower=lower,
@@ -118,7 +120,7 @@ class JointSet:
         )
 
     def update(self, message: Message) -> None:
-        """Take over what another publisher says about free joints."""
+        """Set the states of free joints from another publisher's message."""
         for index, name in enumerate(message.name):
             joint = self.free.get(name)
             if joint is not None:
@@ -127,10 +129,10 @@ class JointSet:
                 joint.effort = _at(message.effort, index, joint.effort)
 
     def resolve(self, name: str) -> tuple[FreeJoint, float, float]:
-        """Follow a chain of dependent joints: the free joint at its end, factor and offset.
+        """Follow a chain of dependent joints to its free joint; returns that, factor and offset.
 
         Raises:
-            ParamError: the chain is a circle, or ends at a joint that is not there.
+            ParamError: the chain is cyclic, or ends at an unknown joint.
         """
         factor, offset = 1.0, 0.0
         chain: list[str] = []
@@ -143,11 +145,11 @@ class JointSet:
             factor *= joint.factor
             name = joint.parent
         if name not in self.free:
-            raise ParamError(f"joint {chain[0] if chain else name!r} follows {name!r}, which is no free joint")
+            raise ParamError(f"joint {chain[0] if chain else name!r} follows {name!r}, which is not a free joint")
         return self.free[name], factor, offset
 
     def message(self) -> dict[str, Any]:
-        """Names and whatever is known, in file order; an array that nobody knows anything about is left empty."""
+        """JointState fields in file order; an array without any known value is omitted."""
         joints = [(name, *self.resolve(name)) for name in self.names]
         fields: dict[str, Any] = {"name": [name for name, *_ in joints]}
         if self.dependent or any(joint.position is not None for joint in self.free.values()):
@@ -163,7 +165,7 @@ class JointSet:
 
 
 class JointStatePublisher:
-    """Publishes joint_states at a fixed rate; with `use_gui`, what the sliders on the page say."""
+    """Publishes joint_states at a fixed rate; with `use_gui`, from the page's sliders."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -181,7 +183,7 @@ class JointStatePublisher:
             joints.read(self._robot(options), report)
             for warning in report.findings:
                 node.log.warn(warning.what)
-            # A name of Indigo's, which works in every distribution.
+            # Indigo's parameter, supported in every distribution.
             if self._always_sliders or options.flag("use_gui", default=False):
                 self._offer_sliders(joints)
             delta = options.number("delta", 0.0)
@@ -203,7 +205,7 @@ class JointStatePublisher:
             await rate.sleep()
 
     async def _options(self) -> dict[str, Any]:
-        """Look each option up as `~name`, then as `name` in the node's namespace: `/use_gui` is found so."""
+        """Look up each option as `~name`, then as `name` in the node's namespace, so that `/use_gui` is found."""
         values: dict[str, Any] = {}
         for name in _OPTIONS:
             for candidate in (f"~{name}", name):
@@ -215,7 +217,7 @@ class JointStatePublisher:
 
     def _offer_sliders(self, joints: JointSet) -> None:
         if self._display is None:
-            self._node.log.warn("there is no page to show sliders on; every joint stays where it is")
+            self._node.log.warn("no page for sliders; joints keep their positions")
             return
         sliders = [
             Slider(name=name, lower=joint.lower, upper=joint.upper, position=joint.position or 0.0)

@@ -1,4 +1,4 @@
-"""joy/joy_node: a joystick of the page, drawn or plugged in there; without a page at rest until `~set` moves it."""
+"""joy/joy_node: the page's joystick or a gamepad there; without a page, driven by `~set` only."""
 
 import math
 from collections.abc import Sequence
@@ -10,14 +10,14 @@ from .host import NodeHost
 from .rate import Rate
 
 _AXES, _BUTTONS = 8, 11
-"""Those of the usual game pad."""
+"""Axes and buttons of a common gamepad."""
 _IDLE_RATE_HZ = 1.0
 _WIDEST = 0.9
-"""The widest dead zone there may be."""
+"""Maximum dead zone."""
 
 
 class JoyNode:
-    """Publishes joy when it is moved, and again at ~autorepeat_rate."""
+    """Publishes joy on changes, and at ~autorepeat_rate."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -38,7 +38,7 @@ class JoyNode:
         asked = node.subscribe("~set", "sensor_msgs/Joy", self._set, queue_size=1)
         device = settings.text("dev", "/dev/input/js0")
         said = f"{device} is not read; publish on {asked.topic} to move the joystick"
-        node.log.info(said if self._display is None else f"{said}, or move that of the page, or one plugged in there")
+        node.log.info(said if self._display is None else f"{said}, or use the page's joystick or a gamepad")
         window = None
         if self._display is not None:
             self._display.offer_joystick(self._move)
@@ -67,7 +67,7 @@ class JoyNode:
             self._publish()
 
     def _hold(self, axes: Sequence[float], buttons: Sequence[int]) -> None:
-        """Take where a joystick is; axes begin where the dead zone ends, sticky buttons stay until pressed anew."""
+        """Set axes and buttons; axes are rescaled outside the dead zone, sticky buttons toggle on press."""
         dead = self._dead_zone
         self._axes = [math.copysign(max(abs(value) - dead, 0.0) / (1.0 - dead), value) for value in axes]
         pressed, before = [int(value) for value in buttons], self._pressed

@@ -1,4 +1,4 @@
-"""Keys as they are pressed in the terminal, for the nodes that drive by them; one of a launch has the terminal."""
+"""Key presses in the terminal, for teleop nodes; one node of a launch reads the terminal."""
 
 import asyncio
 import os
@@ -12,7 +12,7 @@ _ARROWS = {"\x1b[A": "up", "\x1b[B": "down", "\x1b[C": "right", "\x1b[D": "left"
 
 
 class Keyboard:
-    """Waits for keys; in cbreak mode, so that Ctrl-C still ends the launch."""
+    """Reads keys in cbreak mode, so that Ctrl-C still ends the launch."""
 
     _taken = False
 
@@ -22,12 +22,12 @@ class Keyboard:
 
     @property
     def is_available(self) -> bool:
-        """Whether there is a terminal that nobody else reads."""
+        """True if stdin is a terminal that no other node reads."""
         return os.name == "posix" and sys.stdin.isatty() and not Keyboard._taken
 
     @contextmanager
     def cbreak(self) -> Generator[None]:
-        """Have the terminal hand over every key at once, until this ends."""
+        """Set cbreak mode for the duration of the context."""
         import termios
         import tty
 
@@ -45,7 +45,7 @@ class Keyboard:
             Keyboard._taken = False
 
     async def read_key(self, timeout_s: float | None = None) -> str | None:
-        """The next key: a character, 'up', 'down', 'left' or 'right'; None when none comes in time."""
+        """Next key: a character, 'up', 'down', 'left' or 'right'; None on timeout."""
         try:
             async with asyncio.timeout(timeout_s):
                 return await self._keys.get()
@@ -59,7 +59,7 @@ class Keyboard:
 
 
 def split_keys(text: str) -> list[str]:
-    """Tell keys apart in what a terminal sends at once."""
+    """Split terminal input into keys."""
     keys: list[str] = []
     while text:
         arrow = _ARROWS.get(text[:3])

@@ -1,4 +1,4 @@
-"""Names that stand-ins give themselves where no launch file and no `__name:=` does, as their originals' sources."""
+"""Default names of built-in nodes started without a launch file or `__name:=`, as in the originals' sources."""
 
 import os
 import re
@@ -24,7 +24,7 @@ _BASE_NAMES: dict[tuple[str, str], str] = {
     ("turtlesim", "turtle_teleop_key"): "teleop_turtle",
     ("turtlesim", "turtlesim_node"): "turtlesim",
 }
-"""(package, type) → base name; the others have their type's."""
+"""(package, type) → base name, if it differs from the type."""
 
 _ANONYMOUS = frozenset(
     {
@@ -44,19 +44,19 @@ _ANONYMOUS = frozenset(
         ("topic_tools", "transform"),
     }
 )
-"""Those that any number may run of at once; command line tools, such as rostopic, name themselves."""
+"""Nodes with anonymous names; command-line tools, such as rostopic, name themselves."""
 
 _OF_A_TOPIC = {"drop": 0, "mux": 0, "relay": 0, "throttle": 1}
-"""Programs of topic_tools → which word of the command line is the topic that names them."""
+"""Programs of topic_tools → index of the argument with the topic that names them."""
 
 
 def default_name(package: str, executable: str, arguments: Sequence[str]) -> str:
-    """Name a node that was started by hand.
+    """Default name of a node.
 
     Args:
-        package: of the stand-in.
-        executable: as it was called.
-        arguments: the command line, without what ROS itself reads.
+        package: package name.
+        executable: path or name of the executable.
+        arguments: command line without ROS arguments.
     """
     executable = executable.rpartition("/")[2]
     key = (package, executable)

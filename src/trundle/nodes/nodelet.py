@@ -1,4 +1,4 @@
-"""nodelet/nodelet: managers that idle, and nodelets that a stand-in of ours can be."""
+"""nodelet/nodelet: idle managers, and nodelets with a built-in replacement."""
 
 from trundle.ros import Node
 
@@ -8,7 +8,7 @@ from .host import NodeHost
 
 
 class Nodelet:
-    """Is the nodelet that it is told to load; a launch names those that nothing stands in for, and starts none."""
+    """Runs the nodelet given to load; those without replacement are reported by the launch and not started."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node

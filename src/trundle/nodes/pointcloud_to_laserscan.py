@@ -1,4 +1,4 @@
-"""pointcloud_to_laserscan: a slice of a point cloud as a laser scan."""
+"""pointcloud_to_laserscan: converts a horizontal slice of a point cloud to a laser scan."""
 
 import asyncio
 import math
@@ -16,15 +16,15 @@ from .host import NodeHost
 from .rate import LogThrottle
 
 _HUGE, _LEAST = sys.float_info.max, sys.float_info.min
-"""The original's defaults are C++'s limits of numbers; what it takes for the lowest is the smallest above zero."""
+"""Defaults of the original, which takes std::numeric_limits::min, the smallest positive number, for the lowest."""
 _POLL_S = 0.02
 _FLOATS = {7: "f4", 8: "f8"}
-"""sensor_msgs/PointField's numbers of floating types."""
+"""Datatype numbers of floats in sensor_msgs/PointField."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Slice:
-    """Which points count, and into which rays they go."""
+    """Height, angle and range limits of the scan."""
 
     min_height_m: float
     max_height_m: float
@@ -35,10 +35,10 @@ class Slice:
     range_min_m: float
     range_max_m: float
     nothing_m: float
-    """What a ray reads that meets no point."""
+    """Range of a ray without points [m]."""
 
     def ranges(self, points: NDArray[np.float64]) -> NDArray[np.float32]:
-        """Return the nearest point of each ray; `points` is (n, 3) in the scan's frame."""
+        """Range of the nearest point per ray [m]; `points` is (n, 3) in the scan's frame [m]."""
         x, y, z = points[np.isfinite(points).all(axis=1)].T
         distance, angle = np.hypot(x, y), np.arctan2(y, x)
         used = (z >= self.min_height_m) & (z <= self.max_height_m)
@@ -52,13 +52,13 @@ class Slice:
 
 
 class PointCloudToLaserScan:
-    """Turns `cloud_in` into `scan` while somebody listens."""
+    """Converts `cloud_in` to `scan` while `scan` has subscribers."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
         self._waiting: Message | None = None
-        """A cloud whose transform is not known yet."""
+        """Cloud whose transform is not available yet."""
         self._why = ""
 
     async def run(self) -> int:
@@ -96,11 +96,11 @@ class PointCloudToLaserScan:
 
     def _on_cloud(self, cloud: Message) -> None:
         if self._waiting is not None:
-            self._complaints.warn(f"a cloud is left out: {self._why}")
+            self._complaints.warn(f"a cloud is dropped: {self._why}")
         self._convert(cloud)
 
     def _convert(self, cloud: Message) -> None:
-        """Publish its scan; where it is not known yet where it was, it waits, until the next one comes."""
+        """Publish a cloud's scan; without a transform yet, keep it until the next cloud."""
         self._waiting = None
         try:
             points = read_points(cloud)
@@ -112,7 +112,7 @@ class PointCloudToLaserScan:
         except TransformError as error:
             self._waiting, self._why = cloud, str(error)
         except ValueError as error:
-            self._complaints.warn(f"a cloud is left out: {error}")
+            self._complaints.warn(f"a cloud is dropped: {error}")
         else:
             self._scan.publish(self._fields(cloud, self._slice.ranges(points)))
 
@@ -131,10 +131,10 @@ class PointCloudToLaserScan:
 
 
 def read_points(cloud: Message) -> NDArray[np.float64]:
-    """(n, 3) x, y, z of a PointCloud2 [m].
+    """Points (n, 3) of a PointCloud2 [m].
 
     Raises:
-        ValueError: it has no such fields, or fewer bytes than it says.
+        ValueError: fields x, y, z are missing, or the data is too short.
     """
     order = ">" if cloud.is_bigendian else "<"
     offsets = {field.name: (field.offset, _FLOATS.get(field.datatype)) for field in cloud.fields}

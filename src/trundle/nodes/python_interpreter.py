@@ -1,4 +1,4 @@
-"""Which Python runs a script of ROS 1, whose first line may ask for one that has no rospy, or that is gone."""
+"""Python interpreters for ROS 1 scripts, whose shebang may name one that lacks rospy or no longer exists."""
 
 import os
 import re
@@ -12,9 +12,9 @@ from trundle.files import open_file
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
 _WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\b))", re.MULTILINE)
-"""Modules that only a ROS has, or a workspace that was built."""
+"""Modules of a ROS installation or a built workspace."""
 _ASKS = re.compile(rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python3?|\S*/python)\s*$", re.MULTILINE)
-"""A first line that leaves open which Python is meant."""
+"""Shebangs that do not name one specific Python."""
 _FIRST_LINE = re.compile(rb"#!\s*(?:/usr/bin/env\s+)?(\S+)")
 _NOT_FOUND = re.compile(
     r"^\s*(?:ModuleNotFoundError|ImportError): No module named '?"
@@ -26,14 +26,14 @@ _DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-pac
 
 
 def can_run(program: Path, env: Mapping[str, str]) -> bool:
-    """Tell whether a program finds the modules of ROS it wants, rospy and messages."""
+    """True if the ROS modules that a program imports (rospy, messages) are found."""
     wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
     folders = [_DEBIAN_MODULES, *_python_path(env)]
     return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in wanted)
 
 
 def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
-    """Tell whether a script imports rospy, and the Python that is to run it, which is asked, has none."""
+    """True if a script imports rospy and its Python lacks it; runs that Python to check."""
     beginning = _beginning(program)
     written = _FIRST_LINE.match(beginning)
     if written is None or not _IMPORTS_ROSPY.search(beginning):
@@ -50,25 +50,25 @@ def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
 
 
 def missing_ros_module(output: str) -> str | None:
-    """The module of ROS for want of which a Python program died, as its last output says; None: it did not."""
+    """Missing ROS module named in the last output of a Python program, if any."""
     found = _NOT_FOUND.findall(output)
     return found[-1] if found else None
 
 
 def missing_rospy_advice(module: str) -> str:
-    """Say what can be done about a Python that has none of ROS' modules."""
+    """Advice for a Python without ROS modules."""
     return (
-        f"its Python has no {module}, which a ROS has, or a workspace that was built: where one is installed (Debian's "
-        "python3-rospy is enough) its Python runs the node; Trundle brings no rospy yet, but runs the nodes of "
+        f"its Python has no {module}, which comes with ROS or a built workspace; with ROS installed (Debian's "
+        "python3-rospy is enough) its Python runs the node; Trundle has no rospy yet, but runs the nodes of "
         "`trundle exec --list` without ROS"
     )
 
 
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
-    """Return what has to run a program; [] where its own first line says so well enough.
+    """Return the interpreter command for a program; [] if its shebang suffices.
 
-    A script that leaves open which Python it means gets Debian's if it imports rospy and only that one has it, as where
-    Trundle's own virtual environment is active, and this one where there is no `python`.
+    A script with a generic Python shebang gets Debian's if it imports rospy and only that one has it, as in Trundle's
+    virtual environment, and this process's if there is no `python`.
     """
     beginning = _beginning(program)
     asked = _ASKS.match(beginning)
@@ -89,8 +89,8 @@ def _beginning(program: Path) -> bytes:
 
 
 def _brings_rospy(python: Path) -> bool:
-    """Whether a Python is Debian's, or has a rospy of its own."""
-    if python.parent.resolve() == Path(_DEBIAN_PYTHON).parent:  # a virtual environment's leads there, too
+    """True if a Python is Debian's, or has a rospy of its own."""
+    if python.parent.resolve() == Path(_DEBIAN_PYTHON).parent:  # also the target of a virtual environment's link
         return True
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 

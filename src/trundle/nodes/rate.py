@@ -1,4 +1,4 @@
-"""How the originals keep time."""
+"""Loop rates with the originals' timing."""
 
 from collections.abc import Callable
 
@@ -7,12 +7,12 @@ from trundle.spatial import NS_PER_S
 
 
 def period_ns(rate_hz: float) -> int:
-    """Return a rate's period [ns]."""
+    """Period of a rate [ns]."""
     return round(NS_PER_S / rate_hz)
 
 
 class Rate:
-    """rospy.Rate: a loop at a fixed rate that catches up on small delays and forgets long ones."""
+    """rospy.Rate: a fixed-rate loop that catches up on small delays and skips long ones."""
 
     def __init__(self, node: Node, rate_hz: float) -> None:
         self._node = node
@@ -20,9 +20,9 @@ class Rate:
         self._last_ns = node.clock.now_ns()
 
     async def sleep(self) -> None:
-        """Wait until the period is over."""
+        """Wait until the end of the period."""
         now = self._node.clock.now_ns()
-        # Simulated time that was not known yet, or went back, starts the count again.
+        # Restart the period if simulated time has just begun, or jumped back.
         if self._last_ns == 0 or self._last_ns > now:
             self._last_ns = now
         await self._node.clock.sleep_until(self._last_ns + self._period_ns)
@@ -33,10 +33,10 @@ class Rate:
 
 
 class RateDivider:
-    """arbotix_python's way of doing something at a lower rate inside a faster loop.
+    """Rate divider of arbotix_python, for a lower rate inside a faster loop.
 
-    The next time counts from when it was last done, not from when it was due, so that the actual rate falls short:
-    10 Hz in a loop of 20 Hz is done every second or third pass.
+    The next period starts when the last one was executed, not when it was due, so that the actual rate is too low: 10
+    Hz in a loop of 20 Hz executes every second or third pass.
     """
 
     def __init__(self, now_ns: Callable[[], int], rate_hz: float) -> None:
@@ -45,9 +45,9 @@ class RateDivider:
         self._next_ns = now_ns() + self._period_ns
 
     def due(self) -> bool:
-        """Tell whether it is to be done now; if so, the next time is set."""
+        """True if the period is over; starts the next one."""
         now = self._now_ns()
-        if now + self._period_ns < self._next_ns:  # time went back
+        if now + self._period_ns < self._next_ns:  # time jumped back
             self._next_ns = now + self._period_ns
         if now <= self._next_ns:
             return False
@@ -56,7 +56,7 @@ class RateDivider:
 
 
 class LogThrottle:
-    """Lets something be said at most once in a while."""
+    """Limits the rate of a warning."""
 
     def __init__(self, node: Node, every_s: float) -> None:
         self._node = node
@@ -64,7 +64,7 @@ class LogThrottle:
         self._last_ns: int | None = None
 
     def warn(self, text: str) -> None:
-        """Say it, unless it was said a moment ago."""
+        """Log a warning, unless one was logged within the period."""
         now = self._node.clock.now_ns()
         if self._last_ns is None or now - self._last_ns >= self._every_ns or now < self._last_ns:
             self._last_ns = now

@@ -1,4 +1,4 @@
-"""robot_state_publisher: joint positions in, the robot's frames out."""
+"""robot_state_publisher: publishes tf of a robot's links from joint positions."""
 
 from dataclasses import dataclass
 
@@ -13,23 +13,23 @@ from .rate import LogThrottle, period_ns
 
 _OLD_NS = 30 * NS_PER_S
 _FIXED_AHEAD_NS = NS_PER_S // 2
-"""Fixed joints on /tf are stamped half a second ahead, so that they are still good when the next ones are due."""
+"""Fixed joints on /tf are stamped half a second ahead, to be valid until the next message."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotFrames:
-    """A robot's joints as transforms, named with the node's tf_prefix."""
+    """Joints of a robot as transforms, with the node's tf_prefix."""
 
     moving: dict[str, RobotJoint]
     fixed: dict[str, RobotJoint]
     mimics: dict[str, RobotJoint]
-    """Those of `moving` that follow another joint, one level deep, as in the original."""
+    """Joints of `moving` that mimic another joint; one level deep, as in the original."""
     prefix: str = ""
 
     @staticmethod
     def from_robot(robot: Robot, prefix: str) -> "RobotFrames":
-        """Sort joints; one number cannot place a planar one, so KDL holds it; floating ones are others' affair."""
-        joints = sorted(robot.joints, key=lambda joint: joint.name)  # std::map's order, which is the messages' too
+        """Classify joints; planar ones are fixed, as in KDL (one position is not enough), floating ones ignored."""
+        joints = sorted(robot.joints, key=lambda joint: joint.name)  # order of std::map, as in the original's messages
         moving = {j.name: j for j in joints if j.type not in ("fixed", "planar", "floating")}
         return RobotFrames(
             moving=moving,
@@ -39,7 +39,7 @@ class RobotFrames:
         )
 
     def positions(self, message: Message) -> dict[str, float]:
-        """Positions by joint, in name order, with those of joints that follow others."""
+        """Position of each joint in name order, mimic joints included."""
         positions = {str(name): float(position) for name, position in zip(message.name, message.position, strict=True)}
         for name, joint in self.mimics.items():
             assert joint.mimic is not None
@@ -49,7 +49,7 @@ class RobotFrames:
         return dict(sorted(positions.items()))
 
     def transform(self, joint: RobotJoint, position: float, stamp_ns: int) -> Transform:
-        """A joint's child frame in its parent frame."""
+        """Transform of a joint's child frame in its parent frame."""
         pose = parent_from_child(joint, position)
         return Transform(
             parent=self._frame(joint.parent),
@@ -65,7 +65,7 @@ class RobotFrames:
 
 
 class RobotStatePublisher:
-    """Publishes moving joints whenever joint_states says where they are, fixed ones by themselves."""
+    """Publishes moving joints at each joint_states, fixed ones at a fixed rate."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -81,7 +81,7 @@ class RobotStatePublisher:
         node = self._node
         try:
             settings = NodeParams(await node.params.get("~", {}), node.name)
-            # Below 1 Hz the original takes 1 Hz.
+            # The original's minimum is 1 Hz.
             self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
             use_tf_static = settings.flag("use_tf_static", default=node.profile.use_tf_static)
@@ -108,7 +108,7 @@ class RobotStatePublisher:
                 self._broadcaster.send_transform(*fixed)
 
     async def _robot(self) -> Robot:
-        """Read the description from the nearest parameter upwards."""
+        """Read robot_description from the nearest namespace upwards."""
         node = self._node
         name = await node.params.search("robot_description") or "robot_description"
         text = NodeParams({name: await node.params.get(name, None)}, "").text(name)
@@ -146,7 +146,7 @@ class RobotStatePublisher:
         self._last_heard_ns = now
         if stamp_ns + _OLD_NS < now:
             self._old.warn(f"Received JointState is {(now - stamp_ns) / 1e9:f} seconds old.")
-        # Joints of different publishers come in different messages: the one longest unheard of decides.
+        # Publishers send different joints: the joint published longest ago decides.
         oldest_ns = min((self._last_published_ns.get(name, 0) for name in message.name), default=now)
         if not self._ignores_stamps and stamp_ns < min(oldest_ns, now) + self._interval_ns:
             return
@@ -166,7 +166,7 @@ class RobotStatePublisher:
 
 
 class StatePublisher(RobotStatePublisher):
-    """robot_state_publisher's name of old."""
+    """Deprecated name of robot_state_publisher."""
 
     async def run(self) -> int:
         self._node.log.warn(

@@ -1,4 +1,4 @@
-"""Programs that are windows on the graph: image_view, and those of rqt; the page stands in for all of them."""
+"""Graphical tools: image_view and rqt; the page replaces all of them."""
 
 from trundle.diagnostics import TrundleError
 from trundle.ros import Message, Node, NodeParams
@@ -7,7 +7,7 @@ from .host import Display, NodeHost
 
 
 class Window:
-    """Any program of rqt: the launch's page, or nothing without one."""
+    """Any rqt program: opens the page, if there is one."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
@@ -15,7 +15,7 @@ class Window:
         self._display = host.display
 
     async def run(self) -> int:
-        """Show until the page is closed for good."""
+        """Show until the page is closed."""
         if self._display is not None:
             self._prepare(self._display)
             return await self._display.show(self._node, config=None, fixed_frame=None)
@@ -23,18 +23,18 @@ class Window:
         return 0
 
     def _prepare(self, display: Display) -> None:
-        """Ask for what the window is about."""
+        """Request the window's content from the page."""
 
 
 class ImageView(Window):
-    """image_view/image_view: the pictures of `image`; says once what they are."""
+    """image_view/image_view: images of `image`; logs their size and encoding once."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         super().__init__(node, arguments, host)
         self._seen = False
 
     async def run(self) -> int:
-        """Look until the page is closed for good."""
+        """Show until the page is closed."""
         images = self._node.subscribe("image", "sensor_msgs/Image", self._on_image, queue_size=1)
         self._node.log.info(f"listening to {images.topic}")
         return await super().run()
@@ -49,7 +49,7 @@ class ImageView(Window):
 
 
 class RqtImageView(Window):
-    """rqt_image_view: the pictures of the topic that it is given."""
+    """rqt_image_view: images of the given topic."""
 
     def _prepare(self, display: Display) -> None:
         for word in self._arguments:
@@ -58,10 +58,10 @@ class RqtImageView(Window):
 
 
 class RqtRobotSteering(Window):
-    """rqt_robot_steering: drives what listens on ~default_topic, by the page's pad."""
+    """rqt_robot_steering: the page's pad publishes on ~default_topic."""
 
     async def run(self) -> int:
-        """Steer until the page is closed for good."""
+        """Show until the page is closed."""
         node = self._node
         try:
             self._topic = NodeParams(await node.params.get("~", {}), node.name).text("default_topic", "/cmd_vel")
@@ -75,14 +75,14 @@ class RqtRobotSteering(Window):
 
 
 class RqtGraph(Window):
-    """rqt_graph: who publishes what to whom."""
+    """rqt_graph: the node graph."""
 
     def _prepare(self, display: Display) -> None:
         display.show_graph()
 
 
 class RqtPlot(Window):
-    """rqt_plot: the numbers that it is given, `/topic/field:field`, apart by spaces or commas."""
+    """rqt_plot: plots the given fields, `/topic/field:field`, separated by spaces or commas."""
 
     def _prepare(self, display: Display) -> None:
         words = [word for given in self._arguments if not given.startswith("-") for word in given.split(",")]
@@ -90,7 +90,7 @@ class RqtPlot(Window):
 
 
 class RqtReconfigure(Window):
-    """rqt_reconfigure and reconfigure_gui: the options of every node that has some."""
+    """rqt_reconfigure and reconfigure_gui: the options of all nodes."""
 
     def _prepare(self, display: Display) -> None:
         display.offer_options()

@@ -1,4 +1,4 @@
-"""Runs a stand-in as its node."""
+"""Runs a built-in node."""
 
 import asyncio
 
@@ -9,18 +9,18 @@ from .host import NodeHost
 
 
 async def run_builtin_node(replacement: BuiltinReplacement, node: Node, arguments: list[str], host: NodeHost) -> int:
-    """Run a stand-in until it ends, is cancelled or its node is killed, and shut that down; return the exit code.
+    """Run a built-in node until it ends, is cancelled or killed, and shut it down; returns the exit code.
 
     Args:
         replacement: from `find_node`.
-        node: made for the launch's node, with its remappings.
-        arguments: the command line without the program and without remappings.
-        host: what the program offers.
+        node: node with name and remappings of the launch.
+        arguments: command line without program and remappings.
+        host: services of this program.
     """
     killed = asyncio.Event()
     node.on_shutdown(lambda _: killed.set())
     try:
-        await node.wait_registered()  # its `_name:=value` parameters are set
+        await node.wait_registered()  # sets its `_name:=value` parameters
         await follow_time(node)
         distro = str(await node.params.get("/rosdistro", "")).strip()
         node.profile = DISTROS.get(distro, NOETIC)

@@ -1,4 +1,4 @@
-"""rviz/rviz: the viewer, with what the original publishes, listens to and provides."""
+"""rviz/rviz: opens the page, with the original's publishers, subscribers and services."""
 
 import os
 
@@ -11,7 +11,7 @@ _TAKES_A_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--spla
 
 
 class Rviz:
-    """Opens the launch's one viewer page; without a display it is there and does nothing."""
+    """Opens the launch's page; idles without a display."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
@@ -19,13 +19,13 @@ class Rviz:
         self._options = _options(arguments)
 
     async def run(self) -> int:
-        """Show until the page is closed for good, or for ever where there is none."""
+        """Show until the page is closed; without a display, until shutdown."""
         node = self._node
         config = self._options.get("-d") or self._options.get("--display-config")
         if config is not None and not os.path.isfile(config):
             node.log.warn(f"no rviz config {config!r}; the default view is shown")
             config = None
-        # Tools of the default layout; the viewer publishes what is clicked.
+        # Tools of the default layout; the page publishes clicks.
         node.advertise("/initialpose", "geometry_msgs/PoseWithCovarianceStamped", queue_size=1)
         node.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped", queue_size=1)
         node.advertise("/clicked_point", "geometry_msgs/PointStamped", queue_size=1)
@@ -34,7 +34,7 @@ class Rviz:
         node.advertise_service("~save_config", "rviz/SendFilePath", _refuse)
         node.advertise_service("~reload_shaders", "std_srvs/Empty", _nothing)
         if self._display is None:
-            # Registered, so that the graph looks the same with and without a page.
+            # Registered, so that the graph is the same with and without a page.
             node.subscribe("/tf", "tf2_msgs/TFMessage", _ignore, queue_size=1)
             node.subscribe("/tf_static", "tf2_msgs/TFMessage", _ignore, queue_size=1)
             await node.closed.wait()
@@ -44,7 +44,7 @@ class Rviz:
 
 
 def _options(arguments: list[str]) -> dict[str, str]:
-    """Read the options that take a value; a lone file is a config, as with `-d`."""
+    """Parse options with values; a lone file is a config, as with `-d`."""
     options: dict[str, str] = {}
     words = iter(arguments)
     for word in words:
@@ -57,7 +57,7 @@ def _options(arguments: list[str]) -> dict[str, str]:
 
 
 def _ignore(_message: Message) -> None:
-    """Be a subscriber, no more."""
+    """No-op callback."""
 
 
 def _nothing(_request: Message) -> dict[str, object]:
@@ -65,5 +65,5 @@ def _nothing(_request: Message) -> dict[str, object]:
 
 
 def _refuse(_request: Message) -> dict[str, object]:
-    """Say no: the page has no config to load or save while it runs."""
+    """Refuse: the page cannot load or save configs at run time."""
     return {"success": False}

@@ -1,4 +1,4 @@
-"""The two static_transform_publishers: tf's repeats itself on /tf, tf2_ros' is latched on /tf_static."""
+"""static_transform_publisher of tf (periodic, on /tf) and of tf2_ros (latched, on /tf_static)."""
 
 import math
 from typing import Any
@@ -21,7 +21,7 @@ _WRONG_ARGUMENTS = 255
 
 
 class TfStaticTransformPublisher:
-    """tf/static_transform_publisher: sends its transform again and again, stamped one period ahead."""
+    """tf/static_transform_publisher: publishes periodically, stamped one period ahead."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -29,16 +29,16 @@ class TfStaticTransformPublisher:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Send until cancelled."""
+        """Publish until cancelled."""
         node, arguments = self._node, self._arguments
         numbers = _numbers([*arguments[:-3], arguments[-1]]) if len(arguments) in (9, 10) else None
         if numbers is None:
             node.log.error(f"{_TF_USAGE}; got {' '.join(arguments)!r}")
             return _WRONG_ARGUMENTS
-        # Leading slashes go out as they are, as the original sends them; listeners strip them.
+        # Leading slashes are published as given, as by the original; listeners strip them.
         parent, child = arguments[-3:-1]
         if parent == child:
-            # The original says so, and goes on.
+            # The original continues after this message.
             node.log.fatal(f"target_frame and source frame are the same ({parent}, {child}) this cannot work")
         *values, period_ms = numbers
         translation, rotation = _pose(values)
@@ -58,7 +58,7 @@ class TfStaticTransformPublisher:
 
 
 class Tf2StaticTransformPublisher:
-    """tf2_ros/static_transform_publisher: sends its transform once, latched."""
+    """tf2_ros/static_transform_publisher: publishes once, latched."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -66,7 +66,7 @@ class Tf2StaticTransformPublisher:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Send once, then stay until cancelled."""
+        """Publish once, then idle until cancelled."""
         node, arguments = self._node, self._arguments
         if len(arguments) == 1:
             transform = await self._from_param(arguments[0])
@@ -92,7 +92,7 @@ class Tf2StaticTransformPublisher:
         return Transform(parent=parent, child=child, stamp_ns=now, translation=translation, rotation=rotation)
 
     async def _from_param(self, name: str) -> Transform | None:
-        """Read a geometry_msgs/TransformStamped written as a parameter."""
+        """Read a geometry_msgs/TransformStamped from a parameter."""
         try:
             tree = await self._node.params.get(name)
             move, turn = tree["transform"]["translation"], tree["transform"]["rotation"]
@@ -103,7 +103,7 @@ class Tf2StaticTransformPublisher:
             self._node.log.fatal(f"Could not read TF: {error}")
             return None
         except (KeyError, TypeError, ValueError) as error:
-            self._node.log.fatal(f"Could not read TF: parameter {name} is no transform: {_what(error)}")
+            self._node.log.fatal(f"Could not read TF: parameter {name} is not a transform: {_what(error)}")
             return None
         return self._transform(parent, child, translation, rotation)
 
@@ -121,7 +121,7 @@ def _numbers(words: list[str]) -> list[float] | None:
 
 
 def _pose(values: list[float]) -> tuple[Vector3, Quaternion]:
-    """Split x y z and yaw pitch roll, or x y z and qx qy qz qw; the quaternion leaves as wxyz."""
+    """Parse x y z yaw pitch roll, or x y z qx qy qz qw; the result's quaternion is wxyz."""
     x, y, z, *turn = values
     if len(turn) == 3:
         yaw, pitch, roll = turn

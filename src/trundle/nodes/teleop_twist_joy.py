@@ -1,4 +1,4 @@
-"""teleop_twist_joy/teleop_node: a joystick's axes as a velocity, while a button is held."""
+"""teleop_twist_joy/teleop_node: joystick axes to velocity commands while a button is held."""
 
 from trundle.ros import Message, Node, NodeParams
 
@@ -9,7 +9,7 @@ _TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular"
 
 
 class TeleopTwistJoy:
-    """Sends cmd_vel while ~enable_button is held, faster with ~enable_turbo_button, and one stop when it is let go."""
+    """Publishes cmd_vel while ~enable_button is held, faster with ~enable_turbo_button, and one stop on release."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -36,7 +36,7 @@ class TeleopTwistJoy:
             self._send(joy, turbo=True)
         elif _pressed(joy, self._enable):
             self._send(joy, turbo=False)
-        elif not self._sent_stop:  # once, so that others may drive
+        elif not self._sent_stop:  # once, so that other nodes may drive
             self._commands.publish({})
             self._sent_stop = True
 
@@ -55,7 +55,7 @@ _Move = tuple[tuple[str, str], int, float, float]
 def _axes(
     settings: NodeParams, part: str, names: dict[str, tuple[str, str]], *, single: tuple[str, int]
 ) -> list[_Move]:
-    """Read axis_… and scale_…: maps of names, or in the old form one number for the one axis there is."""
+    """Read axis_… and scale_…: maps by axis name, or in the old form a number for a single axis."""
     axes, scales = settings.section(f"axis_{part}"), settings.section(f"scale_{part}")
     turbos = settings.section(f"scale_{part}_turbo")
     if axes.names():

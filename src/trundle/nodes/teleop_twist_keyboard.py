@@ -1,4 +1,4 @@
-"""teleop_twist_keyboard: drives a robot with the keys around i, and with speeds that keys change."""
+"""teleop_twist_keyboard: drives a robot with the keys around i; other keys change the speeds."""
 
 import asyncio
 import math
@@ -58,14 +58,14 @@ _SPEEDS = {"q": (1.1, 1.1), "z": (0.9, 0.9), "w": (1.1, 1.0), "x": (0.9, 1.0), "
 
 
 class TeleopTwistKeyboard:
-    """Publishes a Twist (or TwistStamped with ~stamped) a key press, and again at ~repeat_rate.
+    """Publishes a Twist (TwistStamped with ~stamped) at each key press, and at ~repeat_rate.
 
-    The robot stops ~key_timeout after the last key, however often its command is repeated; with 0, it drives on.
+    Publishes a stop ~key_timeout after the last key; with 0, never.
     """
 
     topic = "cmd_vel"
     speed, turn = 0.5, 1.0
-    """[m/s], [rad/s] where no parameter says."""
+    """Default speeds [m/s], [rad/s]."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -73,7 +73,7 @@ class TeleopTwistKeyboard:
         self._node = node
 
     async def run(self) -> int:
-        """Read keys until cancelled; the robot is stopped at the end."""
+        """Read keys until cancelled, then publish a stop."""
         node = self._node
         settings = NodeParams(await node.params.get("~", {}), node.name)
         speed, turn = settings.number("speed", self.speed), settings.number("turn", self.turn)
@@ -123,7 +123,7 @@ class TeleopTwistKeyboard:
 
 
 class TurtlebotTeleopKey(TeleopTwistKeyboard):
-    """turtlebot_teleop/turtlebot_teleop_key: the same keys, slower, on a topic of the node's own."""
+    """turtlebot_teleop/turtlebot_teleop_key: the same keys, slower, on a private topic."""
 
     topic = "~cmd_vel"
     speed, turn = 0.2, 1.0

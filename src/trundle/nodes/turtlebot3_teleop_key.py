@@ -1,4 +1,4 @@
-"""turtlebot3_teleop_key: speeds that keys step up and down."""
+"""turtlebot3_teleop_key: keys step the velocities up and down."""
 
 import os
 
@@ -26,12 +26,12 @@ CTRL-C to quit
 _STEPS = {"w": (0.01, 0.0), "x": (-0.01, 0.0), "a": (0.0, 0.1), "d": (0.0, -0.1)}
 _FASTEST = {"burger": (0.22, 2.84)}
 _OTHERS = (0.26, 1.82)
-"""[m/s], [rad/s]"""
+"""Maximum speeds [m/s], [rad/s]."""
 _PERIOD_S = 0.1
 
 
 class Turtlebot3TeleopKey:
-    """Publishes cmd_vel ten times a second, and goes to a new speed by half a step each time."""
+    """Publishes cmd_vel at 10 Hz, approaching a new velocity by half a key's step each time."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -39,7 +39,7 @@ class Turtlebot3TeleopKey:
         self._env = {**os.environ, **host.env}
 
     async def run(self) -> int:
-        """Read keys until cancelled; the robot is stopped at the end."""
+        """Read keys until cancelled, then publish a stop."""
         node = self._node
         settings = NodeParams(await node.params.get("~", {}), node.name)
         model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
@@ -51,19 +51,19 @@ class Turtlebot3TeleopKey:
             await node.closed.wait()
             return 0
         print(_HELP)
-        wanted, told = (0.0, 0.0), (0.0, 0.0)
+        target, control = (0.0, 0.0), (0.0, 0.0)
         with keyboard.cbreak():
             try:
                 while True:
                     key = await keyboard.read_key(_PERIOD_S)
                     if key in _STEPS:
-                        pairs = zip(wanted, _STEPS[key], fastest, strict=True)
+                        pairs = zip(target, _STEPS[key], fastest, strict=True)
                         linear, angular = (min(max(now + step, -most), most) for now, step, most in pairs)
-                        wanted = (linear, angular)
+                        target = (linear, angular)
                         print(f"currently:\tlinear velocity {linear:.2f}\t angular velocity {angular:.2f} ")
                     elif key in (" ", "s"):
-                        wanted = told = (0.0, 0.0)
-                    told = (step_towards(told[0], wanted[0], 0.005), step_towards(told[1], wanted[1], 0.05))
-                    commands.publish({"linear": {"x": told[0]}, "angular": {"z": told[1]}})
+                        target = control = (0.0, 0.0)
+                    control = (step_towards(control[0], target[0], 0.005), step_towards(control[1], target[1], 0.05))
+                    commands.publish({"linear": {"x": control[0]}, "angular": {"z": control[1]}})
             finally:
                 commands.publish({})

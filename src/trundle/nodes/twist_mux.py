@@ -1,4 +1,4 @@
-"""twist_mux: the velocity command of the highest priority that is fresh and not locked."""
+"""twist_mux: forwards the velocity command of the highest priority that is neither expired nor locked."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ _HIGHEST = 255
 
 @dataclass(slots=True)
 class TopicHandle:
-    """A topic of commands, or a lock; the higher its priority the more it masks."""
+    """An input topic or lock; it masks lower priorities."""
 
     name: str
     topic: str
@@ -23,16 +23,16 @@ class TopicHandle:
     priority: int
     received_ns: int | None = None
     lock: bool = False
-    """Of a lock: what it last said."""
+    """Last value of a lock."""
 
     def is_expired(self, now_ns: int) -> bool:
-        """Whether it was not heard within its timeout; with one of 0 it never is, even before it was heard at all."""
+        """True if the last message is older than the timeout or missing; never with a timeout of 0."""
         if self.timeout_s <= 0.0:
             return False
         return self.received_ns is None or now_ns - self.received_ns > self.timeout_s * 1e9
 
     def is_locked(self, now_ns: int) -> bool:
-        """Whether it masks what has a lower priority: it says so, or it fell silent."""
+        """True if the lock masks lower priorities: its value is true, or it expired."""
         return self.lock or self.is_expired(now_ns)
 
 
@@ -40,7 +40,7 @@ def read_topic_handles(value: object, what: str) -> list[TopicHandle]:
     """Read a list of {name, topic, timeout, priority}.
 
     Raises:
-        ParamError: it is none.
+        ParamError: the value is not such a list.
     """
     if not isinstance(value, list):
         raise ParamError(f"parameter {what} is not a list of topics")
@@ -59,19 +59,19 @@ def read_topic_handles(value: object, what: str) -> list[TopicHandle]:
 
 
 def lock_priority(locks: Sequence[TopicHandle], now_ns: int) -> int:
-    """Below which nothing drives."""
+    """Highest priority of the active locks; inputs below it are masked."""
     return max((lock.priority for lock in locks if lock.is_locked(now_ns)), default=0)
 
 
 def find_active_topic(sources: Sequence[TopicHandle], locks: Sequence[TopicHandle], now_ns: int) -> TopicHandle | None:
-    """The source that drives now: that of the highest priority, the first of equal ones; one of 0 never does."""
+    """Active input: unexpired, of the highest priority, the first of equal ones; priority 0 is never active."""
     lowest = max(lock_priority(locks, now_ns), 1)
     driving = [source for source in sources if not source.is_expired(now_ns) and source.priority >= lowest]
     return max(driving, key=lambda source: source.priority, default=None)
 
 
 class TwistMux:
-    """Passes on one of its topics as cmd_vel_out."""
+    """Forwards one of its topics to cmd_vel_out."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -112,7 +112,7 @@ class TwistMux:
         lock.lock = bool(message.data)
 
     def _status(self, now_ns: int) -> dict[str, Any]:
-        """As diagnostic_updater words it."""
+        """Diagnostics in diagnostic_updater's wording."""
         masking = lock_priority(self._locks, now_ns)
 
         def value(kind: str, source: TopicHandle, state: str) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Well-known executables that nothing stands in for, and the way out of each."""
+"""Well-known executables without a built-in replacement, and alternatives."""
 
 OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
 _NAVIGATION = f"planning and localisation are out of scope; {OVER_THE_WIRE}"
@@ -20,7 +20,7 @@ ALTERNATIVES: dict[str, str] = {
     "moveit_ros_visualization": _NAVIGATION,
     "moveit_ros_benchmarks": _NAVIGATION,
     "moveit_ros_warehouse": _NAVIGATION,
-    "moveit_setup_assistant": "a tool that writes files; run the real one once, what it wrote is read here",
+    "moveit_setup_assistant": "a tool that writes files; run the real one once, Trundle reads its output",
     "octomap_server": _NAVIGATION,
     "rtabmap_ros": _NAVIGATION,
     "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
@@ -39,4 +39,4 @@ ALTERNATIVES: dict[str, str] = {
     "um6": _DRIVER,
     "lms1xx": _DRIVER,
 }
-"""Package → what to do instead."""
+"""Package → alternative."""

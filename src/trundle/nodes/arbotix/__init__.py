@@ -1,4 +1,4 @@
-"""arbotix_python in its simulated mode, and the gripper of arbotix_controllers."""
+"""arbotix_python in its simulation mode, and the gripper controller of arbotix_controllers."""
 
 import lazy_loader
 

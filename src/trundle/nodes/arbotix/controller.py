@@ -1,4 +1,4 @@
-"""What the driver's joints and controllers have in common."""
+"""Interfaces of the driver's joints and controllers."""
 
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -6,13 +6,13 @@ from typing import Protocol
 
 @dataclass(slots=True, kw_only=True)
 class JointReading:
-    """One joint as published on joint_states."""
+    """State of one joint, as published on joint_states."""
 
     name: str
     position: float = 0.0
-    """[rad], linear joints [m]."""
+    """[rad], [m] for linear joints."""
     velocity: float = 0.0
-    """[rad/s], linear joints [m/s]."""
+    """[rad/s], [m/s] for linear joints."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,19 +25,19 @@ class DiagnosticStatus:
 
 
 class ArbotixJoint(Protocol):
-    """Something with a position that follows commands."""
+    """A joint whose position follows commands."""
 
     reading: JointReading
 
     def interpolate(self, rate_hz: float) -> None:
-        """Move by one cycle of `rate_hz`."""
+        """Move by one cycle at `rate_hz`."""
         ...
 
     def status(self) -> DiagnosticStatus: ...
 
 
 class ArbotixController(Protocol):
-    """Something that is updated in every pass of the driver's loop."""
+    """A controller that is updated in every cycle of the driver's loop."""
 
     readings: list[JointReading]
 

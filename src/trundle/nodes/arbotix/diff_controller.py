@@ -11,10 +11,10 @@ from .controller import DiagnosticStatus, JointReading
 
 @dataclass(slots=True)
 class Unicycle:
-    """Where the base has gone, by forward Euler as in the original.
+    """Odometry by forward Euler integration, as in the original.
 
-    Speeds hold until they are set again, for ever: the original's time-out and acceleration limit act on the
-    set-points of real motors alone.
+    Velocities hold until set again: the original's timeout and acceleration limit apply to set-points of real motors
+    only.
     """
 
     x: float = 0.0
@@ -29,7 +29,7 @@ class Unicycle:
     """[rad/s]"""
 
     def integrate(self, elapsed_s: float) -> None:
-        """Go on for so long, along the heading there was at the start."""
+        """Integrate over an interval, with the heading at its start."""
         self.x += math.cos(self.heading) * self.speed * elapsed_s
         self.y += math.sin(self.heading) * self.speed * elapsed_s
         self.heading += self.turn_rate * elapsed_s
@@ -39,10 +39,10 @@ class DiffController:
     """Drives the base and publishes odom and its transform."""
 
     def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
-        """Read `~controllers/<name>`.
+        """Create from `~controllers/<name>`.
 
         Raises:
-            ParamError: the geometry is missing, or a parameter is of no use.
+            ParamError: the geometry is missing, or a parameter is invalid.
         """
         rate_hz = settings.rate_hz("rate", 10.0)
         ticks_meter = settings.number("ticks_meter")
@@ -54,7 +54,7 @@ class DiffController:
         self._divider = RateDivider(node.clock.now_ns, rate_hz)
         self._then_ns = node.clock.now_ns()
         self._base = Unicycle()
-        # The original's names, whatever the robot calls its wheels; simulated wheels never turn.
+        # The original's names, whatever the robot calls its wheels; simulated wheels do not turn.
         self.readings = [JointReading(name="base_l_wheel_joint"), JointReading(name="base_r_wheel_joint")]
         node.subscribe("cmd_vel", "geometry_msgs/Twist", self._command)
         self._odom = node.advertise("odom", "nav_msgs/Odometry", queue_size=5)
@@ -62,10 +62,10 @@ class DiffController:
         node.log.info(f"Started DiffController ({name}). Geometry: {base_width}m wide, {ticks_meter} ticks/m.")
 
     def _command(self, twist: Message) -> None:
-        """Go by the new speeds from now on.
+        """Apply new velocities from now on.
 
-        The original gives the whole interval since its last update to the new speeds, up to 0.15 s before they were
-        sent: where in that interval a command falls would move the base by up to 7.5 cm (docs/decisions/0006).
+        The original applies them to the whole interval since its last update, up to 0.15 s before the command: its time
+        within that interval would change the position by up to 7.5 cm (docs/decisions/0006).
         """
         speed, turn_rate = float(twist.linear.x), float(twist.angular.z)
         if (speed, turn_rate) != (self._base.speed, self._base.turn_rate):
@@ -77,7 +77,7 @@ class DiffController:
         self._then_ns = now_ns
 
     def update(self) -> None:
-        """Integrate and publish, where it is time to."""
+        """Integrate and publish, if due."""
         now = self._node.clock.now_ns()
         if not self._divider.due():
             return
@@ -109,7 +109,7 @@ class DiffController:
         )
 
     def status(self) -> DiagnosticStatus:
-        """Name, OK and the speeds."""
+        """Name, OK and the velocities."""
         return DiagnosticStatus(
             name=self._name, values=(("dX", str(self._base.speed)), ("dR", str(self._base.turn_rate)))
         )

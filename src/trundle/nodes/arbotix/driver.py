@@ -1,4 +1,4 @@
-"""arbotix_python/arbotix_driver in its simulated mode: kinematic, no serial port, no physics."""
+"""arbotix_python/arbotix_driver in its simulation mode: kinematic, without serial port or physics."""
 
 from trundle.ros import Message, MessageError, Node, NodeParams, ParamError
 
@@ -12,7 +12,7 @@ from .servo_controller import DynamixelServo, HobbyServo, ServoController
 
 
 class ArbotixDriver:
-    """Runs the controllers and joints that the node's parameters ask for, in one loop as the original does."""
+    """Runs the controllers and joints in the node's parameters, in one loop as the original does."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -71,7 +71,7 @@ class ArbotixDriver:
                     self._node.log.warn(f"joint {name}: no type {kind!r}; it is left out")
 
     def _add_controllers(self, settings: NodeParams) -> None:
-        """Add what can be added; the original, too, goes on without a controller that it cannot make."""
+        """Add the valid controllers; like the original, continue without invalid ones."""
         for name in settings.names():
             section = settings.section(name)
             try:
@@ -94,7 +94,7 @@ class ArbotixDriver:
         return joints + [reading for controller in self._controllers for reading in controller.readings]
 
     def _publish_joint_states(self) -> None:
-        """Servos, then the controllers' joints; sent even when there are none."""
+        """Publish servos, then the controllers' joints; also without any joints."""
         readings = self._readings()
         self._joint_states.publish(
             {
@@ -124,5 +124,5 @@ class ArbotixDriver:
 
 
 def _no_channel(_request: Message) -> dict[str, object]:
-    """Answer a request for an input or output that a simulated board does not have, as the original does."""
+    """Empty response for channels that a simulated board lacks, as in the original."""
     return {}

@@ -1,4 +1,4 @@
-"""arbotix_python's follow_controller: servos along a trajectory, as an action and on a topic."""
+"""arbotix_python's follow_controller: trajectories for servos, as an action and on a topic."""
 
 import asyncio
 from collections.abc import Callable
@@ -10,18 +10,18 @@ from .controller import ArbotixJoint, DiagnosticStatus, JointReading
 from .servo_controller import Servo
 
 _EARLY_NS = 10_000_000
-"""A point counts as reached so much before its time."""
+"""A point counts as reached this long before its time."""
 _NEAR_RAD = 0.001
 
 
 class FollowController:
-    """Hands its servos a position in every cycle, on the straight line to the next point."""
+    """Commands its servos in every cycle, interpolating linearly to the next point."""
 
     def __init__(self, node: Node, name: str, settings: NodeParams, joints: dict[str, ArbotixJoint]) -> None:
-        """Read `~controllers/<name>`.
+        """Create from `~controllers/<name>`.
 
         Raises:
-            ParamError: no joints, or one that is no servo of this driver.
+            ParamError: joints are missing, or are not servos of this driver.
         """
         self.readings: list[JointReading] = []
         self._node = node
@@ -54,7 +54,7 @@ class FollowController:
         return await self._follow(goal.trajectory)
 
     def _command(self, trajectory: Message) -> None:
-        """Follow what came on the topic, unless the action is at work."""
+        """Follow a trajectory from the topic, unless the action is active."""
         if self._server.active:
             self._node.log.info("Received trajectory, but action is active")
             return
@@ -90,7 +90,7 @@ class FollowController:
         return ActionOutcome(text="Trajectory execution complete")
 
     def _step(self, last: list[float], wanted: list[float], *, cycles: float) -> None:
-        """Go one of the cycles that are left until the point."""
+        """Interpolate one of the cycles left until the point."""
         for index, joint in enumerate(self._joints):
             error = wanted[index] - last[index]
             if abs(error) > _NEAR_RAD:
@@ -98,9 +98,9 @@ class FollowController:
                 self._servos[joint].command(last[index])
 
     def update(self) -> None:
-        """Nothing: trajectories run on their own."""
+        """No-op: trajectories run in tasks."""
 
     def status(self) -> DiagnosticStatus:
-        """Name, OK and whether it is at work."""
+        """Name, OK and activity."""
         state = "Active" if self._active else "Not Active"
         return DiagnosticStatus(name=self._name, values=(("State", state),))

@@ -1,4 +1,4 @@
-"""arbotix_controllers/gripper_controller: an opening [m] as an action, servo angles out."""
+"""arbotix_controllers/gripper_controller: opening [m] as an action in, servo angles out."""
 
 import asyncio
 import math
@@ -10,13 +10,13 @@ from trundle.ros import ActionOutcome, ActionServer, Message, Node, NodeParams, 
 from ..host import NodeHost
 
 _NEAR_RAD = 0.02
-"""A joint so near to its command is there; servos count in ticks of 0.3 degrees."""
+"""Tolerance of a reached command; servos count in ticks of 0.3 degrees."""
 _POLL_S = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Jaw:
-    """One servo of a gripper: how its command follows from the opening."""
+    """One servo of a gripper, with its offset and direction."""
 
     joint: str
     center: float = 0.0
@@ -25,7 +25,7 @@ class Jaw:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gripper:
-    """A linkage: `finger_length_m` None means that commands grow in proportion to the opening."""
+    """Linkage of a gripper; with `finger_length_m` None, commands are proportional to the opening."""
 
     jaws: tuple[Jaw, ...]
     pad_width_m: float = 0.01
@@ -34,13 +34,13 @@ class Gripper:
     smallest_m: float = -math.inf
     largest_m: float = math.inf
     bounded: bool = False
-    """Whether an opening beyond the limits is brought to them; else it is refused."""
+    """True: openings are clamped to the limits; else rejected."""
 
     def commands(self, opening_m: float) -> dict[str, float]:
-        """Return joint → command.
+        """Compute the commands by joint.
 
         Raises:
-            ValueError: the gripper cannot open so far.
+            ValueError: the opening is out of range.
         """
         if self.bounded:
             opening_m = min(max(opening_m, self.smallest_m), self.largest_m)
@@ -55,10 +55,10 @@ class Gripper:
 
 
 def read_gripper(settings: NodeParams) -> Gripper:
-    """Read the node's parameters.
+    """Create from the node's parameters.
 
     Raises:
-        ParamError: no model, or one that is not known.
+        ParamError: the model is missing or unknown.
     """
     model = settings.text("model")
     if model == "parallel":
@@ -89,7 +89,7 @@ def _jaw(settings: NodeParams, joint: str, default: str, center: str, invert: st
 
 
 class GripperController:
-    """Commands its servos, and tells when they are there or move no more."""
+    """Commands its servos until they reach the goal or stall."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -139,5 +139,5 @@ class GripperController:
                 last, since_ns = dict(self._positions), clock.now_ns()
             elif clock.now_ns() - since_ns > max(self._stalled_s, 1.0) * 1e9:
                 if math.inf in here.values():
-                    return ActionOutcome(status="aborted", text="nobody tells the gripper's position on joint_states")
+                    return ActionOutcome(status="aborted", text="joint_states lacks the gripper's position")
                 return ActionOutcome(result={"position": opening_m, "stalled": True})

@@ -1,4 +1,4 @@
-"""arbotix_python's linear joints and their controllers, simulated: they are where they are told to be."""
+"""arbotix_python's linear joints and controllers, simulated: joints jump to their commands."""
 
 from trundle.ros import Message, Node, NodeParams
 
@@ -6,7 +6,7 @@ from .controller import DiagnosticStatus, JointReading
 
 
 class LinearJoint:
-    """A joint that jumps to its command; the original checks no limits when simulated."""
+    """A joint that jumps to its command; like the original's simulation, without limits."""
 
     def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         for limit, default in (("min_position", 0.0), ("max_position", 0.5), ("max_speed", 0.0508)):
@@ -18,7 +18,7 @@ class LinearJoint:
         self.reading.position = float(message.data)
 
     def interpolate(self, rate_hz: float) -> None:
-        """Nothing is left to do."""
+        """No-op."""
 
     def status(self) -> DiagnosticStatus:
         """Name, OK and the position."""
@@ -29,10 +29,10 @@ class LinearController:
     """linear_controller and linear_controller_i; the latter can be zeroed."""
 
     def __init__(self, node: Node, name: str, settings: NodeParams, *, incremental: bool = False) -> None:
-        """Read `~controllers/<name>`.
+        """Create from `~controllers/<name>`.
 
         Raises:
-            ParamError: no joint, or a parameter is of no use.
+            ParamError: no joint, or an invalid parameter.
         """
         settings.text("joint")
         settings.rate_hz("rate", 10.0)
@@ -46,7 +46,7 @@ class LinearController:
         return {}
 
     def update(self) -> None:
-        """Nothing is left to do."""
+        """No-op."""
 
     def status(self) -> DiagnosticStatus:
         """Name and OK."""

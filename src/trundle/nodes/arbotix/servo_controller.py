@@ -10,7 +10,7 @@ from .controller import ArbotixJoint, DiagnosticStatus, JointReading
 
 
 class Servo:
-    """A servo that moves towards its command by whole speed limits and counts in ticks."""
+    """A servo with a speed limit and a resolution in ticks."""
 
     def __init__(
         self,
@@ -23,10 +23,10 @@ class Servo:
         range_deg: float | None,
         max_speed_deg: float,
     ) -> None:
-        """Read `~joints/<name>`; the other arguments are the defaults of the servo's kind.
+        """Create from `~joints/<name>`; the other arguments are defaults of the servo type.
 
         Raises:
-            ParamError: no id, or a parameter is of no use.
+            ParamError: no id, or an invalid parameter.
         """
         settings.number("id")
         self.reading = JointReading(name=name)
@@ -41,20 +41,20 @@ class Servo:
         self._last_command = 0.0
         self._moving = False
         self.is_controlled: Callable[[], bool] = lambda: False
-        """Whether a controller moves it just now; then its topic is not obeyed."""
+        """True while a controller moves the servo; its topic is then ignored."""
 
     def on_command(self, message: Message) -> None:
-        """Take what came on its topic."""
+        """Handle a command from the topic."""
         if not self.is_controlled():
             self.command(float(message.data))
 
     def command(self, position: float) -> None:
-        """Move there from now on [rad]."""
+        """Set the target position [rad]."""
         self._desired = position
         self._moving = True
 
     def interpolate(self, rate_hz: float) -> None:
-        """Move by at most one cycle's share of the speed limit, to a place that the ticks can tell."""
+        """Move by at most the speed limit's share of one cycle, rounded to ticks."""
         if not self._moving:
             return
         limit = self._max_speed / rate_hz
@@ -77,7 +77,7 @@ class Servo:
 
 
 class HobbyServo(Servo):
-    """A servo that follows blindly and says nothing."""
+    """A servo without feedback."""
 
     def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         super().__init__(node, name, settings, ticks=2000, neutral=1500, range_deg=180.0, max_speed_deg=90.0)
@@ -85,7 +85,7 @@ class HobbyServo(Servo):
 
 
 class DynamixelServo(Servo):
-    """A servo that can be relaxed and disabled, and tells its speed."""
+    """A servo with velocity feedback that can be relaxed and disabled."""
 
     def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
         super().__init__(node, name, settings, ticks=1024, neutral=None, range_deg=None, max_speed_deg=684.0)
@@ -95,7 +95,7 @@ class DynamixelServo(Servo):
         node.subscribe(f"{name}/command", "std_msgs/Float64", self.on_command)
         node.advertise_service(f"{name}/relax", "arbotix_msgs/Relax", self.relax)
         node.advertise_service(f"{name}/enable", "arbotix_msgs/Enable", self.enable)
-        # Speeds belong to the real servo; the simulated one keeps its limit.
+        # Only the real servo's speed changes; the simulated one keeps its limit.
         node.advertise_service(f"{name}/set_speed", "arbotix_msgs/SetSpeed", _empty_response)
 
     def command(self, position: float) -> None:
@@ -113,19 +113,19 @@ class DynamixelServo(Servo):
         self._last_ns = now
 
     def relax(self, _request: Message) -> dict[str, object]:
-        """Stop where it is, until the next command."""
+        """Stop until the next command."""
         self._moving = self._active = False
         return {}
 
     def enable(self, request: Message) -> dict[str, object]:
-        """Take commands, or none."""
+        """Accept or ignore commands."""
         self._enabled = bool(request.enable)
         if not self._enabled:
             self._moving = self._active = False
         return {"state": self._enabled}
 
     def status(self) -> DiagnosticStatus:
-        """What the real servo tells, with what a simulated one never measures at zero."""
+        """Diagnostics of the real servo; values without a simulated sensor are 0."""
         values = (
             ("Position", str(self.reading.position)),
             ("Temperature", "0.0"),
@@ -138,7 +138,7 @@ class DynamixelServo(Servo):
 
 
 class ServoController:
-    """The built-in controller "servos": moves all servos at `~write_rate`."""
+    """The driver's built-in controller "servos": moves all servos at `~write_rate`."""
 
     def __init__(self, node: Node, joints: dict[str, ArbotixJoint], settings: NodeParams) -> None:
         self.readings: list[JointReading] = []
@@ -149,13 +149,13 @@ class ServoController:
         node.advertise_service("servos/enable_all", "arbotix_msgs/Enable", self._enable_all)
 
     def update(self) -> None:
-        """Move, where it is time to."""
+        """Move the servos, if due."""
         if self._divider.due():
             for servo in self._servos:
                 servo.interpolate(self._write_rate_hz)
 
     def status(self) -> None:
-        """The servos speak for themselves."""
+        """None: each servo has its own status."""
 
     def _relax_all(self, request: Message) -> dict[str, object]:
         for servo in self._servos:

@@ -1,4 +1,4 @@
-"""gazebo_ros in this process: the node /gazebo with its services and topics, spawn_model, and the window."""
+"""gazebo_ros: the node /gazebo with its services and topics, spawn_model, and the window."""
 
 import lazy_loader
 

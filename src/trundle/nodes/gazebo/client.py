@@ -6,7 +6,7 @@ from ..host import NodeHost
 
 
 class GazeboClient:
-    """Shows the simulated world in the browser; without a page it idles, as gzclient without a display cannot."""
+    """Shows the simulated world on the page; without a page, idles (gzclient would fail without a display)."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -17,6 +17,6 @@ class GazeboClient:
         """Show until cancelled."""
         if self._simulator is not None:
             return await self._simulator.show(self._node)
-        self._node.log.warn("no world is simulated in this process: gazebo_ros/gazebo is a world with its window")
+        self._node.log.warn("no world is simulated in this process; gazebo_ros/gazebo starts both world and window")
         await self._node.closed.wait()
         return 0

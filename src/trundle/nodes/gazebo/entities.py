@@ -1,4 +1,4 @@
-"""Models, links and joints by the names that /gazebo uses: `model`, `model::link`, `link` where it is the first one."""
+"""Lookup of models, links and joints by /gazebo's names: `model`, `model::link`, `link` for the first of that name."""
 
 from trundle.diagnostics import UsageError
 from trundle.model import Light, World
@@ -9,10 +9,10 @@ _WORLD = frozenset({"", "world", "map", "/map"})
 
 
 def find_link(simulation: Simulation, name: str) -> LinkHandle:
-    """The link of a scoped name, or the first link of a plain one.
+    """Find a link by scoped name, or the first one by plain name.
 
     Raises:
-        UsageError: with the names there are.
+        UsageError: no such name; lists those that exist.
     """
     for model in simulation.models:
         for link in model.links:
@@ -22,10 +22,10 @@ def find_link(simulation: Simulation, name: str) -> LinkHandle:
 
 
 def find_joint(simulation: Simulation, name: str) -> JointHandle:
-    """The joint of a name, which may be scoped.
+    """Find a joint by plain or scoped name.
 
     Raises:
-        UsageError: with the names there are.
+        UsageError: no such name; lists those that exist.
     """
     for model in simulation.models:
         for joint in model.joints:
@@ -36,10 +36,10 @@ def find_joint(simulation: Simulation, name: str) -> JointHandle:
 
 
 def find_light(world: World, name: str) -> Light:
-    """The light of a name.
+    """Find a light by name.
 
     Raises:
-        UsageError: with the names there are.
+        UsageError: no such name; lists those that exist.
     """
     for light in world.lights:
         if light.name == name:
@@ -48,24 +48,24 @@ def find_light(world: World, name: str) -> Light:
 
 
 def scoped_links(simulation: Simulation) -> list[tuple[str, LinkHandle]]:
-    """Every link with its scoped name, in file order."""
+    """All links with their scoped names, in file order."""
     return [(f"{model.name}::{link.name}", link) for model in simulation.models for link in model.links]
 
 
 def find_model(simulation: Simulation, name: str) -> ModelHandle:
-    """The model of a name.
+    """Find a model by name.
 
     Raises:
-        UsageError: with the names there are.
+        UsageError: no such name; lists those that exist.
     """
     return simulation[name]
 
 
 def world_from_entity(simulation: Simulation, entity: str) -> Pose:
-    """Where an entity is: a model, a link, or the world by any of its names.
+    """Pose in the world of a model, a link, or the world itself.
 
     Raises:
-        UsageError: there is no such entity.
+        UsageError: no such entity.
     """
     if is_world(entity):
         return Pose()
@@ -75,12 +75,12 @@ def world_from_entity(simulation: Simulation, entity: str) -> Pose:
 
 
 def is_world(entity: str) -> bool:
-    """Whether it is one of the world's names."""
+    """True for names of the world."""
     return entity in _WORLD
 
 
 def _is_called(name: str, model: str, part: str) -> bool:
-    """Whether a name, scoped or plain, means a part of a model; those of models within it are scoped themselves."""
+    """True if a name, scoped or plain, matches a model's part, whose own name is scoped in nested models."""
     return name in (f"{model}::{part}", part, part.rpartition("::")[2])
 
 

@@ -1,4 +1,4 @@
-"""/gazebo's services that push: wrenches on links, efforts on joints."""
+"""/gazebo's services that apply wrenches to links and efforts to joints."""
 
 from typing import Any
 
@@ -14,7 +14,7 @@ from .timed_loads import TimedLoads
 
 
 def advertise_load_services(node: Node, simulator: Simulator) -> None:
-    """Provide apply_body_wrench, clear_body_wrenches, apply_joint_effort and clear_joint_forces (old: efforts)."""
+    """Advertise apply_body_wrench, clear_body_wrenches, apply_joint_effort, clear_joint_forces (or _efforts)."""
     efforts = _LoadServices(node, simulator)
     advertise_status_service(node, "apply_body_wrench", "ApplyBodyWrench", efforts.apply_body_wrench, "")
     advertise_status_service(
@@ -35,11 +35,11 @@ class _LoadServices:
             simulator.post(schedule.start)
 
     def apply_body_wrench(self, request: Message) -> dict[str, Any]:
-        """Hold a wrench for a time: its force acts at the centre of mass, and turns by the arm of its point.
+        """Apply a wrench for a duration: force at the centre of mass, plus its moment from the reference point.
 
-        The arm is that of the reference point about the link's origin; where the reference is the world, that of the
-        point about the world's. So is gazebo_ros', which makes a push that gives no point one without a torque. What
-        it does not do is to turn a wrench out of the frame that it is given in (gazebo_ros_pkgs#310); here that is so.
+        The lever arm goes from the link's origin to the reference point, or from the world's origin if the frame is the
+        world, as in gazebo_ros; a request without a point thus has no torque. Unlike gazebo_ros (gazebo_ros_pkgs#310),
+        the wrench is rotated from the reference frame to the world.
         """
         simulation = self._simulator.simulation
         link = find_link(simulation, request.body_name)
@@ -54,7 +54,7 @@ class _LoadServices:
         return {}
 
     def apply_joint_effort(self, request: Message) -> dict[str, Any]:
-        """Hold an effort on a joint for a time."""
+        """Apply an effort to a joint for a duration."""
         joint = find_joint(self._simulator.simulation, request.joint_name)
         expect_finite(request.effort)
         if not joint.axes:
@@ -63,7 +63,7 @@ class _LoadServices:
         return {}
 
     def clear_body_wrenches(self, request: Message) -> dict[str, Any]:
-        """Apply nothing any more; of what is not there, gazebo_ros says nothing either."""
+        """Remove the wrenches of a link; like gazebo_ros, report success for unknown links."""
         try:
             self._wrenches.clear(find_link(self._simulator.simulation, request.body_name))
         except UsageError as error:
@@ -71,7 +71,7 @@ class _LoadServices:
         return {}
 
     def clear_joint_forces(self, request: Message) -> dict[str, Any]:
-        """Drive it no more than its controllers do."""
+        """Remove the efforts of a joint."""
         try:
             self._efforts.clear(find_joint(self._simulator.simulation, request.joint_name))
         except UsageError as error:
@@ -80,12 +80,12 @@ class _LoadServices:
 
 
 def _push(link: LinkHandle, wrenches: list[Wrench]) -> None:
-    """The newest alone, as Link::SetForce has it."""
+    """Apply the newest wrench only, as Link::SetForce does."""
     link.apply_wrench(wrenches[-1] if wrenches else Wrench())
 
 
 def _turn(joint: JointHandle, efforts: list[float]) -> None:
-    """All of them, as Joint::SetForce adds up."""
+    """Apply the sum of efforts, as Joint::SetForce does."""
     joint.command_effort(sum(efforts))
 
 

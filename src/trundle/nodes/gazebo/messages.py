@@ -1,4 +1,4 @@
-"""geometry_msgs of poses, twists and wrenches, and the two halves of every answer of /gazebo."""
+"""Conversions of geometry_msgs, and the response pattern of /gazebo's services."""
 
 import math
 from collections.abc import Callable
@@ -11,36 +11,36 @@ from trundle.spatial import IDENTITY_QUATERNION, Pose, Twist, Vector3
 
 
 def pose_fields(pose: Pose) -> dict[str, Any]:
-    """A geometry_msgs/Pose."""
+    """Fields of a geometry_msgs/Pose."""
     w, x, y, z = pose.quaternion
     return {"position": vector_fields(pose.position), "orientation": {"x": x, "y": y, "z": z, "w": w}}
 
 
 def vector_fields(vector: Vector3) -> dict[str, float]:
-    """A geometry_msgs/Vector3 or Point."""
+    """Fields of a geometry_msgs/Vector3 or Point."""
     return dict(zip("xyz", vector, strict=True))
 
 
 def twist_fields(twist: Twist) -> dict[str, Any]:
-    """A geometry_msgs/Twist."""
+    """Fields of a geometry_msgs/Twist."""
     return {"linear": vector_fields(twist.linear), "angular": vector_fields(twist.angular)}
 
 
 def read_vector(message: Message) -> Vector3:
-    """Read a Vector3 or Point.
+    """Convert a Vector3 or Point.
 
     Raises:
-        UsageError: a number is none, or endless.
+        UsageError: a number is not finite.
     """
     expect_finite(message.x, message.y, message.z)
     return (float(message.x), float(message.y), float(message.z))
 
 
 def read_pose(message: Message) -> Pose:
-    """Read a Pose; an orientation of zeros, which a request that leaves it out holds, is none.
+    """Convert a Pose; an all-zero quaternion, the default in requests, is the identity.
 
     Raises:
-        UsageError: a number is none, or endless.
+        UsageError: a number is not finite.
     """
     q = message.orientation
     expect_finite(q.w, q.x, q.y, q.z)
@@ -50,10 +50,10 @@ def read_pose(message: Message) -> Pose:
 
 
 def read_twist(message: Message) -> Twist:
-    """Read a Twist.
+    """Convert a Twist.
 
     Raises:
-        UsageError: a number is none, or endless.
+        UsageError: a number is not finite.
     """
     return Twist(read_vector(message.linear), read_vector(message.angular))
 
@@ -61,14 +61,14 @@ def read_twist(message: Message) -> Twist:
 def advertise_status_service(
     node: Node, name: str, kind: str, work: Callable[[Message], dict[str, Any]], done: str
 ) -> None:
-    """Provide a service that says in `status_message` how it went, as those of gazebo_ros do.
+    """Advertise a service with `success` and `status_message`, as those of gazebo_ros.
 
     Args:
         node: /gazebo.
-        name: of the service, in the node's namespace.
-        kind: its type, of gazebo_msgs; what cannot be done is said after it.
-        work: does it, and returns the response's other fields.
-        done: the message of success.
+        name: service name, in the node's namespace.
+        kind: service type in gazebo_msgs, also the prefix of error messages.
+        work: handles a request and returns the response's other fields.
+        done: `status_message` on success.
     """
 
     def handle(request: Message) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""/gazebo's services that bring models and take them away."""
+"""/gazebo's services that spawn and delete models."""
 
 from collections.abc import Callable
 from typing import Any
@@ -11,7 +11,7 @@ from .messages import advertise_status_service, read_pose
 
 
 def advertise_model_services(node: Node, simulator: Simulator) -> None:
-    """Provide spawn_urdf_model, spawn_sdf_model and delete_model."""
+    """Advertise spawn_urdf_model, spawn_sdf_model and delete_model."""
     for name in ("spawn_urdf_model", "spawn_sdf_model"):
         advertise_status_service(
             node, name, "SpawnModel", _spawn(node, simulator), "SpawnModel: Successfully spawned entity"

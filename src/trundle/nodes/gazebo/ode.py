@@ -1,4 +1,4 @@
-"""Settings of ODE, which scripts read and send back; MuJoCo, the engine here, has none of them."""
+"""ODE's settings, which scripts read and write back; MuJoCo has no counterparts."""
 
 from trundle.ros import Message, Option
 
@@ -6,7 +6,7 @@ Setting = bool | int | float
 
 _MANY = 10_000_000
 _SETTINGS: tuple[tuple[str, Setting, float, str], ...] = (
-    ("auto_disable_bodies", False, 1, "Whether bodies at rest are left out"),
+    ("auto_disable_bodies", False, 1, "Disable bodies at rest"),
     ("sor_pgs_precon_iters", 0, 10_000, "Preconditioning iterations of the solver"),
     ("sor_pgs_iters", 50, 10_000, "Iterations of the solver"),
     ("sor_pgs_rms_error_tol", 0.0, 10_000, "Error at which the solver stops"),
@@ -14,31 +14,31 @@ _SETTINGS: tuple[tuple[str, Setting, float, str], ...] = (
     ("cfm", 0.0, 10, "Constraint force mixing"),
     ("erp", 0.2, 10, "Error reduction"),
     ("contact_surface_layer", 0.001, 10, "Depth of contact without force [m]"),
-    ("contact_max_correcting_vel", 100.0, _MANY, "Fastest way out of one another [m/s]"),
+    ("contact_max_correcting_vel", 100.0, _MANY, "Maximum correcting velocity of contacts [m/s]"),
     ("max_contacts", 20, _MANY, "Contacts between two bodies"),
 )
-"""Name, Gazebo's default, and the largest that gazebo_ros' cfg/Physics.cfg takes."""
+"""Name, Gazebo's default, maximum in gazebo_ros' cfg/Physics.cfg, description."""
 IGNORED = "without effect here, where MuJoCo is the engine: "
 
 
 class OdeSettings:
-    """What they were set to last, by whichever service."""
+    """Values last set by any service."""
 
     def __init__(self) -> None:
         self.values: dict[str, Setting] = {name: value for name, value, _, _ in _SETTINGS}
 
     def update_config(self, config: Message) -> list[str]:
-        """Keep those of a gazebo_msgs/ODEPhysics; return which are others now."""
+        """Store the values of a gazebo_msgs/ODEPhysics; returns the names of those changed."""
         return self.update({name: getattr(config, name) for name in self.values})
 
     def update(self, values: dict[str, Setting]) -> list[str]:
-        """Keep some; return which are others now."""
+        """Store values; returns the names of those changed."""
         changed = [name for name, value in values.items() if value != self.values[name]]
         self.values.update(values)
         return changed
 
     def options(self) -> list[Option]:
-        """As dynamic_reconfigure has them."""
+        """Settings as dynamic_reconfigure options."""
         return [
             Option(name=name, value=value, lower=-1.0 if name == "sor_pgs_rms_error_tol" else 0.0, upper=upper,
                    description=f"{text}; kept, but {IGNORED.rstrip(': ')}")

@@ -1,4 +1,4 @@
-"""/gazebo's services that stop time, let it go on, and turn it back."""
+"""/gazebo's services that pause, unpause and reset the simulation."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,7 +9,7 @@ from ..host import Simulator
 
 
 def advertise_pause_services(node: Node, simulator: Simulator) -> None:
-    """Provide pause_physics, unpause_physics, reset_simulation and reset_world."""
+    """Advertise pause_physics, unpause_physics, reset_simulation and reset_world."""
     calls: dict[str, Callable[[], None]] = {
         "pause_physics": lambda: simulator.set_paused(True),
         "unpause_physics": lambda: simulator.set_paused(False),

@@ -1,4 +1,4 @@
-"""/gazebo/performance_metrics: how fast the simulation and its sensors are."""
+"""/gazebo/performance_metrics: real-time factor and sensor rates."""
 
 import time
 from collections.abc import Mapping
@@ -11,9 +11,9 @@ from trundle.sensors import CameraSensor
 from ..host import Simulator
 
 _PERIOD_S = 1.0
-"""Ours: how often Gazebo tells of itself, which gazebo_ros passes on, was not found in a source."""
+"""Period chosen here: Gazebo's, which gazebo_ros forwards, was not found in a source."""
 _NO_PICTURES = -1.0
-"""Of what makes none: gazebo_ros says this where Gazebo tells no `fps` (GazeboRosApiPlugin::onPerformanceMetrics)."""
+"""`fps` of other sensors than cameras, as in GazeboRosApiPlugin::onPerformanceMetrics."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,13 +21,13 @@ class _Sample:
     wall_s: float
     sim_s: float
     readings: Mapping[int, int]
-    """Sensor → how many it has taken."""
+    """Sensor → number of readings."""
 
 
 class MetricsTopic:
-    """Compares the world with how it was a second before, while somebody listens.
+    """Publishes rates over the last second, while there are subscribers.
 
-    It tells of the wall's time, and is silent where time waits for nodes so that runs repeat.
+    Rates are in wall time; in lockstep, nothing is published, for repeatability.
     """
 
     def __init__(self, node: Node, simulator: Simulator) -> None:
@@ -37,7 +37,7 @@ class MetricsTopic:
         self._due_s = 0.0
 
     def due(self) -> bool:
-        """Whether somebody listens who has not heard for a second."""
+        """True if there are subscribers and a second has passed."""
         if not self._topic.has_subscribers or self._simulator.is_lockstep:
             self._before = None
             return False
@@ -47,12 +47,12 @@ class MetricsTopic:
         return True
 
     def publish(self) -> None:
-        """Say how it went since the last look; on the simulation's thread."""
+        """Publish the rates since the last call; on the simulation's thread."""
         simulator, before = self._simulator, self._before
         now_ns = simulator.simulation.time_ns
         readings = {id(sensor): sensor.reading_count for sensor in simulator.sensors}
         self._before = now = _Sample(time.monotonic(), now_ns / 1e9, readings)
-        if before is None or now.sim_s < before.sim_s:  # time was reset
+        if before is None or now.sim_s < before.sim_s:  # first call, or time was reset
             return
         wall_s, sim_s = now.wall_s - before.wall_s, now.sim_s - before.sim_s
         sensors: list[dict[str, Any]] = []

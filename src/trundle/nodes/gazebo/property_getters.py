@@ -1,4 +1,4 @@
-"""/gazebo's services that tell what a world, a model, a link or a joint is made of."""
+"""/gazebo's services that return properties of the world, models, links, joints, lights and physics."""
 
 import math
 from typing import Any
@@ -22,7 +22,7 @@ _CONTINUOUS = 1
 
 
 def advertise_property_getters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
-    """Provide the get_…_properties."""
+    """Advertise the get_…_properties services."""
     properties = _PropertyGetters(simulator, ode)
     for name, kind, work in (
         ("get_world_properties", "GetWorldProperties", properties.get_world_properties),

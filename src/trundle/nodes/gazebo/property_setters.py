@@ -1,4 +1,4 @@
-"""/gazebo's services that change what a running world, its links, joints and lights are made of."""
+"""/gazebo's services that change properties of the running world, its links, joints and lights."""
 
 import math
 from collections.abc import Sequence
@@ -17,14 +17,14 @@ from .messages import advertise_status_service, read_pose, read_vector
 from .ode import IGNORED, OdeSettings
 
 _NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
-"""Of ODE's joints; MuJoCo's have none of them."""
+"""Settings of ODE joints without counterparts in MuJoCo."""
 _UPDATED = "physics engine updated"
 SHORTEST_S, LONGEST_S = 1e-6, 1.0
-"""As of a world's <max_step_size>."""
+"""Limits of a world's <max_step_size>."""
 
 
 def advertise_property_setters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
-    """Provide set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
+    """Advertise set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
     changes = _PropertySetters(simulator, ode)
     for name, kind, work, done in (
         ("set_physics_properties", "SetPhysicsProperties", changes.set_physics_properties, _UPDATED),
@@ -47,10 +47,10 @@ def advertise_property_setters(node: Node, simulator: Simulator, ode: OdeSetting
 
 
 def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_hz: float) -> None:
-    """Have other steps [s], gravity [m/s²], and so many steps a second of the wall; 0: as many as there can be.
+    """Set the step size [s], gravity [m/s²] and steps per second of wall time; 0: as fast as possible.
 
     Raises:
-        UsageError: no world goes so.
+        UsageError: a value is out of range.
     """
     if not SHORTEST_S <= step_s <= LONGEST_S:
         raise UsageError(f"time_step must be from {SHORTEST_S:g} to {LONGEST_S:g} s, got {step_s:g}")
@@ -71,7 +71,7 @@ class _PropertySetters:
         self._ode = ode
 
     def set_physics_properties(self, request: Message) -> dict[str, Any]:
-        """The time step, gravity and the rate at which steps are taken; ODE's own settings are kept, and do nothing."""
+        """Set time step, gravity and update rate; ODE's settings are stored without effect."""
         set_physics(
             self._simulator,
             step_s=float(request.time_step),
@@ -83,7 +83,7 @@ class _PropertySetters:
         return {"status_message": note} if ignored else {}
 
     def set_link_properties(self, request: Message) -> dict[str, Any]:
-        """Mass, centre of mass, inertia, and whether gravity pulls."""
+        """Set mass, centre of mass, inertia, and whether gravity applies."""
         simulation = self._simulator.simulation
         handle = find_link(simulation, request.link_name)
         inertial = Inertial(
@@ -100,7 +100,7 @@ class _PropertySetters:
         return {}
 
     def set_joint_properties(self, request: Message) -> dict[str, Any]:
-        """Damping and limits of each axis, and the motor of ODE that fmax and vel are."""
+        """Set damping and limits of each axis, and ODE's joint motor (fmax, vel)."""
         simulation = self._simulator.simulation
         handle = find_joint(simulation, request.joint_name)
         asked = request.ode_joint_config
@@ -110,7 +110,7 @@ class _PropertySetters:
                 raise UsageError(f"{name} has {given} values; the joint has {len(handle.axes)} axes")
         model = next((model.model for model in simulation.models if handle in model.joints), None)
         if model is None:
-            raise UsageError(f"joint {handle.name!r} belongs to the world; its properties stay as they are")
+            raise UsageError(f"joint {handle.name!r} belongs to the world; its properties cannot be changed")
         joint = handle.joint
         changed = replace(joint, axis=_axis(joint, 0, asked), axis2=_axis(joint, 1, asked))
         if changed != joint:
@@ -122,7 +122,7 @@ class _PropertySetters:
         return {"status_message": note} if ignored else {}
 
     def set_light_properties(self, request: Message) -> dict[str, Any]:
-        """Colours, reach, and where it is."""
+        """Set colours, attenuation, pose and direction."""
         world = self._simulator.simulation.world
         light = find_light(world, request.light_name)
         direction = read_vector(request.direction)
@@ -143,7 +143,7 @@ class _PropertySetters:
         return {}
 
     def delete_light(self, request: Message) -> dict[str, Any]:
-        """Take a light of the world away."""
+        """Delete a light of the world."""
         self._light(find_light(self._simulator.simulation.world, request.light_name), [])
         return {}
 

@@ -1,4 +1,4 @@
-"""/gazebo's physics as options of dynamic_reconfigure."""
+"""/gazebo's physics properties as dynamic_reconfigure options."""
 
 from trundle.ros import Node, Option, Options, ReconfigureServer
 
@@ -11,7 +11,7 @@ _FASTEST_HZ = 1_000_000.0
 
 
 def advertise_options(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
-    """Offer what gazebo_ros does; of ODE's own options it is said that they do nothing."""
+    """Advertise gazebo_ros' options; changes of ODE's own settings, which have no effect, are logged."""
     physics = simulator.simulation.world.physics
     pulls = [
         Option(name=f"gravity_{axis}", value=value, lower=-_MAX_GRAVITY, upper=_MAX_GRAVITY, description="[m/s²]")
@@ -22,7 +22,7 @@ def advertise_options(node: Node, simulator: Simulator, ode: OdeSettings) -> Non
         value=physics.real_time_update_rate_hz,
         lower=0.0,
         upper=_FASTEST_HZ,
-        description="Steps a second of the wall; 0: as many as there can be",
+        description="Steps per second of wall time; 0: as fast as possible",
     )
     step = Option(name="time_step", value=physics.max_step_size_s, lower=SHORTEST_S, upper=LONGEST_S, description="[s]")
     settings = ode.options()

@@ -1,4 +1,4 @@
-"""gazebo_ros/gzserver: a simulated world with the services and topics of /gazebo."""
+"""gazebo_ros/gzserver: a simulated world with /gazebo's services and topics."""
 
 import asyncio
 import re
@@ -26,7 +26,7 @@ _TAKES_A_VALUE = frozenset(
     }
 )
 _WHAT_THIS_IS = re.compile(r"libgazebo_ros_(api_plugin|paths_plugin|init|factory|state)\.so$")
-"""Server plugins that command lines name, and that this node stands in for."""
+"""Server plugins in command lines whose functions this node provides."""
 _UNSUPPORTED = {
     "-p": "playing a log",
     "--play": "playing a log",
@@ -36,7 +36,7 @@ _UNSUPPORTED = {
 
 
 class GazeboServer:
-    """Opens a world and answers for it; the window is gzclient's."""
+    """Simulates a world and serves /gazebo; the window is gzclient's."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
@@ -48,7 +48,7 @@ class GazeboServer:
         """Simulate until cancelled."""
         node, simulator = self._node, self._simulator
         if simulator is None:
-            node.log.fatal("nothing is simulated here")
+            node.log.fatal("simulation is not available here")
             return 1
         world, paused, record = self._read_arguments()
         if not await node.params.has("/use_sim_time"):
@@ -76,7 +76,7 @@ class GazeboServer:
                 simulator.post(metrics.publish)
             if simulator.is_lockstep:
                 await node.clock.sleep(topics.period_s)
-            else:  # by the wall's clock: a paused world is still told of
+            else:  # wall time, since a paused world is published, too
                 await asyncio.sleep(topics.period_s)
 
     def _advertise(self, simulator: Simulator) -> None:
@@ -92,7 +92,7 @@ class GazeboServer:
             advertise(self._node, simulator, ode)
 
     def _read_arguments(self) -> tuple[str, bool, str | None]:
-        """The world, whether it starts paused, and where to record it; what has no effect is named."""
+        """World, initial pause, and folder of recordings; options without effect are logged."""
         world, paused, record = _EMPTY_WORLD, False, None
         words = iter(self._arguments)
         for word in words:
@@ -108,14 +108,14 @@ class GazeboServer:
             elif option in _UNSUPPORTED and not _WHAT_THIS_IS.search(value):
                 self._node.log.warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
             elif option in ("-e", "--physics") and value not in ("ode", ""):
-                self._node.log.info(f"physics engine {value!r} is asked for; MuJoCo is what there is")
+                self._node.log.info(f"physics engine {value!r} is not available; using MuJoCo")
             elif not word.startswith("-"):
                 world = word
         return world, paused, record
 
 
 class Gazebo(GazeboServer):
-    """gazebo_ros/gazebo: the server and its window."""
+    """gazebo_ros/gazebo: server and window."""
 
     async def run(self) -> int:
         """Simulate and show until cancelled."""

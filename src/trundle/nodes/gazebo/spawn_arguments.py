@@ -1,4 +1,4 @@
-"""The command line of gazebo_ros/spawn_model, of every distribution."""
+"""Command line of gazebo_ros/spawn_model, of all distributions."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -15,30 +15,30 @@ _SOURCES = ("-file", "-param", "-database", "-stdin")
 _TEXTS = frozenset({*_SOURCES[:3], "-model", "-wait", "-reference_frame", "-gazebo_namespace", "-robot_namespace"})
 _FLAGS = frozenset({"-stdin", "-unpause", "-package_to_model", "-b"})
 _OTHERWISE = {"-namespace": "-robot_namespace", "-bond": "-b"}
-"""Other words for the same; the first was read up to Kinetic."""
+"""Aliases; the first was used up to Kinetic."""
 _TRIMESH = "-trimesh_"
 
 
 @dataclass(slots=True)
 class SpawnRequest:
-    """What is to be spawned, and how."""
+    """Parsed command line of spawn_model."""
 
     kind: Kind | None = None
     is_old: bool = False
-    """Whether SDF was asked for by its name before Hydro, -gazebo."""
+    """True if SDF was requested by its option before Hydro, -gazebo."""
     texts: dict[str, str] = field(default_factory=dict[str, str])
     trimesh: dict[str, str] = field(default_factory=dict[str, str])
-    """What -trimesh_mass and its like say, by what follows `trimesh_`."""
+    """Values of -trimesh_mass and its like, by the name after `trimesh_`."""
     numbers: dict[str, float] = field(default_factory=dict[str, float])
     joints: dict[str, float] = field(default_factory=dict[str, float])
     flags: set[str] = field(default_factory=set[str])
 
     @classmethod
     def read(cls, words: list[str]) -> "SpawnRequest":
-        """Sort the words.
+        """Parse the command line.
 
         Raises:
-            UsageError: one that is not known, misses its value or contradicts another, or no model is named.
+            UsageError: an option is unknown, lacks its value or contradicts another, or the model's name is missing.
         """
         request = cls()
         rest = _parted(words)
@@ -54,11 +54,11 @@ class SpawnRequest:
         return request
 
     def _read_option(self, given: str, rest: Iterator[str]) -> None:
-        word = "-" + given.lstrip("-")  # --x, which no distribution has, is a slip that is easily understood
+        word = "-" + given.lstrip("-")  # accept --x, too, which no distribution has
         word = _OTHERWISE.get(word, word)
         if word in _KINDS:
             if self.kind not in (None, _KINDS[word]):
-                raise UsageError(f"{given}: the model is {self.kind} already; one of -urdf, -sdf is needed")
+                raise UsageError(f"{given}: the model is {self.kind} already; give one of -urdf, -sdf")
             self.kind, self.is_old = _KINDS[word], self.is_old or word == "-gazebo"
         elif word in _NUMBERS:
             self.numbers[_NUMBERS[word]] = float(next(rest))
@@ -76,10 +76,10 @@ class SpawnRequest:
 
     @property
     def source(self) -> str:
-        """Which option says where the model comes from.
+        """Option that names the model's source.
 
         Raises:
-            UsageError: none or several, or not of which kind it is.
+            UsageError: none or several sources, or no model format.
         """
         sources = [source for source in _SOURCES if source in self.texts or source in self.flags]
         if len(sources) != 1:
@@ -92,12 +92,12 @@ class SpawnRequest:
 
     @property
     def pose(self) -> Pose:
-        """Where it is to be."""
+        """Initial pose."""
         return Pose.from_rpy(*(self.numbers.get(name, 0.0) for name in ("x", "y", "z", "roll", "pitch", "yaw")))
 
 
 def _parted(words: list[str]) -> Iterator[str]:
-    """The words, those of the form -x=1 as two."""
+    """Arguments, with -x=1 split in two."""
     for word in words:
         option, equals, value = word.partition("=")
         if equals and option in {*_NUMBERS, *_TEXTS}:

@@ -1,4 +1,4 @@
-"""gazebo_ros/spawn_model: asks /gazebo for a model, from a file, a parameter or the model folders."""
+"""gazebo_ros/spawn_model: spawns a model from a file, a parameter or the model folders."""
 
 import asyncio
 import re
@@ -20,7 +20,7 @@ _MESH = re.compile(r"""(<\s*mesh\s[^>]*?\bfilename\s*=\s*["'])package://""")
 
 
 class SpawnModel:
-    """Spawns one model and ends; with -b it stays, and takes the model away at its end."""
+    """Spawns one model and exits; with -b, waits and deletes the model on exit."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -28,7 +28,7 @@ class SpawnModel:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Spawn; 1 where that fails, as in the original."""
+        """Spawn; exit code 1 on failure, as in the original."""
         node = self._node
         try:
             request = SpawnRequest.read(self._arguments)
@@ -84,7 +84,7 @@ class SpawnModel:
             await node.call_service(f"{gazebo}/unpause_physics", "std_srvs/Empty")
 
     async def _model(self, request: SpawnRequest) -> tuple[str, Literal["urdf", "sdf"]]:
-        """The model's text, and of which kind it is."""
+        """Text and format of the model."""
         texts = request.texts
         source = request.source
         if request.kind == "trimesh":
@@ -113,7 +113,7 @@ class SpawnModel:
         return xml
 
     async def _wait_for(self, model: str | None, gazebo: str) -> None:
-        """Wait until another model is there."""
+        """Wait until another model exists."""
         if model is None:
             return
         found = asyncio.Event()

@@ -1,4 +1,4 @@
-"""/gazebo's services and topics by which others ask and say where models and links are."""
+"""/gazebo's services and topics that get and set states of models and links."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from .messages import advertise_status_service, pose_fields, read_pose, read_twi
 
 
 def advertise_state_services(node: Node, simulator: Simulator) -> None:
-    """Provide get_ and set_model_state, get_ and set_link_state, set_model_configuration, and the two set_ topics."""
+    """Advertise the services of model and link states, and subscribe ~set_model_state and ~set_link_state."""
     states = _StateServices(simulator)
     for name, kind, work, done in (
         ("get_model_state", "GetModelState", states.get_model_state, "got properties"),
@@ -101,12 +101,12 @@ class _StateServices:
 
 
 def _turned(frame: Pose, twist: Twist) -> Twist:
-    """A velocity given in a frame's axes, in the world's."""
+    """Rotate a twist from a frame's axes to the world's."""
     return Twist(frame.transform_vector(twist.linear), frame.transform_vector(twist.angular))
 
 
 def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twist: Twist) -> Twist:
-    """A velocity relative to an entity that moves itself, in its axes."""
+    """Twist relative to a moving entity, in its axes."""
     reference = _carrier(simulation, entity)
     if reference is None:
         return twist
@@ -124,7 +124,7 @@ def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twi
 
 
 def _carrier(simulation: Simulation, entity: str) -> LinkHandle | None:
-    """The link whose motion is an entity's; None: the world."""
+    """Link that moves with an entity; None for the world."""
     for model in simulation.models:
         if model.name == entity:
             return model.base if model.links else None

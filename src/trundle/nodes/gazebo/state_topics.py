@@ -1,4 +1,4 @@
-"""/gazebo/model_states and /gazebo/link_states: where everything is, again and again."""
+"""/gazebo/model_states and /gazebo/link_states."""
 
 import struct
 from collections.abc import Callable, Sequence
@@ -14,13 +14,13 @@ from ..host import Simulator
 from .entities import scoped_links
 
 _ORDER = [0, 1, 2, 4, 5, 6, 3]
-"""ROS writes x y z qx qy qz qw."""
+"""ROS order: x y z qx qy qz qw."""
 
 
 class StateTopics:
-    """Both topics, published while somebody listens; by the server while time stands still.
+    """Both topics, published while they have subscribers; while paused, by the server.
 
-    Flat out, what stands still is told of when somebody begins to listen or models come and go, so that runs repeat.
+    In lockstep, a paused world is published only on new subscribers and model changes, for repeatability.
     """
 
     period_s = 0.01
@@ -34,18 +34,18 @@ class StateTopics:
         self._topics = [_StateTopic(node, simulator, name, kind, rows) for name, kind, rows in kinds]
 
     def has_subscribers(self) -> bool:
-        """Whether anybody listens."""
+        """True if either topic has subscribers."""
         return any(topic.publisher.has_subscribers for topic in self._topics)
 
     def publish(self) -> None:
-        """Say where everything is; on the simulation's thread."""
+        """Publish both topics; on the simulation's thread."""
         snapshot = self._simulator.simulation.snapshot()
         for topic in self._topics:
             topic.publish(snapshot)
 
 
 class _StateTopic:
-    """One of the two."""
+    """One of the two topics."""
 
     def __init__(
         self, node: Node, simulator: Simulator, name: str, kind: str, rows: "Callable[[Simulation], _Rows]"
@@ -72,7 +72,7 @@ class _StateTopic:
             self.publish(self._simulator.simulation.snapshot())
 
     def publish(self, snapshot: Snapshot) -> None:
-        """Say it to those who listen."""
+        """Publish a snapshot, if there are subscribers."""
         if not self.publisher.has_subscribers:
             return
         if self._rows is None:
@@ -81,13 +81,13 @@ class _StateTopic:
 
 
 class _Rows:
-    """Names, and of which link each tells: written as bytes, as it may be asked for a thousand times a second."""
+    """Precomputed rows of a message; serialized directly, as a subscriber may need it at 1 kHz."""
 
     def __init__(self, rows: Sequence[tuple[str, int | None, Pose]]) -> None:
-        """Name the rows.
+        """Prepare the rows.
 
         Args:
-            rows: name, index of a link, and the pose in its frame; with None, in the world's.
+            rows: name, link index, pose in the link's frame; with index None, in the world.
         """
         self._names = _array(len(rows), b"".join(_text(name) for name, *_ in rows))
         self._count = len(rows)
@@ -99,7 +99,7 @@ class _Rows:
         ]
 
     def message(self, snapshot: Snapshot) -> bytes:
-        """The message, as ROS writes it."""
+        """Serialized message."""
         poses, twists = np.zeros((self._count, 7)), np.zeros((self._count, 6))
         poses[self._moving] = snapshot.poses[self._links]
         twists[self._moving] = snapshot.twists[self._links]
@@ -110,7 +110,7 @@ class _Rows:
 
 
 def _of_models(simulation: Simulation) -> _Rows:
-    """Velocities are the canonical link's, as in gazebo_ros."""
+    """Rows of models; twists are those of the canonical link, as in gazebo_ros."""
     return _Rows([_row(model) for model in simulation.models])
 
 

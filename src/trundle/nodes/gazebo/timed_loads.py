@@ -1,4 +1,4 @@
-"""What scripts ask /gazebo to push with, each from a time to another."""
+"""Wrenches and efforts with start time and duration."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,45 +16,45 @@ class _ScheduledLoad(Generic[Target, Load]):
     load: Load
     start_ns: int
     end_ns: int | None
-    """None: never."""
+    """None: unlimited."""
 
 
 class TimedLoads(Generic[Target, Load]):
-    """Loads on links, or on joints; a hook that is called only while one of them has yet to begin or to end."""
+    """Timed loads on links or joints; a simulation hook that is active only while a load has yet to begin or end."""
 
     def __init__(self, simulation: Simulation, put: Callable[[Target, list[Load]], None]) -> None:
-        """Have nothing to do; `begin` comes first.
+        """Create; call `start` first.
 
         Args:
-            simulation: whose time counts.
-            put: has a target feel just these loads from now on, the oldest first.
+            simulation: clock of the loads.
+            put: replaces the loads on a target, oldest first.
         """
         self._simulation = simulation
         self._put = put
         self._jobs: list[_ScheduledLoad[Target, Load]] = []
         self._acting: dict[Target, list[Load]] = {}
         self._next_ns: int | None = None
-        """When something begins or ends."""
+        """Next time a load begins or ends [ns]."""
 
     def start(self) -> None:
-        """Follow the simulation's time."""
+        """Register the hook."""
         self._simulation.add_hook(self, enabled=lambda: self._next_ns is not None)
         self._simulation.on_reset(self._on_reset)
 
     def add(self, target: Target, load: Load, *, start_ns: int, duration_ns: int) -> None:
-        """Push from a time that is not over yet, for so long: one step at least; less than zero: for ever."""
+        """Schedule a load, at the earliest now, for at least one step; a negative duration means unlimited."""
         start_ns = max(start_ns, self._simulation.time_ns)
         end_ns = None if duration_ns < 0 else start_ns + max(duration_ns, self._simulation.step_ns)
         self._jobs.append(_ScheduledLoad(target, load, start_ns, end_ns))
         self._reschedule()
 
     def clear(self, target: Target) -> None:
-        """Push it no more."""
+        """Remove the loads of a target."""
         self._jobs = [job for job in self._jobs if job.target is not target]
         self._reschedule()
 
     def before_step(self, simulation: Simulation) -> None:
-        """Begin and end what is due."""
+        """Begin and end the loads that are due."""
         if self._next_ns is not None and simulation.time_ns >= self._next_ns:
             self._reschedule()
 
@@ -74,7 +74,7 @@ class TimedLoads(Generic[Target, Load]):
         self._next_ns = min(times, default=None)
 
     def _on_reset(self) -> None:
-        """Time or the poses were reset, which takes away whatever pushed."""
+        """Drop all loads: a reset clears applied forces."""
         self._jobs.clear()
         self._acting.clear()
         self._next_ns = None

@@ -1,6 +1,6 @@
-"""spawn_model's -trimesh: a mesh as a model of one link.
+"""spawn_model's -trimesh: a mesh as a model with one link.
 
-Its usage names these options up to Kinetic, though no version of the script reads them; here they do what they say.
+The script's usage lists these options up to Kinetic, but no version implements them.
 """
 
 import os
@@ -15,14 +15,14 @@ _TRUE = {"true": "true", "1": "true", "false": "false", "0": "false"}
 
 
 def trimesh_sdf(file: str, words: Mapping[str, str]) -> str:
-    """Write the model.
+    """Generate the model's SDF.
 
     Args:
-        file: of the mesh.
-        words: what `-trimesh_…` say, by what follows `trimesh_`; all are needed.
+        file: mesh file.
+        words: values of the `-trimesh_…` options by the name after `trimesh_`; all are required.
 
     Raises:
-        UsageError: one is missing, unknown or no value of its kind, or there is no such file.
+        UsageError: an option is missing, unknown or invalid, or the file does not exist.
     """
     missing = [f"-trimesh_{word}" for word in _WORDS if word not in words]
     unknown = [f"-trimesh_{word}" for word in words if word not in _WORDS]

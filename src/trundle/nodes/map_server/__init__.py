@@ -1,4 +1,4 @@
-"""map_server's two nodes: a map from a picture onto /map, and from /map into a picture."""
+"""map_server's nodes: publish a map from an image, and save /map as an image."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""A map's picture as occupancies, and back: map_server's rules."""
+"""Conversion of map images to occupancy grids and back, by map_server's rules."""
 
 import io
 import math
@@ -23,7 +23,7 @@ _LARGEST_PIXELS = 100_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OccupancyGrid:
-    """A grid of cells; row 0 is the bottom of the picture."""
+    """Grid of cells; row 0 is the bottom of the image."""
 
     cells: NDArray[np.int8]
     """(height, width): −1 unknown, 0 free … 100 occupied."""
@@ -33,17 +33,17 @@ class OccupancyGrid:
 
 
 def read_map(file: Path) -> OccupancyGrid:
-    """Read a map's YAML and its picture.
+    """Read a map's YAML file and its image.
 
     Raises:
-        UsageError: a file or a key is missing, or is of no use.
+        UsageError: a file or key is missing or invalid.
     """
     try:
         described: Any = load_yaml(read_file(file).decode())
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise UsageError(f"map {file}: {error}") from None
     if not isinstance(described, dict):
-        raise UsageError(f"map {file}: no mapping of keys and values")
+        raise UsageError(f"map {file}: not a YAML mapping")
     try:
         picture = file.parent / str(described["image"])
         x, y, yaw = (float(v) for v in described["origin"])
@@ -62,10 +62,10 @@ def read_map(file: Path) -> OccupancyGrid:
 
 
 def positive(resolution_m: float, file: Path) -> float:
-    """A map's resolution.
+    """Check a map's resolution.
 
     Raises:
-        UsageError: it is none.
+        UsageError: the resolution is not positive and finite.
     """
     if not 0.0 < resolution_m < math.inf:
         raise UsageError(f"map {file}: resolution must be > 0 m, got {resolution_m:g}")
@@ -73,27 +73,29 @@ def positive(resolution_m: float, file: Path) -> float:
 
 
 def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mode: str = "trinary") -> NDArray[np.int8]:
-    """Read a picture as occupancies.
+    """Read an image as occupancies.
 
     Args:
-        picture: dark is occupied.
-        negate: light is.
-        occupied: darker than this is occupied, of 1.
-        free: lighter than this is free.
-        mode: what becomes of what is between: trinary makes it unknown, scale a number; raw takes shades as they are.
+        picture: image; dark is occupied.
+        negate: True: light is occupied.
+        occupied: threshold of occupancy [0, 1]; cells above are occupied.
+        free: threshold of occupancy [0, 1]; cells below are free.
+        mode: cells in between become unknown (trinary) or a number (scale); raw uses grey values as occupancies.
 
     Raises:
-        UsageError: it is no picture.
+        UsageError: the file is not an image.
     """
     return _cells(_pixels(picture), negate=negate, occupied=occupied, free=free, mode=mode)
 
 
 def _pixels(picture: Path) -> NDArray[np.float64]:
-    """(height, width, channels) 0 … 255, the last channel opacity where there are two or four."""
+    """Pixels (height, width, channels) 0 … 255; the last of two or four channels is alpha."""
     try:
         with Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
             if image.width * image.height > _LARGEST_PIXELS:
-                raise UsageError(f"{picture}: {image.width} × {image.height} pixels are more than a map may have")
+                raise UsageError(
+                    f"{picture}: {image.width} × {image.height} pixels exceed the limit of {_LARGEST_PIXELS} for maps"
+                )
             plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
             pixels = np.asarray(plain, dtype=np.float64)
     except (OSError, Image.DecompressionBombError) as error:
@@ -103,7 +105,7 @@ def _pixels(picture: Path) -> NDArray[np.float64]:
 
 def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: float, mode: str) -> NDArray[np.int8]:
     has_opacity = pixels.shape[2] in (2, 4)
-    # The original takes opacity for a colour where it is not asked about.
+    # In trinary mode, the original averages alpha with the colours.
     colours = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
     shade = 255.0 - colours.mean(axis=2) if negate else colours.mean(axis=2)
     if mode == "raw":  # byte by byte: 255 is −1
@@ -122,7 +124,7 @@ def write_map(file: Path, grid: OccupancyGrid, *, occupied: int, free: int) -> N
     """Write NAME.pgm and NAME.yaml, `file` being NAME; cells between the thresholds [%] become unknown's grey.
 
     Raises:
-        UsageError: they cannot be written.
+        UsageError: a file cannot be written.
     """
     cells = np.flipud(grid.cells)
     shades = np.full(cells.shape, 205, dtype=np.uint8)

@@ -1,4 +1,4 @@
-"""map_server/map_saver: the next map of /map into a picture and its YAML."""
+"""map_server/map_saver: saves the next message on /map as an image and YAML."""
 
 import asyncio
 import math
@@ -16,7 +16,7 @@ _USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
 
 
 class MapSaver:
-    """Waits for one map, writes it and ends."""
+    """Saves one map and exits."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -24,7 +24,7 @@ class MapSaver:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Save; 1 where the options or the file are at fault."""
+        """Save; exit code 1 on invalid options or write errors."""
         node = self._node
         if "-h" in self._arguments:
             print(_USAGE)

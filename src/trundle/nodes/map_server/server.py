@@ -1,4 +1,4 @@
-"""map_server/map_server: a map from a YAML file on /map."""
+"""map_server/map_server: publishes the map of a YAML file on /map."""
 
 import asyncio
 import math
@@ -19,7 +19,7 @@ _SUCCESS, _DOES_NOT_EXIST, _INVALID = 0, 1, 2
 
 
 class MapServer:
-    """Publishes its map, latched, and gives it to whoever asks."""
+    """Publishes its map, latched, and serves it."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -39,7 +39,7 @@ class MapServer:
         self._metadata = node.advertise("map_metadata", "nav_msgs/MapMetaData", latch=True, queue_size=1)
         try:
             if len(self._arguments) == 2:
-                node.log.warn(f"a picture with its resolution is deprecated; {_USAGE}")
+                node.log.warn(f"an image with a resolution is deprecated; {_USAGE}")
                 await self._load(partial(_read_picture, file, self._arguments[1], settings))
             else:
                 await self._load(partial(read_map, file))
@@ -74,7 +74,7 @@ class MapServer:
 
 
 def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> OccupancyGrid:
-    """Read a picture as the command line of old has it: thresholds are parameters, its corner is the origin."""
+    """Read an image of the deprecated command line, with thresholds from parameters; origin: lower left corner."""
     try:
         resolution_m = positive(float(resolution), picture)
     except ValueError:
@@ -89,7 +89,7 @@ def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> Occup
 
 
 def grid_fields(grid: OccupancyGrid, *, frame: str, stamp_ns: int) -> dict[str, Any]:
-    """A nav_msgs/OccupancyGrid."""
+    """Fields of a nav_msgs/OccupancyGrid."""
     x, y, yaw = grid.origin
     height, width = grid.cells.shape
     info = {

@@ -1,4 +1,4 @@
-"""The nodes of topic_tools: messages of any type passed on, thinned out, chosen among or computed from."""
+"""Nodes of topic_tools: relay, throttle, drop, multiplex and transform messages of any type."""
 
 import lazy_loader
 

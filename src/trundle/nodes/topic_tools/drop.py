@@ -1,4 +1,4 @@
-"""topic_tools/drop: X out of every Y messages left out."""
+"""topic_tools/drop: drops X of every Y messages."""
 
 from trundle.ros import Node, RawMessage
 

@@ -1,4 +1,4 @@
-"""topic_tools/mux: one of several topics passed on, chosen by a service."""
+"""topic_tools/mux: forwards one of several topics, selected by a service."""
 
 from typing import Any
 
@@ -11,18 +11,18 @@ _NONE = "__none"
 
 
 class Mux:
-    """Listens to all its inputs, or with ~lazy to the selected one alone and while somebody listens."""
+    """Subscribes to all inputs, or with ~lazy only to the selected one and while the output has subscribers."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
         self._node = node
         self._arguments = arguments
         self._inputs: dict[str, RawSubscriber] = {}
-        """Global name → its subscription, in the order given."""
+        """Global name → subscription, in the order given."""
         self._selected: str | None = None
 
     async def run(self) -> int:
-        """Pass on until cancelled."""
+        """Forward until cancelled."""
         node, words = self._node, self._arguments
         if len(words) < 2:
             node.log.error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
@@ -56,7 +56,7 @@ class Mux:
         self._inputs[name].subscribe()
 
     def _begin(self, topic: str) -> None:
-        """Select the first input, or that of ~initial_topic; one that there is not is none."""
+        """Select ~initial_topic or else the first input; with an unknown topic, none."""
         try:
             self._choose(topic or next(iter(self._inputs)))
         except ServiceError as error:
@@ -64,7 +64,7 @@ class Mux:
             self._choose(_NONE)
 
     def _choose(self, topic: str) -> str:
-        """Select a topic; return what was selected before."""
+        """Select a topic; returns the previous one."""
         name = None if topic == _NONE else self._node.resolve(topic)
         if name is not None and name not in self._inputs:
             raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inputs) or 'none'}")
@@ -82,7 +82,7 @@ class Mux:
     def _add_service(self, request: Message) -> dict[str, Any]:
         name = self._node.resolve(request.topic)
         if request.topic == _NONE or name in self._inputs:
-            raise ServiceError(f"{request.topic!r} is an input already, or no name for one")
+            raise ServiceError(f"{request.topic!r} is an input already, or not a valid name")
         self._add(name)
         return {}
 

@@ -1,4 +1,4 @@
-"""Passes messages on as bytes, whatever their type; who publishes first decides the type."""
+"""Forwarding of serialized messages of any type; the first message determines the output's type."""
 
 import asyncio
 from collections.abc import Callable, Iterable
@@ -10,10 +10,10 @@ _POLL_S = 0.1
 
 
 class RawPublisher:
-    """A topic that takes type and latching of what is first put on it; that one reaches nobody unless it is latched."""
+    """Publisher with type and latching of the first message, which reaches subscribers only if latched."""
 
     def __init__(self, node: Node, topic: str, *, latch: bool | None = None) -> None:
-        """Have a topic; `latch` says whether it is latched, whatever is put on it."""
+        """Create; `latch` overrides the messages' latching."""
         self.topic = topic
         self._node = node
         self._latch = latch
@@ -21,16 +21,16 @@ class RawPublisher:
 
     @property
     def is_typed(self) -> bool:
-        """Whether anything was put on it yet."""
+        """True once a message was published."""
         return self._publisher is not None
 
     @property
     def has_subscribers(self) -> bool:
-        """Whether publishing reaches anybody; unknown until the type is."""
+        """True if there are subscribers, or the topic is not advertised yet."""
         return self._publisher is None or self._publisher.has_subscribers
 
     def publish(self, message: RawMessage) -> None:
-        """Publish bytes; a message of another type than the first is named and dropped."""
+        """Publish a serialized message; other types than the first are logged and dropped."""
         node = self._node
         if self._publisher is None:
             try:
@@ -42,13 +42,13 @@ class RawPublisher:
                 return
             node.log.info(f"advertised as {node.resolve(self.topic)}")
         if message.type != self._publisher.type:
-            node.log.error(f"{self.topic} carries {self._publisher.type}; a {message.type} is not passed on")
+            node.log.error(f"{self.topic} carries {self._publisher.type}; a {message.type} is dropped")
             return
         self._publisher.publish(message.data)
 
 
 class RawSubscriber:
-    """A subscription to messages of any type that can be let go and taken up again."""
+    """Subscription to any type that can be cancelled and renewed."""
 
     def __init__(self, node: Node, topic: str, callback: Callable[[RawMessage], None]) -> None:
         self.topic = topic
@@ -57,12 +57,12 @@ class RawSubscriber:
         self._subscription: Subscription | None = None
 
     def subscribe(self) -> None:
-        """Listen."""
+        """Subscribe, unless subscribed."""
         if self._subscription is None:
             self._subscription = self._node.subscribe(self.topic, "*", self._callback, queue_size=_QUEUE)
 
     def unsubscribe(self) -> None:
-        """Stop listening."""
+        """Unsubscribe."""
         if self._subscription is not None:
             self._subscription.unregister()
             self._subscription = None
@@ -71,12 +71,12 @@ class RawSubscriber:
 async def subscribe_lazily(
     node: Node, output: RawPublisher, inputs: Callable[[], Iterable[tuple[RawSubscriber, bool]]]
 ) -> None:
-    """Listen only while somebody listens to the outlet, and to everything until its type is known.
+    """Subscribe only while the output has subscribers; to all inputs until its type is known.
 
     Args:
-        node: until it is closed.
-        output: what is listened to.
-        inputs: every one there is now, and whether it is the one that is passed on.
+        node: runs until it is closed.
+        output: publisher.
+        inputs: returns all current inputs, each with True if it is forwarded.
     """
     while not node.closed.is_set():
         for source, chosen in inputs():

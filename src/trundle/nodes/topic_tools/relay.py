@@ -1,4 +1,4 @@
-"""topic_tools/relay: one topic passed on as another."""
+"""topic_tools/relay: republishes a topic under another name."""
 
 import asyncio
 
@@ -11,7 +11,7 @@ _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"
 
 
 class Relay:
-    """Passes on every message; with ~lazy only while somebody listens, with ~stealth only while others are heard."""
+    """Relays messages; with ~lazy only while there are subscribers, with ~stealth only while other nodes subscribe."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -32,7 +32,7 @@ class Relay:
         def relay(message: RawMessage) -> None:
             learns = not output.is_typed
             output.publish(message)
-            if learns and is_stealthy:  # the next look decides; who subscribes meanwhile is sent nothing
+            if learns and is_stealthy:  # until the next check; subscribers of the meantime get nothing
                 inlet.unsubscribe()
 
         inlet = RawSubscriber(node, source, relay)
@@ -46,9 +46,9 @@ class Relay:
         return 0
 
     async def _hide(self, inlet: RawSubscriber, output: RawPublisher, monitored: str, *, every_s: float) -> None:
-        """Listen only while another node subscribes to a topic; looks every so often: the original calls it a rate.
+        """Subscribe only while another node subscribes to `monitored`; checks every `every_s` (the original: rate).
 
-        The output is advertised once the type is known: the first message is waited for.
+        Until the first message, which determines the output's type, stay subscribed.
         """
         node = self._node
         while not node.closed.is_set():

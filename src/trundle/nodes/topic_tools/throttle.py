@@ -1,4 +1,4 @@
-"""topic_tools/throttle: at most so many messages, or bytes, a second."""
+"""topic_tools/throttle: limits messages or bytes per second."""
 
 import time
 from collections import deque
@@ -17,7 +17,7 @@ _USAGE = (
 
 
 class MessageRateLimiter:
-    """Lets a message through when the last one is more than a period ago."""
+    """Allows a message if the last one is more than a period ago."""
 
     def __init__(self, rate_hz: float, now_ns: Callable[[], int]) -> None:
         self._period_ns = round(NS_PER_S / rate_hz)
@@ -25,10 +25,10 @@ class MessageRateLimiter:
         self._last_ns = 0
 
     def allows(self, size: int) -> bool:
-        """Decide about a message of so many bytes that comes now."""
+        """True if a message of `size` bytes may pass now."""
         del size
         now = self._now_ns()
-        self._last_ns = min(self._last_ns, now)  # simulated time may go back
+        self._last_ns = min(self._last_ns, now)  # simulated time may jump back
         if now - self._last_ns <= self._period_ns:
             return False
         self._last_ns = now
@@ -36,9 +36,9 @@ class MessageRateLimiter:
 
 
 class BandwidthLimiter:
-    """Lets a message through while fewer bytes were sent in the last `window_s` than are allowed.
+    """Allows a message while fewer than `allowed_bytes` were sent in the last `window_s`.
 
-    The original, too, counts neither the message's own bytes nor how many seconds a window has.
+    Like the original, ignores the message's own size and does not scale the limit by the window's length.
     """
 
     def __init__(self, allowed_bytes: float, window_s: float, now_ns: Callable[[], int]) -> None:
@@ -48,7 +48,7 @@ class BandwidthLimiter:
         self._sent: deque[tuple[int, int]] = deque()
 
     def allows(self, size: int) -> bool:
-        """Decide about a message of so many bytes that comes now."""
+        """True if a message of `size` bytes may pass now."""
         now = self._now_ns()
         while self._sent and not 0 <= now - self._sent[0][0] <= self._window_ns:
             self._sent.popleft()
@@ -59,7 +59,7 @@ class BandwidthLimiter:
 
 
 class Throttle:
-    """Passes on what its gate lets through; with ~lazy it listens only while somebody listens."""
+    """Relays messages below the limit; with ~lazy, subscribes only while there are subscribers."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host

@@ -1,4 +1,4 @@
-"""topic_tools/transform: a topic computed from another one by a Python expression."""
+"""topic_tools/transform: computes a topic from another one with a Python expression."""
 
 import asyncio
 import importlib
@@ -15,7 +15,7 @@ _POLL_S = 0.2
 
 
 class Transform:
-    """Evaluates its expression for every message; like any node of a launch file, it is code that the user runs."""
+    """Evaluates an expression for each message; like any node of a launch file, this runs the user's code."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -49,7 +49,7 @@ class Transform:
         return 0
 
     async def _subscribe(self) -> None:
-        """Wait for a topic that the input starts with, the longest one; the rest names fields of its messages."""
+        """Wait for a topic that is a prefix of the input, the longest one; the rest is a field path."""
         parts = self._source.strip("/").split("/")
         starts = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
         while True:
@@ -69,13 +69,13 @@ class Transform:
             for name in self._fields:
                 value = getattr(value, name)
             self._output.publish(self._message(_evaluate(self._code, {**self._names, "m": value})))
-        except Exception as error:  # the user's expression may raise anything
+        except Exception as error:  # user code may raise anything
             if not self._failed:
                 node.log.error(f"transform: {type(error).__name__}: {error}")
             self._failed = True
 
     def _message(self, value: Any) -> Message:
-        """A message out of what the expression gave: one, its fields in order, or the value of its only field."""
+        """Message from the expression's result: a message, its fields in order, or the value of its only field."""
         if hasattr(value, "__msgtype__"):
             return value
         if isinstance(value, list | tuple):

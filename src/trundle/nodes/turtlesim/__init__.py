@@ -1,4 +1,4 @@
-"""turtlesim: turtles that draw, and the nodes of its tutorials."""
+"""turtlesim, and the nodes of its tutorials."""
 
 import lazy_loader
 

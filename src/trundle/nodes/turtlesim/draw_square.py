@@ -1,4 +1,4 @@
-"""turtlesim/draw_square: has turtle1 walk around a square for ever."""
+"""turtlesim/draw_square: drives turtle1 around a square, endlessly."""
 
 import math
 from collections.abc import Callable
@@ -13,7 +13,7 @@ _RATE_HZ = 62.5
 
 
 class DrawSquare:
-    """Goes two metres, turns by a quarter, and again."""
+    """Drives two metres, turns by 90 degrees, and repeats."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -42,7 +42,7 @@ class DrawSquare:
     async def _until(
         self, rate: Rate, reached: Callable[[Message], bool], *, linear: float = 0.0, angular: float = 0.0
     ) -> None:
-        """Move until a goal is reached, then wait for rest."""
+        """Drive until a goal is reached, then stop and wait for rest."""
         while not reached(self._pose):
             self._commands.publish({"linear": {"x": linear}, "angular": {"z": angular}})
             await rate.sleep()

@@ -1,4 +1,4 @@
-"""turtlesim/mimic: has one turtle move as another does."""
+"""turtlesim/mimic: drives one turtle like another."""
 
 from trundle.ros import Message, Node
 
@@ -6,7 +6,7 @@ from ..host import NodeHost
 
 
 class Mimic:
-    """Turns `input/pose` into `output/cmd_vel`."""
+    """Republishes the velocities of `input/pose` on `output/cmd_vel`."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host

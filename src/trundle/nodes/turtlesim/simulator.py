@@ -1,4 +1,4 @@
-"""turtlesim/turtlesim_node: turtles that move as told and draw where they go; its window is an image topic."""
+"""turtlesim/turtlesim_node: turtles that follow velocity commands and draw; the window is an image topic."""
 
 from collections.abc import Callable
 from typing import Any
@@ -12,15 +12,15 @@ from .turtle import Colour, Turtle
 from .turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
 
 _TICK_NS = 16_000_000
-"""The original's window timer."""
+"""Timer period of the original's window."""
 _MAX_BEHIND_NS = 2_000_000_000
-"""By then every turtle stands: a command holds for a second."""
+"""Limit of catching up; commands last one second, so all turtles stand by then."""
 _PICTURE_EVERY = 6
-"""Passes between two pictures: ten a second."""
+"""Updates per image: ten images per second."""
 _BACKGROUND: Colour = (0x45, 0x56, 0xFF)
 _MAX_TURTLES = 1000
 _THINNEST_PX = 1
-"""Of a pen that is set without a width."""
+"""Width of a pen set without one."""
 
 
 class _SpawnedTurtle:
@@ -34,7 +34,7 @@ class _SpawnedTurtle:
         self.services: list[Service] = []
 
     def unregister(self) -> None:
-        """Take everything of it off the graph."""
+        """Unregister the topics and services."""
         self.pose.unregister()
         self.colour.unregister()
         if self.commands is not None:
@@ -44,7 +44,7 @@ class _SpawnedTurtle:
 
 
 class TurtleSim:
-    """Starts with turtle1 in the middle; `spawn` brings more."""
+    """Starts with turtle1 in the centre; `spawn` adds more."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -52,7 +52,7 @@ class TurtleSim:
         self._display = host.display
         self._turtles: dict[str, _SpawnedTurtle] = {}
         self._named = 0
-        """How many turtles were named since the start; a number is not given twice."""
+        """Number of generated names since the start; numbers are not reused."""
         self._background = _BACKGROUND
         self._picture = TurtleFrame(_BACKGROUND)
 
@@ -88,9 +88,9 @@ class TurtleSim:
         while True:
             await rate.sleep()
             now_ns = clock.now_ns()
-            if moved_ns > now_ns:  # time went back
+            if moved_ns > now_ns:  # time jumped back
                 moved_ns = now_ns - _TICK_NS
-            # A pass that comes late makes up for it: as far as a turtle gets is a matter of time, not of passes.
+            # Catch up after delays, so that motion depends on time, not on the number of updates.
             moved_ns = max(moved_ns, now_ns - _MAX_BEHIND_NS)
             while moved_ns + _TICK_NS <= now_ns:
                 moved_ns += _TICK_NS
@@ -204,7 +204,7 @@ class TurtleSim:
         if name in self._turtles:
             raise ServiceError(f"A turtle named [{name}] already exists")
         if len(self._turtles) >= _MAX_TURTLES:
-            raise ServiceError(f"{_MAX_TURTLES} turtles are the most there may be")
+            raise ServiceError(f"{_MAX_TURTLES} turtles is the limit")
         self._spawn(name, Turtle(request.x, request.y, request.theta, size=SIZE_M))
         return {"name": name}
 

@@ -9,7 +9,7 @@ _MOVES = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0
 
 
 class TurtleTeleopKey:
-    """Publishes one command a key press."""
+    """Publishes one command per key press."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
@@ -19,7 +19,7 @@ class TurtleTeleopKey:
     async def run(self) -> int:
         """Read keys until q, or until cancelled."""
         node = self._node
-        # Not private: launch files set them beside the nodes.
+        # Not private: launch files set them outside <node>.
         scales = {name: await node.params.get(name, 2.0) for name in ("scale_linear", "scale_angular")}
         settings = NodeParams(scales, node.resolve("scale_linear").rpartition("/")[0])
         linear, angular = settings.number("scale_linear"), settings.number("scale_angular")

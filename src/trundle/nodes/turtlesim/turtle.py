@@ -1,4 +1,4 @@
-"""One turtle: where it is, how it moves, and the pen it holds."""
+"""A turtle: pose, motion and pen."""
 
 import math
 from collections import deque
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 Colour = tuple[int, int, int]
 _COMMAND_TIMEOUT_NS = 1_000_000_000
-"""A turtle that hears nothing for a second stops."""
+"""A turtle stops after a second without commands."""
 _MAX_COMING = 100
 _Velocity = tuple[float, float, float]
 _REST: _Velocity = (0.0, 0.0, 0.0)
@@ -14,7 +14,7 @@ _REST: _Velocity = (0.0, 0.0, 0.0)
 
 @dataclass(slots=True, kw_only=True)
 class Pen:
-    """What a turtle draws with."""
+    """Line style of a turtle's path."""
 
     colour: Colour = (0xB3, 0xB8, 0xFF)
     width_px: int = 3
@@ -22,7 +22,7 @@ class Pen:
 
 
 class Turtle:
-    """Moves on the plane from (0, 0) to (size, size), in metres that the original made of pixels."""
+    """Moves on the plane from (0, 0) to (size, size) [m], by the original's metres per pixel."""
 
     def __init__(self, x: float, y: float, theta: float, *, size: float) -> None:
         self.x, self.y, self.theta = x, y, theta
@@ -30,22 +30,22 @@ class Turtle:
         self.linear_velocity = 0.0
         self.angular_velocity = 0.0
         self.hit_wall = False
-        """Whether the last move ended at a wall."""
+        """True if the last move ended at a wall."""
         self._size = size
         self._command = _REST
         self._command_ns = 0
         self._coming: deque[tuple[int, _Velocity]] = deque(maxlen=_MAX_COMING)
-        """Commands, each with when it came [ns]."""
+        """Commands with their time of arrival [ns]."""
 
     def command(self, x: float, y: float, turn: float, *, now_ns: int) -> None:
-        """Take a velocity [m/s, m/s, rad/s], for one second."""
+        """Queue a velocity command [m/s, m/s, rad/s], valid for one second."""
         self._coming.append((now_ns, (x, y, turn)))
 
     def update(self, dt_s: float, *, now_ns: int) -> None:
-        """Move for a time, by the last command that had come by then."""
+        """Move for `dt_s`, with the last command that arrived by `now_ns`."""
         while self._coming and self._coming[0][0] <= now_ns:
             self._command_ns, self._command = self._coming.popleft()
-        if abs(now_ns - self._command_ns) > _COMMAND_TIMEOUT_NS:  # or time went back
+        if abs(now_ns - self._command_ns) > _COMMAND_TIMEOUT_NS:  # or time jumped back
             self._command = _REST
         forwards, sideways, turn = self._command
         self.theta = _wrapped(self.theta + turn * dt_s)
@@ -56,17 +56,17 @@ class Turtle:
         self.linear_velocity, self.angular_velocity = math.hypot(forwards, sideways), turn
 
     def teleport(self, x: float, y: float, theta: float) -> None:
-        """Put it somewhere, inside the walls."""
+        """Set the pose, clamped to the walls."""
         self.x, self.y = min(max(x, 0.0), self._size), min(max(y, 0.0), self._size)
         self.hit_wall = (self.x, self.y) != (x, y)
         self.theta = _wrapped(theta)
 
     def teleport_relative(self, distance: float, turn: float) -> None:
-        """Turn, then go a distance at once."""
+        """Turn, then jump ahead by a distance."""
         theta = self.theta + turn
         self.teleport(self.x + math.cos(theta) * distance, self.y + math.sin(theta) * distance, theta)
 
 
 def _wrapped(angle: float) -> float:
-    """An angle between −π and π."""
+    """Wrap an angle to −π … π."""
     return math.remainder(angle, math.tau)

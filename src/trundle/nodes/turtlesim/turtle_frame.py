@@ -1,4 +1,4 @@
-"""The turtles' window as a picture: paths that stay, turtles on top."""
+"""Image of the turtles' window: paths, with turtles on top."""
 
 import math
 from collections.abc import Iterable
@@ -9,35 +9,35 @@ from .turtle import Colour, Turtle
 
 SIZE_PX = 500
 METER_PX = 45
-"""The height of the original's turtle pictures, which it calls one metre."""
+"""Height of the original's turtle images, which it calls one metre."""
 SIZE_M = (SIZE_PX - 1) / METER_PX
 _SHELL: Colour = (60, 140, 60)
 _RADIUS_M = 0.3
 
 
 class TurtleFrame:
-    """500 × 500 pixels."""
+    """Image of 500 × 500 pixels."""
 
     def __init__(self, background: Colour) -> None:
         self._paths = Image.new("RGB", (SIZE_PX, SIZE_PX), background)
 
     def clear(self, background: Colour) -> None:
-        """Wipe every path away."""
+        """Erase all paths."""
         self._paths.paste(background, (0, 0, SIZE_PX, SIZE_PX))
 
     def draw_line(self, a: tuple[float, float], b: tuple[float, float], colour: Colour, width_px: int) -> None:
-        """Draw a piece of a path between two points [m]."""
+        """Draw a path segment between two points [m]."""
         ImageDraw.Draw(self._paths).line([_pixel(*a), _pixel(*b)], fill=colour, width=width_px)
 
     def colour_at(self, x: float, y: float) -> Colour:
-        """What a turtle sees below itself."""
+        """Colour of the path below a point [m]."""
         column, row = _pixel(x, y)
         inside = (min(max(round(column), 0), SIZE_PX - 1), min(max(round(row), 0), SIZE_PX - 1))
         red, green, blue = self._paths.getpixel(inside)  # type: ignore[misc]  # an RGB picture gives three
         return int(red), int(green), int(blue)
 
     def with_turtles(self, turtles: Iterable[Turtle]) -> bytes:
-        """The window's pixels, row by row from the top, rgb."""
+        """Pixels as rgb8, row by row from the top."""
         image = self._paths.copy()
         draw = ImageDraw.Draw(image)
         for turtle in turtles:

@@ -46,7 +46,7 @@ class StepRecorder:
         """Never called, since `is_raw`."""
         raise AssertionError(message)
 
-    def receive_bytes(self, data: bytes, publisher: Publisher) -> None:
+    def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
         """Receive a serialized message; on the loop."""
         self._received.append((publisher, data))
 

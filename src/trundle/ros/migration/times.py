@@ -14,13 +14,13 @@ class TVal:
 
     def __init__(self, secs: float = 0, nsecs: int = 0) -> None:
         """Create from whole seconds and nanoseconds, or from fractional seconds alone."""
-        ns = round(secs * _S) if isinstance(secs, float) else int(secs) * _S
-        self.secs, self.nsecs = divmod(ns + int(nsecs), _S)
+        ns = round(secs * NS_PER_S) if isinstance(secs, float) else int(secs) * NS_PER_S
+        self.secs, self.nsecs = divmod(ns + int(nsecs), NS_PER_S)
 
     @classmethod
     def from_sec(cls, seconds: float) -> Self:
         """Create from seconds."""
-        return cls(0, round(seconds * _S))
+        return cls(0, round(seconds * NS_PER_S))
 
     def to_sec(self) -> float:
         """Value in seconds."""
@@ -28,7 +28,7 @@ class TVal:
 
     def to_nsec(self) -> int:
         """Value in nanoseconds."""
-        return self.secs * _S + self.nsecs
+        return self.secs * NS_PER_S + self.nsecs
 
     def is_zero(self) -> bool:
         """True if the value is 0."""
@@ -93,4 +93,4 @@ class Time(TVal):
 
 def _ns(instant: object) -> int:
     """Nanoseconds of an instance of this module or of genpy."""
-    return getattr(instant, "secs", 0) * _S + getattr(instant, "nsecs", 0)
+    return getattr(instant, "secs", 0) * NS_PER_S + getattr(instant, "nsecs", 0)
