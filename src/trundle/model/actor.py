@@ -1,4 +1,4 @@
-"""People and things that walk through a world by a script; nothing pushes them."""
+"""Actors: scripted, animated bodies that no force moves."""
 
 from pathlib import Path
 
@@ -13,77 +13,77 @@ from .plugin import PluginTag
 
 
 class Skin(Struct, frozen=True, kw_only=True):
-    """A mesh with bones in it."""
+    """Skinned mesh."""
 
     path: Path | None
-    """None: nowhere, which was said."""
+    """None if the file was not found; the reader warned."""
     uri: str
     scale: float = 1.0
 
 
 class Animation(Struct, frozen=True, kw_only=True):
-    """How the bones move, over and over."""
+    """Skeleton animation, played in a loop."""
 
     name: str
     path: Path | None
-    """.dae or .bvh; None: nowhere, which was said."""
+    """.dae or .bvh; None if the file was not found; the reader warned."""
     uri: str
     scale: float = 1.0
     interpolate_x: bool = False
-    """Whether it goes on with the way that is covered, not with time."""
+    """True if the animation advances with the distance covered along x, not with time."""
 
 
 class Waypoint(Struct, frozen=True, kw_only=True):
-    """Where an actor is at a time of its trajectory."""
+    """Pose of an actor at a time of its trajectory."""
 
     time_s: float
-    """From the trajectory's start."""
+    """Time since the start of the trajectory."""
     pose: Pose
-    """In the world, as Gazebo has it, wherever the actor is put."""
+    """Pose in the world frame, as in Gazebo, whatever the actor's own pose."""
 
 
 class Trajectory(Struct, frozen=True, kw_only=True):
-    """A smooth way through waypoints."""
+    """Spline through timed waypoints."""
 
     id: int
     type: str
-    """The name of the animation that plays meanwhile."""
+    """Name of the animation played along the trajectory."""
     tension: float = 0.0
     """0: a Catmull-Rom spline; 1: straight lines."""
     waypoints: tuple[Waypoint, ...] = ()
-    """By time."""
+    """Sorted by time."""
 
 
 class AnimationState(Struct, frozen=True, kw_only=True):
-    """What the bones of an actor are at."""
+    """Playback state of an actor's skeleton animation."""
 
     animation: str = ""
-    """Its name; what no animation bears stands for the first."""
+    """Name of the animation; an unknown name selects the first."""
     time_s: float = 0.0
-    """Since the animation began."""
+    """Time since the animation began."""
     distance_m: float | None = None
-    """What has been covered of the way; None: the actor stands, and the animation itself carries it along."""
+    """Distance covered along the trajectory; None: standing still, so the animation itself moves the root bone."""
     placed: bool = True
-    """Whether the animation places and turns the root bone, too; else the actor's own pose does."""
+    """True if the animation also places the root bone; False: the actor's pose does."""
 
 
 class Actor(Struct, frozen=True, kw_only=True):
-    """Something that moves as its script or its plugins say."""
+    """Scripted body: moved by its trajectories or by plugins, never by physics."""
 
     name: str
     at: Source
     world_from_actor: Pose = Pose()
     skin: Skin | None = None
-    """None: what is seen is on its links."""
+    """None: only the visuals of its links are drawn."""
     animations: tuple[Animation, ...] = ()
     loop: bool = True
-    """Begin again when all trajectories are done."""
+    """Start over when all trajectories are done."""
     delay_start_s: float = 0.0
-    """Wait before each round."""
+    """Delay before each round."""
     auto_start: bool = True
-    """Move as soon as the world does."""
+    """Start with the world."""
     trajectories: tuple[Trajectory, ...] = ()
-    """By their numbers."""
+    """Sorted by id."""
     links: tuple[Link, ...] = ()
     joints: tuple[Joint, ...] = ()
     plugins: tuple[PluginTag, ...] = ()

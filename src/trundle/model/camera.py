@@ -1,4 +1,4 @@
-"""What a camera is made of: picture, lens, distortion, clip and noise."""
+"""Camera parameters: image, lens, distortion, clip planes and noise."""
 
 from msgspec import Struct
 
@@ -9,7 +9,7 @@ from .visibility import EVERY_BIT
 
 
 class Distortion(Struct, frozen=True, kw_only=True):
-    """Brown's distortion of normalised image coordinates, as OpenCV's plumb_bob has it."""
+    """Brown distortion of normalised image coordinates, as in OpenCV's plumb_bob."""
 
     k1: float = 0.0
     k2: float = 0.0
@@ -17,11 +17,11 @@ class Distortion(Struct, frozen=True, kw_only=True):
     p1: float = 0.0
     p2: float = 0.0
     center: tuple[float, float] = (0.5, 0.5)
-    """Of the distortion, in widths and heights from the upper left corner."""
+    """Centre of distortion in image widths and heights from the upper left corner."""
 
 
 class PixelIntrinsics(Struct, frozen=True, kw_only=True):
-    """A pinhole in pixels: u = fx x + s y + cx, v = fy y + cy, for a ray through (x, y, 1)."""
+    """Pinhole intrinsics in pixels: u = fx x + s y + cx, v = fy y + cy, for a ray through (x, y, 1)."""
 
     fx: float
     fy: float
@@ -31,7 +31,7 @@ class PixelIntrinsics(Struct, frozen=True, kw_only=True):
 
 
 class Projection(Struct, frozen=True, kw_only=True):
-    """The 3×4 matrix P that camera_info is to tell."""
+    """Projection matrix P (3×4) of camera_info."""
 
     fx: float
     fy: float
@@ -42,8 +42,9 @@ class Projection(Struct, frozen=True, kw_only=True):
 
 
 class Lens(Struct, frozen=True, kw_only=True):
-    """A wide lens: a ray at an angle θ from the axis is seen r = c1 f fun(θ / c2 + c3) from the middle, where half the
-    picture's width is 1."""
+    """Wide-angle lens: a ray at angle θ from the axis falls at radius r = c1 f fun(θ / c2 + c3) from the image centre,
+    in units of half the image width.
+    """
 
     c1: float
     c2: float
@@ -52,18 +53,18 @@ class Lens(Struct, frozen=True, kw_only=True):
     fun: str = "tan"
     """tan, sin or id."""
     scale_to_hfov: bool = True
-    """f is such that the picture's width holds the horizontal field of view."""
+    """Scale f so that the image width spans the horizontal field of view."""
     cutoff_rad: float = 1.5707
-    """What is farther from the axis is black."""
+    """Largest angle from the axis; rays beyond it are black."""
     face_px: int = 256
-    """Width of each of the pinhole pictures that the lens looks at."""
+    """Width of each pinhole face image that the lens samples."""
 
 
 class CameraOptics(Struct, frozen=True, kw_only=True):
-    """A camera looking along +x of its frame, y to the left, z up."""
+    """Camera looking along +x of its frame, y to the left, z up."""
 
     name: str = ""
-    """Tells the cameras of a multicamera apart."""
+    """Name of the camera within a multicamera."""
     sensor_from_camera: Pose = Pose()
     horizontal_fov_rad: float = 1.047
     width_px: int = 320
@@ -72,29 +73,29 @@ class CameraOptics(Struct, frozen=True, kw_only=True):
     near_m: float = 0.1
     far_m: float = 100.0
     noise: Noise = Noise()
-    """Of each pixel, where white is 1; of a depth picture [m]."""
+    """Noise per pixel, white = 1; [m] for a depth image."""
     distortion: Distortion = Distortion()
     intrinsics: PixelIntrinsics | None = None
-    """None: the picture's middle is straight ahead, and its width holds the horizontal field of view."""
+    """None: centred principal point, focal length from the horizontal field of view."""
     projection: Projection | None = None
     lens: Lens | None = None
     """Set for wide-angle cameras."""
     depth_near_m: float | None = None
-    """Where depths begin; None: where the picture does."""
+    """Near limit of depths; None: the near clip plane."""
     depth_far_m: float | None = None
     save_path: str | None = None
-    """The folder that pictures are saved to."""
+    """Folder that images are saved to."""
     panoptic: bool = False
-    """A segmentation camera tells things of one label apart."""
+    """True if a segmentation camera distinguishes instances of one label."""
     visibility_mask: int = EVERY_BIT
-    """Visuals are seen whose flags share a bit with it."""
+    """Mask of the visuals drawn: those whose flags share a bit with it."""
     triggered: bool = False
-    """It takes a picture only when it is told to."""
+    """True if an image is taken only on a trigger message."""
     trigger_topic: str = ""
-    """Where it is told so; empty: `trigger` below its own."""
+    """Topic of trigger messages; empty: `trigger` below the sensor's own topic."""
     info_topic: str = ""
-    """Of camera_info, where that is elsewhere."""
+    """Topic of camera_info; empty: the default."""
     optical_frame: str = ""
-    """The frame that its pictures are in, where that has a name."""
+    """frame_id of the images; empty: the default."""
     box_type: str = "2d"
-    """Of a bounding box camera: 2d is around what is visible, full_2d around all of a thing, 3d in space."""
+    """Bounding box type: 2d encloses the visible part, full_2d the whole object, 3d is a box in space."""

@@ -1,4 +1,4 @@
-"""What is around the models: time and pull, air and earth."""
+"""World environment: physics settings, gravity, geographic origin, atmosphere and scene."""
 
 from msgspec import Struct
 
@@ -8,7 +8,7 @@ from .material import Rgba
 
 
 class PhysicsSettings(Struct, frozen=True, kw_only=True):
-    """How time passes and what pulls."""
+    """Time step, real-time rate and gravity."""
 
     max_step_size_s: float = 0.001
     real_time_factor: float = 1.0
@@ -20,20 +20,20 @@ class PhysicsSettings(Struct, frozen=True, kw_only=True):
 
 
 class SphericalCoordinates(Struct, frozen=True, kw_only=True):
-    """Where on Earth the world's origin is."""
+    """Geographic position and heading of the world's origin."""
 
     latitude_deg: float = 0.0
     longitude_deg: float = 0.0
     elevation: float = 0.0
     """[m]"""
     heading_deg: float = 0.0
-    """From east to the world's x axis."""
+    """Angle from east to the world's x axis."""
     surface_model: str = "EARTH_WGS84"
     world_frame_orientation: str = "ENU"
 
 
 class Atmosphere(Struct, frozen=True, kw_only=True):
-    """Air that thins with height, adiabatically."""
+    """Atmosphere with SDF's adiabatic temperature gradient."""
 
     temperature: float = 288.15
     """At the ground [K]."""
@@ -44,7 +44,7 @@ class Atmosphere(Struct, frozen=True, kw_only=True):
 
 
 class Fog(Struct, frozen=True, kw_only=True):
-    """Haze that hides what is far."""
+    """Fog that fades distant surfaces."""
 
     type: str = "none"
     """none, linear, quadratic or exponential."""
@@ -55,7 +55,7 @@ class Fog(Struct, frozen=True, kw_only=True):
 
 
 class SceneSettings(Struct, frozen=True, kw_only=True):
-    """How the world looks where nothing else says."""
+    """Scene defaults: ambient light, background, shadows, sky and fog."""
 
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
     background: Rgba = (0.7, 0.7, 0.7, 1.0)

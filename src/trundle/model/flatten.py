@@ -1,4 +1,4 @@
-"""Models within models, as one: what physics, sensors and the graph see."""
+"""Flattening of nested models into one model."""
 
 from msgspec.structs import replace
 
@@ -13,12 +13,12 @@ WORLD = "world"
 
 
 def flattened(world: World) -> World:
-    """The same world without nested models: their links and joints are called `inner::name`."""
+    """Return the world without nested models; their links and joints become `inner::name`."""
     return replace(world, models=tuple(map(flat_model, world.models)))
 
 
 def flat_model(model: Model) -> Model:
-    """One model with everything nested in it."""
+    """Return the model with the links, joints and plugins of all nested models."""
     if not model.models:
         return model
     links, joints, plugins = list(model.links), list(model.joints), list(model.plugins)

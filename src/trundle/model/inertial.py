@@ -1,6 +1,6 @@
 """Mass properties of a link.
 
-SDF and URDF <inertial> both end here; `physics` alone reads it.
+SDF and URDF <inertial> both end here; only `physics` reads it.
 """
 
 from msgspec import Struct
@@ -18,4 +18,4 @@ class Inertial(Struct, frozen=True, kw_only=True):
     moments: tuple[float, float, float] = (1.0, 1.0, 1.0)
     """ixx, iyy, izz about the centre of mass, in the inertia frame [kg·m²]."""
     products: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """ixy, ixz, iyz, likewise [kg·m²]."""
+    """ixy, ixz, iyz about the centre of mass, in the inertia frame [kg·m²]."""

@@ -1,4 +1,4 @@
-"""What sensors other than cameras, rays and imus are set to."""
+"""Settings of sensors other than cameras, rays, IMUs, GPS and force-torque sensors."""
 
 from typing import TypeAlias
 
@@ -8,24 +8,24 @@ from .noise import Noise
 
 
 class LogicalCamera(Struct, frozen=True, kw_only=True):
-    """Tells which models are in a pyramid along +x."""
+    """Sensor that lists the models inside a pyramid along +x."""
 
     near_m: float = 0.0
     far_m: float = 1.0
     aspect_ratio: float = 1.0
-    """Width over height."""
+    """Width / height."""
     horizontal_fov_rad: float = 1.0
 
 
 class Sonar(Struct, frozen=True, kw_only=True):
-    """Tells how near the nearest thing is in a cone along −z, as Gazebo has it, or in a ball."""
+    """Range sensor with a cone along −z, as in Gazebo, or a sphere."""
 
     geometry: str = "cone"
     """cone or sphere."""
     min_m: float = 0.0
     max_m: float = 1.0
     radius: float = 0.5
-    """Of the cone's far end, or of the ball [m]."""
+    """Radius of the cone's far end, or of the sphere [m]."""
 
 
 class Transceiver(Struct, frozen=True, kw_only=True):
@@ -33,18 +33,18 @@ class Transceiver(Struct, frozen=True, kw_only=True):
 
     essid: str = "wireless"
     frequency_mhz: float = 2442.0
-    """Of a transmitter."""
+    """Frequency of a transmitter."""
     lowest_mhz: float = 2412.0
-    """That a receiver hears."""
+    """Lower end of a receiver's band."""
     highest_mhz: float = 2484.0
     gain_dbi: float = 2.5
     power_dbm: float = 14.5
     sensitivity_dbm: float = -90.0
-    """What is weaker a receiver does not hear."""
+    """Weakest signal that a receiver detects."""
 
 
 class Altimeter(Struct, frozen=True, kw_only=True):
-    """Tells height above where it started, and how fast that grows."""
+    """Sensor of the height above its starting point and of vertical velocity."""
 
     position: Noise = Noise()
     """[m]"""
@@ -53,23 +53,23 @@ class Altimeter(Struct, frozen=True, kw_only=True):
 
 
 class Magnetometer(Struct, frozen=True, kw_only=True):
-    """Tells the world's magnetic field along its own axes."""
+    """Sensor of the world's magnetic field in its own frame."""
 
     field: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[T]"""
 
 
 class AirPressure(Struct, frozen=True, kw_only=True):
-    """Tells the pressure of still air."""
+    """Barometer: static air pressure."""
 
     reference_altitude: float = 0.0
-    """Of the world's z = 0 above the ground of its atmosphere [m]."""
+    """Height of the world's z = 0 above the ground of its atmosphere [m]."""
     pressure: Noise = Noise()
     """[Pa]"""
 
 
 class AirSpeed(Struct, frozen=True, kw_only=True):
-    """Tells the pressure of the air that meets it along +x."""
+    """Pitot sensor: dynamic pressure of the air along +x."""
 
     pressure: Noise = Noise()
     """[Pa]"""

@@ -1,4 +1,4 @@
-"""How two links may move relative to one another."""
+"""Joints: type, axes, limits and passive forces."""
 
 import math
 from enum import Enum
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class JointType(Enum):
-    """SDF's joint types, and URDF's planar one; its others are lowered to these."""
+    """SDF's joint types, and URDF's planar one; URDF's other types are lowered to these."""
 
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
@@ -25,19 +25,19 @@ class JointType(Enum):
     REVOLUTE2 = "revolute2"
     GEARBOX = "gearbox"
     PLANAR = "planar"
-    """Slides both ways across its axis, and turns about it."""
+    """Translation along two axes normal to its axis, and rotation about it."""
 
 
 UNLIMITED = 1e16
-"""SDF's own word for no limit; anything this large or larger is none."""
+"""SDF's value for no limit; this or larger is unlimited."""
 
 
 class Mimic(Struct, frozen=True, kw_only=True):
-    """A joint axis that follows another: multiplier · (leader − reference) + offset."""
+    """Mimic joint axis: multiplier · (leader − reference) + offset."""
 
     joint: str
     axis: int = 0
-    """Which axis of the leader: 0 or 1."""
+    """Axis of the leader: 0 or 1."""
     multiplier: float = 1.0
     offset: float = 0.0
     """[rad] or [m]"""
@@ -66,43 +66,45 @@ class JointAxis(Struct, frozen=True, kw_only=True):
     spring_stiffness: float = 0.0
     """[N·m/rad] or [N/m]"""
     stop_stiffness: float = 1e8
-    """Of its limits [N·m/rad] or [N/m]."""
+    """Stiffness of the limits [N·m/rad] or [N/m]."""
     stop_dissipation: float = 1.0
-    """Of its limits [N·m·s/rad] or [N·s/m]."""
+    """Damping of the limits [N·m·s/rad] or [N·s/m]."""
     initial_position: float = 0.0
-    """Where it starts [rad] or [m]; of SDF 1.6 to 1.8, and not heeded by Gazebo."""
+    """Initial position [rad] or [m]; SDF 1.6 to 1.8, ignored by Gazebo."""
     mimic: Mimic | None = None
 
     @property
     def is_rigid(self) -> bool:
-        """Whether the limits leave no freedom, as the 0..0 of many published robots."""
+        """True if the limits leave no freedom, such as the 0..0 of many published robots."""
         return self.lower == self.upper
 
 
 class Joint(Struct, frozen=True, kw_only=True):
-    """A joint between a parent and a child link of one model, or with the world."""
+    """Joint between a parent and a child link of one model, or the world."""
 
     name: str
     type: JointType
     parent: str
     """Link name, or "world"; links of nested models by `model::link`."""
     child: str
-    """Likewise."""
+    """Link name, or "world"; links of nested models by `model::link`."""
     at: Source
     parent_frame: str | None = None
-    """The frame that the file names where a link is wanted; None: the link itself."""
+    """Frame named in place of the parent link; None: the link itself."""
     child_frame: str | None = None
-    """Likewise."""
+    """Frame named in place of the child link; None: the link itself."""
     child_from_joint: Pose = Pose()
-    """In the child link's frame."""
+    """Joint frame in the child link's frame."""
     parent_from_child: Pose | None = None
-    """Where a fixed joint holds the child link, in the parent's frame; None: as they lie with every joint at zero."""
+    """Pose in which a fixed joint holds the child link, in the parent's frame; None: the poses with every joint at
+    zero.
+    """
     axis: JointAxis | None = None
     """None for fixed and ball joints."""
     axis2: JointAxis | None = None
-    """Of universal, revolute2 and gearbox joints."""
+    """Second axis of universal, revolute2 and gearbox joints."""
     thread_pitch: float = 1.0
-    """Of screw joints, as Gazebo has it [rad/m], the sign opposite to a right-hand thread."""
+    """Thread pitch of screw joints in Gazebo's convention [rad/m], of opposite sign to a right-hand thread."""
     gearbox_ratio: float = 1.0
     gearbox_reference_body: str | None = None
     sensors: tuple["Sensor", ...] = ()

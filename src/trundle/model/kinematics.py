@@ -1,4 +1,4 @@
-"""Where the links of a model are for given joint positions: pure geometry, no engine."""
+"""Forward kinematics of a model, without a physics engine."""
 
 from collections.abc import Mapping
 
@@ -9,7 +9,7 @@ from .model import Model
 
 
 def model_from_joint(model: Model, joint: Joint) -> Pose:
-    """The joint's frame in the model frame with every joint at zero."""
+    """Return the joint frame in the model frame with every joint at zero."""
     return _model_from_link(model, joint.child) @ joint.child_from_joint
 
 
@@ -24,7 +24,7 @@ def _model_from_link(model: Model, name: str) -> Pose:
 
 
 def joint_motion(joint: Joint, position: float) -> Pose:
-    """How far a single-axis joint at `position` [rad or m] moves its child, about the model's origin axes.
+    """Return the motion of a single-axis joint's child at `position` [rad or m].
 
     The pose is a motion in axes parallel to the model frame, with the joint's anchor as origin.
     """
@@ -36,9 +36,9 @@ def joint_motion(joint: Joint, position: float) -> Pose:
 
 
 def model_from_links(model: Model, positions: Mapping[str, float]) -> dict[str, Pose]:
-    """Link poses in the model frame for the joint positions given [rad or m]; joints not named are at zero.
+    """Return link poses in the model frame for joint positions [rad or m]; joints not named are at zero.
 
-    The first link that is nobody's child stays where it was written.
+    Root links stay at their written pose.
     """
     at_zero = {link.name: link.model_from_link for link in model.links}
     parent_joint = {joint.child: joint for joint in reversed(model.joints)}
@@ -64,6 +64,6 @@ def model_from_links(model: Model, positions: Mapping[str, float]) -> dict[str, 
 
 
 def _about(anchor: Vector3, motion: Pose) -> Pose:
-    """The same motion, taken about `anchor` instead of the origin."""
+    """Return the motion taken about `anchor` instead of the origin."""
     x, y, z = anchor
     return Pose(anchor) @ motion @ Pose((-x, -y, -z))

@@ -1,4 +1,4 @@
-"""A rigid body with what is seen, touched and mounted on it."""
+"""Links: rigid bodies with visuals, collisions, sensors and lights."""
 
 from typing import TYPE_CHECKING
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Visual(Struct, frozen=True, kw_only=True):
-    """A shape that is seen."""
+    """Visual shape of a link."""
 
     name: str
     geometry: "Geometry"
@@ -31,19 +31,19 @@ class Visual(Struct, frozen=True, kw_only=True):
     """0 opaque to 1 invisible."""
     cast_shadows: bool = True
     laser_retro: float = 0.0
-    """What a laser gets back, as its intensity."""
+    """Intensity of a laser's return."""
     label: int = 0
-    """What segmentation cameras see in it; 0: background."""
+    """Label for segmentation cameras; 0: background."""
     visibility_flags: int = EVERY_BIT
-    """Sensors see it whose mask shares a bit with them."""
+    """Visibility flags: drawn by sensors whose mask shares a bit with them."""
     temperature: float | None = None
-    """What thermal cameras see in it [K]; None: that of the air."""
+    """Temperature for thermal cameras [K]; None: the ambient air's."""
     plugins: tuple["PluginTag", ...] = ()
-    """Those that alter it or draw beside it; labels and temperatures are read."""
+    """Visual plugins; the reader has already taken labels and temperatures from them."""
 
 
 class Collision(Struct, frozen=True, kw_only=True):
-    """A shape that is touched."""
+    """Collision shape of a link."""
 
     name: str
     geometry: "Geometry"
@@ -51,30 +51,30 @@ class Collision(Struct, frozen=True, kw_only=True):
     link_from_collision: Pose = Pose()
     surface: Surface = Surface()
     laser_retro: float = 0.0
-    """What a laser gets back, as its intensity."""
+    """Intensity of a laser's return."""
 
 
 class Link(Struct, frozen=True, kw_only=True):
-    """One rigid body of a model."""
+    """Rigid body of a model."""
 
     name: str
     at: Source
     model_from_link: Pose = Pose()
-    """At rest, as written."""
+    """Pose with every joint at zero, as written."""
     initial_pose: Pose | None = None
-    """Where a saved state of the world has it, in the model frame; None: as written."""
+    """Pose from a saved world state, in the model frame; None: as written."""
     inertial: Inertial = Inertial()
     visuals: tuple[Visual, ...] = ()
     collisions: tuple[Collision, ...] = ()
     sensors: tuple["Sensor", ...] = ()
     gravity: bool = True
     self_collide: bool | None = None
-    """None: as the model says."""
+    """None: the model's setting."""
     kinematic: bool = False
     linear_decay: float = 0.0
     angular_decay: float = 0.0
     enable_wind: bool | None = None
-    """None: as the model says."""
+    """None: the model's setting."""
     lights: tuple["Light", ...] = ()
     fixed: bool = False
-    """Held by the world: a link of a static model within one that is not."""
+    """True if fixed to the world: a link of a static model nested in a dynamic one."""

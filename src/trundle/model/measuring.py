@@ -1,4 +1,4 @@
-"""Settings of rays, imus, satellite receivers and force-torque sensors."""
+"""Settings of ray sensors, IMUs, GPS receivers and force-torque sensors."""
 
 from msgspec import Struct
 
@@ -9,11 +9,11 @@ from .visibility import EVERY_BIT
 
 
 class ScanAxis(Struct, frozen=True, kw_only=True):
-    """The angles of a fan of rays."""
+    """Horizontal or vertical angles of a ray scan."""
 
     samples: int = 1
     resolution: float = 1.0
-    """Values told for each sample; Gazebo interpolates between rays."""
+    """Output values per sample; Gazebo interpolates between rays."""
     min_angle: float = 0.0
     """[rad]"""
     max_angle: float = 0.0
@@ -21,12 +21,12 @@ class ScanAxis(Struct, frozen=True, kw_only=True):
 
     @property
     def values(self) -> int:
-        """How many are told."""
+        """Number of output values."""
         return max(1, int(self.samples * self.resolution))
 
 
 class RangeScan(Struct, frozen=True, kw_only=True):
-    """Rays from the sensor's origin, about its z axis and then up by its vertical angles; 0, 0 looks along +x."""
+    """Ray scan from the sensor's origin: horizontal angles about its z axis, vertical angles upwards; (0, 0) is +x."""
 
     horizontal: ScanAxis = ScanAxis()
     vertical: ScanAxis = ScanAxis()
@@ -34,32 +34,32 @@ class RangeScan(Struct, frozen=True, kw_only=True):
     max_m: float = 0.0
     noise: Noise = Noise()
     visibility_mask: int = EVERY_BIT
-    """For gpu_ray sensors: they see the visuals whose flags share a bit with it."""
+    """Mask of gpu_ray sensors: they see the visuals whose flags share a bit with it."""
 
 
 class OrientationReference(Struct, frozen=True, kw_only=True):
-    """The frame that an imu tells its orientation in."""
+    """Reference frame of an IMU's orientation."""
 
     localization: str = "CUSTOM"
     """ENU, NED, NWU, GRAV_UP, GRAV_DOWN or CUSTOM."""
     custom_rpy: Vector3 = (0.0, 0.0, 0.0)
-    """Roll, pitch and yaw of a custom frame in its parent [rad]."""
+    """Roll, pitch and yaw of a CUSTOM frame in its parent [rad]."""
     parent_frame: str = ""
-    """world, or empty: the sensor's own frame at the start."""
+    """"world", or empty: the sensor's initial frame."""
     gravity_x: Vector3 = (1.0, 0.0, 0.0)
-    """The x axis of GRAV_UP, whose z points against gravity, and of GRAV_DOWN, whose z points along it."""
+    """x axis of GRAV_UP, whose z points against gravity, and of GRAV_DOWN, whose z points along it."""
     gravity_parent_frame: str = ""
 
 
 class ImuNoise(Struct, frozen=True, kw_only=True):
-    """Noise about each axis of the sensor, x y z, and the frame of its orientation."""
+    """Noise of an IMU about its x, y and z axes, and the reference frame of its orientation."""
 
     angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[rad/s]"""
     linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[m/s²]"""
     reference: OrientationReference | None = None
-    """None: the sensor as it was at the start."""
+    """None: the sensor's initial frame."""
 
 
 class GpsNoise(Struct, frozen=True, kw_only=True):
@@ -70,13 +70,13 @@ class GpsNoise(Struct, frozen=True, kw_only=True):
 
 
 class ForceTorque(Struct, frozen=True, kw_only=True):
-    """How what a joint carries is told."""
+    """Force-torque sensor on a joint: frame, direction and noise of its wrench."""
 
     frame: str = "child"
-    """Whose axes: child, parent or sensor."""
+    """Frame of the wrench: child, parent or sensor."""
     parent_to_child: bool = False
-    """What the parent does to the child; else what the child does to the parent."""
+    """True: wrench of the parent on the child; False: of the child on the parent."""
     force: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """Along the axes that are told [N]."""
+    """Noise along the axes of `frame` [N]."""
     torque: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[N·m]"""
+    """Noise about the axes of `frame` [N·m]."""

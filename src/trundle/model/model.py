@@ -1,4 +1,4 @@
-"""Links joined by joints, placed as one."""
+"""Models: links joined by joints."""
 
 from typing import TYPE_CHECKING
 
@@ -14,44 +14,44 @@ if TYPE_CHECKING:
 
 
 class Frame(Struct, frozen=True, kw_only=True):
-    """A named place that moves with what it is attached to."""
+    """Named frame, fixed to what it is attached to."""
 
     name: str
     at: Source
     model_from_frame: Pose = Pose()
-    """With every joint at zero; of a world's frame: in the world."""
+    """Pose with every joint at zero; in the world for a frame of the world."""
     attached_to: str = "__model__"
-    """As written: a link, joint, frame or nested model beside it, or the model itself."""
+    """Link, joint, frame or nested model of the same scope, or the model itself, as written."""
 
 
 class Model(Struct, frozen=True, kw_only=True):
-    """Links joined by joints, and models within the model."""
+    """Links joined by joints, and nested models."""
 
     name: str
     at: Source
     world_from_model: Pose = Pose()
-    """Of a nested model: in the frame of the model around it."""
+    """Pose in the world, or in the enclosing model's frame for a nested model."""
     static: bool = False
     self_collide: bool = False
     allow_auto_disable: bool = True
-    """May come to rest for good until something touches it."""
+    """True if the model may sleep until a contact wakes it."""
     enable_wind: bool = False
     links: tuple["Link", ...] = ()
     joints: tuple["Joint", ...] = ()
     frames: tuple[Frame, ...] = ()
     models: tuple["Model", ...] = ()
-    """Nested ones; `flattened` makes their links this model's."""
+    """Nested models; `flattened` turns their links into links of this model."""
     plugins: tuple["PluginTag", ...] = ()
     canonical_link: str | None = None
-    """The link the model's pose follows, `model::link` where it is nested; None: there is no link."""
+    """Link that the model's pose follows, `model::link` if nested; None without links."""
     added: bool = False
-    """Put there by `run`, not named by the file."""
+    """True if `run` added the model and no file names it."""
 
     def link(self, name: str) -> "Link":
-        """The link of that name, nested models aside.
+        """Return a link by name, without searching nested models.
 
         Raises:
-            KeyError: with the names there are.
+            KeyError: no such link; the message lists the links there are.
         """
         for link in self.links:
             if link.name == name:
@@ -59,10 +59,10 @@ class Model(Struct, frozen=True, kw_only=True):
         raise KeyError(f"model {self.name!r} has no link {name!r}; links here: {_quoted(self.links)}")
 
     def joint(self, name: str) -> "Joint":
-        """The joint of that name.
+        """Return a joint by name.
 
         Raises:
-            KeyError: with the names there are.
+            KeyError: no such joint; the message lists the joints there are.
         """
         for joint in self.joints:
             if joint.name == name:

@@ -1,4 +1,4 @@
-"""A plugin tag, kept as the author wrote it."""
+"""Plugin tags, as written."""
 
 from msgspec import Struct
 
@@ -7,11 +7,11 @@ from trundle.xmlnode import XmlNode
 
 
 class PluginTag(Struct, frozen=True, kw_only=True):
-    """Names the plugin a model, world or sensor asks for; `plugins` looks for it."""
+    """Plugin of a model, world or sensor, found by `plugins` through its file name."""
 
     name: str
     filename: str
     """As written: a bare `libx.so` or a path on the author's machine."""
     at: Source
     node: XmlNode
-    """The element, for the plugin to read its parameters from."""
+    """XML element with the plugin's parameters."""

@@ -1,4 +1,4 @@
-"""Ways painted on the ground."""
+"""Roads drawn on the ground."""
 
 from msgspec import Struct
 
@@ -9,12 +9,14 @@ from .material import Material
 
 
 class Road(Struct, frozen=True, kw_only=True):
-    """A strip along a line: seen, never touched."""
+    """Road strip along a centre line: visual only, no collision."""
 
     name: str
     at: Source
     points: tuple[Vector3, ...]
-    """Of its middle line, at least two [m]."""
+    """Centre line, at least two points [m]."""
     width: float = 1.0
-    """[m] A texture is as wide: u goes from 0 on the left to 1 on the right, v grows by one on every `width` of way."""
+    """Width [m], which is also the texture's: u runs from 0 on the left to 1 on the right, v grows by 1 per `width` of
+    length.
+    """
     material: Material

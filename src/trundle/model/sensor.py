@@ -1,4 +1,4 @@
-"""Sensors as a description states them; the room `sensors` makes them measure."""
+"""Sensors as described; the room `sensors` implements them."""
 
 from typing import TYPE_CHECKING
 
@@ -36,15 +36,15 @@ MEASURING = frozenset(
         "wireless_transmitter",
     }
 )
-"""Types that need no picture; tags and transmitters are measured by others."""
+"""Sensor types that need no image; tags and transmitters are detected by other sensors."""
 
 
 class Sensor(Struct, frozen=True, kw_only=True):
-    """A sensor mounted on a link."""
+    """Sensor mounted on a link."""
 
     name: str
     type: str
-    """SDF's word: camera, ray, imu, …"""
+    """SDF type: camera, ray, imu, …"""
     at: Source
     link_from_sensor: Pose = Pose()
     update_rate_hz: float = 0.0
@@ -63,7 +63,7 @@ class Sensor(Struct, frozen=True, kw_only=True):
     force_torque: "ForceTorque | None" = None
     """Set for force_torque sensors, which sit on joints."""
     contact_collisions: tuple[str, ...] | None = None
-    """Set for contact sensors: the collisions of the link that feel; none named stands for all."""
+    """Set for contact sensors: collisions of the link that are monitored; empty: all."""
     instrument: "Instrument | None" = None
     """Set for sensors of other types that have settings."""
     plugins: tuple["PluginTag", ...] = ()

@@ -1,3 +1,3 @@
-"""Who sees what: a sensor's mask and a visual's flags have to share a bit."""
+"""Visibility masks: a sensor draws a visual when its mask and the visual's flags share a bit."""
 
 EVERY_BIT = 0xFFFFFFFF

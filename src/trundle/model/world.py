@@ -1,4 +1,4 @@
-"""The world that holds all models: what every reader makes and every consumer starts from."""
+"""World: the result of every reader and the input of every consumer."""
 
 from typing import TYPE_CHECKING
 
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 
 class World(Struct, frozen=True, kw_only=True):
-    """Everything that is simulated together."""
+    """Everything simulated together: models, lights, actors, plugins and settings."""
 
     name: str
     at: Source
     models: tuple["Model", ...] = ()
     joints: tuple["Joint", ...] = ()
-    """Between models; links by `model::link`, poses and axes in the world."""
+    """Joints between models; links by `model::link`, poses and axes in the world frame."""
     frames: tuple["Frame", ...] = ()
     lights: tuple["Light", ...] = ()
     roads: tuple["Road", ...] = ()
