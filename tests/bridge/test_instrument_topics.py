@@ -300,7 +300,7 @@ def test_a_force_torque_sensor_on_a_link_says_that_it_tells_nothing(described: A
 
     assert mount_sensors(sim) == []
     (warning,) = sim.report.warnings
-    assert warning.endswith("sensor 's': force_torque sensors measure joints; on a link it tells nothing")
+    assert warning.endswith("sensor 's': force_torque sensors measure joints; not simulated on a link")
 
 
 def test_a_force_torque_sensor_names_the_direction_that_it_does_not_know(described: Any) -> None:

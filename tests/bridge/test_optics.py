@@ -208,7 +208,7 @@ def test_a_lens_that_cannot_be_is_mended_aloud(described: Any) -> None:
 
     assert camera.measure(sim.snapshot()).rgb.shape == (240, 320, 3)
     (warning,) = sim.report.warnings
-    assert warning.endswith("sensor 'eye': no such lens sees 3.3 rad; it is not scaled to the field of view")
+    assert warning.endswith("sensor 'eye': no scale of this lens spans 3.3 rad; <scale_to_hfov> is ignored")
 
 
 def test_what_is_in_a_camera_is_written_as_it_was_read(described: Any) -> None:

@@ -1,4 +1,4 @@
-"""Snapshots become readings."""
+"""Simulated sensors: snapshots in, readings out."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Sensors of the air: its pressure at rest, and what it exerts on what flies."""
+"""Barometers and Pitot tubes: static and dynamic air pressure."""
 
 import math
 
@@ -14,36 +14,36 @@ from .noise import NoiseSource
 _GRAVITY = 9.80665
 """[m/s²] Standard gravity."""
 _MOLAR_MASS = 0.0289644
-"""[kg/mol] Of dry air."""
+"""Molar mass of dry air [kg/mol]."""
 _GAS = 8.31446
-"""[J/(mol K)]"""
+"""Gas constant [J/(mol K)]."""
 _EARTH = 6_356_766.0
-"""[m] The radius that gz-sim reckons with."""
+"""Earth's radius in gz-sim's geopotential height [m]."""
 _DENSEST = 100.0
-"""Logarithm of how much denser than at the ground air becomes below it."""
+"""Largest logarithm of the pressure ratio to ground level, far below the ground."""
 _COLDEST = 1.0
-"""[K] Above where the air would be colder it is all the same."""
+"""Lower bound of the temperature [K]."""
 
 
 class PressureReading(Struct, frozen=True, kw_only=True):
-    """A pressure."""
+    """Pressure with its variance."""
 
     time_ns: int
     pressure: float
-    """[Pa]; of an air speed sensor what moving adds, negative from behind."""
+    """[Pa]; for an air speed sensor the dynamic pressure, negative for flow from behind."""
     variance: float
     """[Pa²]"""
 
 
 class _PressureSensor(LiveSensor[PressureReading]):
-    """Reads a pressure, with noise."""
+    """Pressure sensor with noise."""
 
     def __init__(self, mount: SensorMount, *, air: Atmosphere) -> None:
-        """Mount it; see `LiveSensor`.
+        """Mount the sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            air: of the world.
+            mount: model, link and sensor.
+            air: the world's atmosphere.
         """
         super().__init__(mount)
         assert isinstance(mount.sensor.instrument, AirPressure | AirSpeed), f"{mount.sensor.name!r} reads no pressure"
@@ -52,20 +52,20 @@ class _PressureSensor(LiveSensor[PressureReading]):
         self._noise = NoiseSource(mount.sensor.instrument.pressure, mount.random)
 
     def pressure(self, snapshot: Snapshot) -> float:
-        """What there is at this instant [Pa]."""
+        """Return the pressure without noise [Pa]."""
         raise NotImplementedError
 
     def measure(self, snapshot: Snapshot) -> PressureReading:
-        """The pressure at this instant."""
+        """Measure the pressure."""
         pressure = self._noise.apply_to_value(self.pressure(snapshot), snapshot.time_ns)
         return PressureReading(time_ns=snapshot.time_ns, pressure=pressure, variance=self._variance)
 
 
 class AirPressureSensor(_PressureSensor):
-    """A barometer in air that thins with height."""
+    """Barometer; the pressure falls with height."""
 
     def pressure(self, snapshot: Snapshot) -> float:
-        """What there is at this instant [Pa]."""
+        """Return the static pressure without noise [Pa]."""
         settings = self.sensor.instrument
         assert isinstance(settings, AirPressure), f"{self.name!r} is no barometer"
         height = settings.reference_altitude + self.world_from_sensor(snapshot).position[2]
@@ -73,13 +73,13 @@ class AirPressureSensor(_PressureSensor):
 
 
 class AirSpeedSensor(_PressureSensor):
-    """A Pitot tube along +x: ρ v² / 2 of the air that comes from ahead."""
+    """Pitot tube along +x: ρ v² / 2 of the air flow along it."""
 
     wind: Vector3 = (0.0, 0.0, 0.0)
-    """Of the world [m/s]."""
+    """The world's wind [m/s]."""
 
     def pressure(self, snapshot: Snapshot) -> float:
-        """What moving adds at this instant [Pa]."""
+        """Return the dynamic pressure without noise [Pa]."""
         world_from_sensor = self.world_from_sensor(snapshot)
         vx, vy, vz = (own - air for own, air in zip(self.velocity(snapshot), self.wind, strict=True))
         ahead, _, _ = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector((vx, vy, vz))
@@ -87,13 +87,13 @@ class AirSpeedSensor(_PressureSensor):
 
 
 def _geopotential(height: float) -> float:
-    """The height [m] that takes as much work where gravity does not fall off, as gz-sim's barometer reckons it."""
+    """Return the geopotential height [m] of a geometric height [m], as in gz-sim's barometer."""
     height = max(height, -_EARTH / 2.0)
     return height / (1.0 + height / _EARTH)
 
 
 def pressure_at(air: Atmosphere, height: float) -> float:
-    """Pressure [Pa] at a height [m], by the barometric formula for air whose temperature changes evenly."""
+    """Return the pressure [Pa] at a height [m], by the barometric formula for a constant temperature gradient."""
     if air.temperature_gradient == 0.0:
         thinner = -_GRAVITY * _MOLAR_MASS * height / (_GAS * air.temperature)
         return air.pressure * math.exp(min(thinner, _DENSEST))
@@ -103,7 +103,7 @@ def pressure_at(air: Atmosphere, height: float) -> float:
 
 
 def density_at(air: Atmosphere, height: float) -> float:
-    """Density [kg/m³] at a height [m], of an ideal gas."""
+    """Return the density [kg/m³] at a height [m], as an ideal gas."""
     return pressure_at(air, height) * _MOLAR_MASS / (_GAS * _temperature_at(air, height))
 
 

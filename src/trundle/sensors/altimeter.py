@@ -10,24 +10,24 @@ from .noise import NoiseSource
 
 
 class AltimeterReading(Struct, frozen=True, kw_only=True):
-    """How high it is."""
+    """Height and vertical velocity."""
 
     time_ns: int
     height: float
-    """Above where the sensor was when time began, as in Gazebo [m]."""
+    """Height above the sensor's initial position, as in Gazebo [m]."""
     velocity: float
     """Upwards [m/s]."""
 
 
 class AltimeterSensor(LiveSensor[AltimeterReading]):
-    """Tells height and vertical speed of its point of the link."""
+    """Altimeter at the sensor's point of the link."""
 
     def __init__(self, mount: SensorMount, *, start_height: float) -> None:
-        """Mount it; see `LiveSensor`.
+        """Mount the sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            start_height: where it was when its model came [m].
+            mount: model, link and sensor.
+            start_height: height of the sensor when its model was spawned [m].
         """
         super().__init__(mount)
         assert isinstance(mount.sensor.instrument, Altimeter), f"{mount.sensor.name!r} is no altimeter"
@@ -36,7 +36,7 @@ class AltimeterSensor(LiveSensor[AltimeterReading]):
         self._speed = NoiseSource(mount.sensor.instrument.velocity, mount.random)
 
     def measure(self, snapshot: Snapshot) -> AltimeterReading:
-        """How high it is at this instant."""
+        """Measure height and vertical velocity."""
         return AltimeterReading(
             time_ns=snapshot.time_ns,
             height=self._height.apply_to_value(

@@ -12,46 +12,46 @@ from trundle.spatial import Pose, Vector3, Wrench
 from .live_sensor import LiveSensor, SensorMount
 
 MAX_STEPS = 100
-"""That one reading tells of, the last ones: Gazebo keeps no more either."""
+"""Most steps in one reading, the latest; Gazebo's limit too."""
 
 
 class ContactRecord(Struct, frozen=True, kw_only=True):
-    """One point where something touches the sensor's link."""
+    """Contact point on the sensor's link."""
 
     time_ns: int
-    """Of the step that found it."""
+    """Time of the step."""
     own: str
-    """`model::link::collision` that feels."""
+    """`model::link::collision` of the sensor."""
     other: str
-    """What it touches."""
+    """`model::link::collision` in contact with it."""
     position: Vector3
-    """In the world [m]."""
+    """Position in the world [m]."""
     normal: Vector3
-    """Into the sensor's link; unit, world axes."""
+    """Unit normal into the sensor's link, world axes."""
     depth: float
     """[m]"""
     wrench: Wrench
-    """On the sensor's link at that point, world axes."""
+    """Wrench on the sensor's link at that point, world axes."""
 
 
 class ContactReading(Struct, frozen=True, kw_only=True):
-    """What touched in the steps since the reading before, step by step."""
+    """Contacts of the steps since the previous reading."""
 
     time_ns: int
     contacts: tuple[ContactRecord, ...]
     world_from_link: Pose = Pose()
-    """Of the sensor's link."""
+    """Pose of the sensor's link."""
 
 
 class ContactSensor(LiveSensor[ContactReading]):
-    """Feels at every step what touches some of its link's collisions, or all of them."""
+    """Contact sensor: records the contacts of its link's collisions at every step."""
 
     def __init__(self, mount: SensorMount, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
         """Mount a contact sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            contacts: what touched collisions of these names in the last step.
+            mount: model, link and sensor.
+            contacts: returns the last step's contacts of the named collisions.
         """
         super().__init__(mount)
         names = mount.sensor.contact_collisions or tuple(collision.name for collision in mount.link.collisions)
@@ -61,17 +61,17 @@ class ContactSensor(LiveSensor[ContactReading]):
         self._recorded: deque[tuple[ContactRecord, ...]] = deque(maxlen=MAX_STEPS)
 
     def start(self, simulation: Simulation) -> None:
-        """Be called by a simulation: at every step to feel, and then at the sensor's rate to tell."""
+        """Register two hooks: recording at every step, reporting at the sensor's rate."""
         simulation.add_hook(self._buffer, enabled=self.enabled)
         super().start(simulation)
 
     def stop(self, simulation: Simulation) -> None:
-        """Be called no more."""
+        """Remove both hooks."""
         simulation.remove_hook(self._buffer)
         super().stop(simulation)
 
     def measure(self, snapshot: Snapshot) -> ContactReading:
-        """What touched within the last period; what was felt before, nobody wanted to know then."""
+        """Return the contacts of the last period; older ones fell into a time without listeners."""
         now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
         felt = [touch for step in self._recorded for touch in step]
         self._recorded.clear()
@@ -87,7 +87,7 @@ class ContactSensor(LiveSensor[ContactReading]):
             self._recorded.append(touches)
 
     def _contact_record(self, contact: Contact, time_ns: int) -> ContactRecord:
-        """As the sensor's own link has it."""
+        """Return the contact from the side of the sensor's link."""
         first, second = contact.collisions
         own, other, sign = (second, first, 1.0) if second in self._own else (first, second, -1.0)
 
@@ -106,6 +106,6 @@ class ContactSensor(LiveSensor[ContactReading]):
 
 
 class _ContactBuffer(Struct, frozen=True, eq=False):
-    """A hook of its own, for a sensor feels more often than it tells."""
+    """Hook that records at every step, for a sensor with a lower rate."""
 
     after_step: Callable[[Snapshot], None]

@@ -1,4 +1,4 @@
-"""Force-torque sensors: what a joint carries."""
+"""Force-torque sensors on joints."""
 
 from collections.abc import Callable
 
@@ -13,26 +13,26 @@ from .noise import NoiseSource, apply_noise
 
 
 class ForceTorqueReading(Struct, frozen=True, kw_only=True):
-    """What went through the joint, at the joint."""
+    """Wrench through a joint, at the joint."""
 
     time_ns: int
     wrench: Wrench
-    """In the axes that the sensor names."""
+    """Wrench in the frame that the sensor names."""
 
 
 class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
-    """Tells what parent and child of a joint do to one another."""
+    """Force-torque sensor: the wrench between a joint's parent and child."""
 
     def __init__(
         self, mount: SensorMount, *, joint: Joint, parent: LinkHandle | None, reaction: Callable[[], Wrench]
     ) -> None:
-        """Mount it; see `LiveSensor`.
+        """Mount the sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            joint: that it sits on.
-            parent: the joint's; None: the world.
-            reaction: what the parent does to the child, at the joint, world axes.
+            mount: model, link and sensor.
+            joint: the measured joint.
+            parent: the joint's parent link; None: the world.
+            reaction: returns the wrench of the parent on the child at the joint, world axes.
         """
         super().__init__(mount)
         self.settings = mount.sensor.force_torque or ForceTorque()
@@ -45,7 +45,7 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
         self._torques = [NoiseSource(each, mount.random) for each in self.settings.torque]
 
     def measure(self, snapshot: Snapshot) -> ForceTorqueReading:
-        """What goes through the joint now."""
+        """Measure the joint's wrench."""
         on_child = self._reaction()
         sign = 1.0 if self.settings.parent_to_child else -1.0
         axes = Pose(quaternion=self._world_from_axes(snapshot).quaternion).inverse()

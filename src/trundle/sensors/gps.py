@@ -1,4 +1,4 @@
-"""Receivers of satellite navigation."""
+"""GPS receivers."""
 
 import math
 
@@ -12,45 +12,45 @@ from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource, apply_noise
 
 DEFAULT_RATE_HZ = 10.0
-"""Of a receiver whose update_rate is 0."""
+"""Update rate of a receiver whose update_rate is 0."""
 _FARTHEST = 1e15
-"""[m] Nobody asks for the latitude of what is farther away."""
+"""Largest coordinate that is converted [m]."""
 _AXIS = 6378137.0
-"""[m] WGS84's equatorial radius."""
+"""WGS84 equatorial radius [m]."""
 _FLATTENING = 1 / 298.257223563
 _E2 = _FLATTENING * (2 - _FLATTENING)
-"""Eccentricity, squared."""
+"""Squared eccentricity."""
 
 
 class GpsReading(Struct, frozen=True, kw_only=True):
-    """A fix on WGS84."""
+    """WGS84 position fix."""
 
     time_ns: int
     latitude_deg: float
     longitude_deg: float
     altitude: float
-    """Above the ellipsoid [m]."""
+    """Altitude above the ellipsoid [m]."""
 
 
 class GpsSensor(LiveSensor[GpsReading]):
-    """Knows where its point of the link is on Earth, by the world's spherical coordinates."""
+    """GPS receiver at the sensor's point of the link, by the world's spherical coordinates."""
 
     def __init__(self, mount: SensorMount, *, origin: SphericalCoordinates) -> None:
         """Mount a receiver; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            origin: where the world's origin is.
+            mount: model, link and sensor.
+            origin: geographic position of the world's origin.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         noise = mount.sensor.gps or GpsNoise()
         self.variances = (_variance(noise.horizontal), _variance(noise.vertical))
-        """Horizontal and vertical [m²]."""
+        """Horizontal and vertical variance [m²]."""
         self._origin = origin
         self._noise = [NoiseSource(each, mount.random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
 
     def measure(self, snapshot: Snapshot) -> GpsReading:
-        """A fix at this instant."""
+        """Measure a position fix."""
         place = self.world_from_link(snapshot).transform_point(self.sensor.link_from_sensor.position)
         x, y, z = (
             min(max(value, -_FARTHEST), _FARTHEST) for value in apply_noise(place, self._noise, snapshot.time_ns)
@@ -60,10 +60,10 @@ class GpsSensor(LiveSensor[GpsReading]):
 
 
 def geodetic(origin: SphericalCoordinates, place: Vector3) -> Vector3:
-    """Latitude [deg], longitude [deg] and height above WGS84's ellipsoid [m] of a place in the world [m].
+    """Return latitude [deg], longitude [deg] and height above the WGS84 ellipsoid [m] of a point in the world [m].
 
-    The world's tangent plane at its origin is turned by the heading, put into Earth's own axes and read back by
-    Bowring's formula, which is exact to a micrometre this near to the ground.
+    The world's tangent plane at its origin is rotated by the heading, transformed to ECEF and converted by Bowring's
+    formula, accurate to a micrometre near the ground.
     """
     heading = math.radians(origin.heading_deg)
     x, y, up = place

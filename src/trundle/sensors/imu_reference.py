@@ -1,4 +1,4 @@
-"""The frames that imus tell their orientation in."""
+"""Reference frames of IMU orientations."""
 
 import math
 
@@ -11,12 +11,12 @@ _QUARTER = math.pi / 2
 def reference_from_world(
     reference: OrientationReference | None, *, at_start: Pose, gravity: Vector3, heading_rad: float
 ) -> Pose:
-    """What turns orientations in the world into those that are told.
+    """Return the rotation from the world to the reference frame of an IMU's orientation.
 
     Args:
-        reference: as described; None: the sensor as it was when time began, as in Gazebo.
-        at_start: world_from_sensor when time began.
-        gravity: of the world [m/s²].
+        reference: as described; None: the sensor's initial frame, as in Gazebo.
+        at_start: initial world_from_sensor.
+        gravity: the world's gravity [m/s²].
         heading_rad: from east to the world's x axis.
     """
     start = Pose(quaternion=at_start.quaternion)
@@ -41,7 +41,7 @@ def reference_from_world(
 
 
 def _with_z(up: Vector3, ahead: Vector3) -> Quaternion:
-    """World from axes of which z is given, and x as near to a direction as that lets it."""
+    """Return world_from_axes with z along `up` and x as close as possible to `ahead`."""
     left = normalized(cross(up, ahead)) or normalized(cross(up, (0.0, 1.0, 0.0))) or (0.0, 1.0, 0.0)
     x = cross(left, up)
     yaw = math.atan2(x[1], x[0])

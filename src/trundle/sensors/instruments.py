@@ -1,6 +1,6 @@
-"""Sensors that need no picture: SDF's types of them, and the way to those of a world.
+"""Sensors other than cameras: their SDF types and their creation.
 
-A world without any starts without their modules.
+A world without such sensors does not import their modules.
 """
 
 from typing import TYPE_CHECKING
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 def mount_sensors(
     simulation: Simulation, *, model: str | None = None, ray_scene: "RayScene | None" = None
 ) -> "list[InstrumentSensor]":
-    """Every sensor that needs no picture, in file order; each has random numbers of its own.
+    """Create every sensor other than cameras, in file order, each with its own random numbers.
 
     Args:
         simulation: with its sensors; its seed is that of the noise.
-        model: of this one alone.
-        ray_scene: what sensors that are there already share.
+        model: only the sensors of this model.
+        ray_scene: shared with existing sensors.
     """
     if not any(map(_has_instruments, simulation.world.models)):
         return []

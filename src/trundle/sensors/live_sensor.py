@@ -1,4 +1,4 @@
-"""What all sensors share: a place on a link, a rate, and those who want its readings."""
+"""Base of all sensors: mounting link, update rate and listeners."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -22,41 +22,41 @@ class _Listener(Struct, Generic[Reading]):
 
 
 def _period_ns(rate_hz: float) -> Fraction:
-    """Exact, so that a sensor keeps step with its rate for days; 0.1 Hz is taken for a tenth, as it is meant."""
-    return NS_PER_S / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
+    """Return the exact period, which does not drift; 0.1 Hz counts as a tenth."""
+    return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
 class SensorMount(Struct, frozen=True, eq=False, dict=True):
-    """Where a sensor is mounted."""
+    """Mounting of a sensor on a link."""
 
     model: Model
     link: Link
-    """That carries it."""
+    """Link that carries the sensor."""
     sensor: Sensor
     link_index: int
-    """Of the link in `Snapshot.poses`."""
+    """Index of the link in `Snapshot.poses`."""
     seed: tuple[int, ...]
-    """Of its noise."""
+    """Seed of the noise."""
 
     @cached_property
     def random(self) -> "np.random.Generator":
-        """Random numbers of its own; NumPy's are loaded for the first sensor that wants some."""
+        """Random generator of the sensor; NumPy's is imported on first use."""
         return np.random.default_rng(self.seed)
 
     def initial_pose(self) -> Pose:
-        """Where the sensor was when its model came."""
+        """Return the sensor's pose in the world when its model was spawned."""
         return self.model.world_from_model @ self.link.model_from_link @ self.sensor.link_from_sensor
 
 
 class LiveSensor(Generic[Reading]):
-    """A hook that measures when it is due and somebody wants it; one that nobody wants costs nothing."""
+    """Hook that measures when it is due and a listener is active; otherwise it costs nothing."""
 
     def __init__(self, mount: SensorMount, *, default_rate_hz: float | None = None) -> None:
         """Mount a sensor.
 
         Args:
-            mount: where it is.
-            default_rate_hz: where update_rate is 0; None: at every step.
+            mount: model, link and sensor.
+            default_rate_hz: rate if update_rate is 0; None: every step.
         """
         self.model = mount.model
         self.link = mount.link
@@ -64,46 +64,46 @@ class LiveSensor(Generic[Reading]):
         self._index = mount.link_index
         self._handle: LinkHandle | None = None
         self.parent_name = mount.link.name
-        """What its topics are called after: its link, or the joint it sits on."""
+        """Name in its topics: its link, or the joint that it measures."""
         rate = mount.sensor.update_rate_hz or default_rate_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None
         self.reading_count = 0
-        """Taken so far."""
+        """Readings taken."""
         self._listeners: list[_Listener[Reading]] = []
 
     @property
     def rate_hz(self) -> float:
-        """How often it measures; 0: at every step."""
-        return float(NS_PER_S / self.period_ns) if self.period_ns else 0.0
+        """Update rate; 0: every step."""
+        return float(NS / self.period_ns) if self.period_ns else 0.0
 
     def start(self, simulation: Simulation) -> None:
-        """Be called by a simulation, at its rate."""
+        """Register the sensor's hook at its rate."""
         self._simulation = simulation
         simulation.add_hook(self, period_ns=self.period_ns, enabled=self.enabled)
 
     def stop(self, simulation: Simulation) -> None:
-        """Be called no more."""
+        """Remove the sensor's hook."""
         simulation.remove_hook(self)
 
     def set_rate(self, rate_hz: float) -> None:
-        """Measure so often from now on."""
+        """Set the update rate [Hz]."""
         self.period_ns = _period_ns(rate_hz)
         if self._simulation is not None:
             self._simulation.retime_hook(self, self.period_ns)
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Name as in the file."""
         return self.sensor.name
 
     def attach_to(self, handle: LinkHandle) -> None:
-        """Ride on a link wherever it is among the others, as models come and go; without it nothing is measured."""
+        """Follow a link whose index changes as models are spawned and deleted; a deleted link ends measuring."""
         self._handle = handle
 
     @property
     def link_index(self) -> int:
-        """Of the link that carries it, in `Snapshot.poses`."""
+        """Index of the carrying link in `Snapshot.poses`."""
         return self._index if self._handle is None else self._handle.index
 
     @property
@@ -114,16 +114,16 @@ class LiveSensor(Generic[Reading]):
             return False
 
     def listen(self, call: Callable[[Reading], None], *, enabled: Callable[[], bool] = lambda: True) -> None:
-        """Have a function called with each reading; while nobody wants one, none is taken."""
+        """Call a function with each reading while `enabled` returns True; nothing is measured without listeners."""
         self._listeners.append(_Listener(call, enabled))
 
     def enabled(self) -> bool:
-        """Whether the sensor is always on, or anybody wants its readings."""
+        """True if the sensor is always on or a listener is active."""
         asked = self.sensor.always_on or any(listener.enabled() for listener in self._listeners)
         return asked and self._link_exists
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Measure, and tell those who want to know."""
+        """Measure and pass the reading to the listeners."""
         reading = self.measure(snapshot)
         self.reading_count += 1
         for listener in self._listeners:
@@ -131,19 +131,19 @@ class LiveSensor(Generic[Reading]):
                 listener.call(reading)
 
     def measure(self, snapshot: Snapshot) -> Reading:
-        """Measure at this instant."""
+        """Return a reading of the snapshot."""
         raise NotImplementedError
 
     def world_from_link(self, snapshot: Snapshot) -> Pose:
-        """Where the link that carries it is."""
-        return pose_from_row(snapshot.poses[self.link_index])
+        """Return the pose of the carrying link."""
+        return pose_of(snapshot.poses[self.link_index])
 
     def world_from_sensor(self, snapshot: Snapshot) -> Pose:
-        """Where the sensor itself is."""
+        """Return the pose of the sensor."""
         return self.world_from_link(snapshot) @ self.sensor.link_from_sensor
 
     def velocity(self, snapshot: Snapshot) -> Vector3:
-        """Of the sensor's own point of the link, world axes [m/s]."""
+        """Return the linear velocity of the sensor's point of the link, world axes [m/s]."""
         vx, vy, vz, wx, wy, wz = snapshot.twists[self.link_index].tolist()
         arm = self.world_from_link(snapshot).transform_vector(self.sensor.link_from_sensor.position)
         sx, sy, sz = cross((wx, wy, wz), arm)

@@ -1,4 +1,4 @@
-"""Logical cameras: which models are in view, and where."""
+"""Logical cameras: models in view and their poses."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -14,47 +14,47 @@ from trundle.spatial import Pose, pose_from_row, transform_points
 from .live_sensor import LiveSensor, SensorMount
 
 DEFAULT_RATE_HZ = 30.0
-"""Of a camera whose update_rate is 0."""
+"""Update rate of a camera whose update_rate is 0."""
 _Points = NDArray[np.float64]
 
 
 class ModelShapes(Struct, frozen=True, eq=False, kw_only=True):
-    """A model that can be seen."""
+    """Collision extents of a model."""
 
     name: str
     base_index: int
-    """Of its canonical link."""
+    """Index of its canonical link."""
     base_from_model: Pose
     corners: Mapping[int, _Points]
     """Link index → (n, 3) corners of the link's collision shapes in its frame [m]."""
 
 
 class SeenModel(Struct, frozen=True, kw_only=True):
-    """A model in view."""
+    """Model in view."""
 
     name: str
     camera_from_model: Pose
 
 
 class LogicalCameraReading(Struct, frozen=True, kw_only=True):
-    """What is in view."""
+    """Models in view."""
 
     time_ns: int
     models: tuple[SeenModel, ...]
 
 
 class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
-    """Tells the models, but for its own, whose upright box around all collision shapes reaches into a pyramid.
+    """Camera that lists the other models whose axis-aligned bounding box of collisions intersects its frustum.
 
-    As in Gazebo a model that others hide is in view, too, and so is the ground: an endless plane is the box below it.
+    As in Gazebo occluded models are in view too, and so is the ground: an infinite plane is the half space below it.
     """
 
     def __init__(self, mount: SensorMount, *, bodies: Callable[[], Sequence[ModelShapes]]) -> None:
-        """Mount it; see `LiveSensor`.
+        """Mount the sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            bodies: there are.
+            mount: model, link and sensor.
+            bodies: returns all models.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         assert isinstance(mount.sensor.instrument, LogicalCamera), f"{mount.sensor.name!r} is no logical camera"
@@ -62,7 +62,7 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
         self._planes = _frustum_planes(mount.sensor.instrument)
 
     def measure(self, snapshot: Snapshot) -> LogicalCameraReading:
-        """What is in view at this instant."""
+        """List the models in view."""
         camera_from_world = self.world_from_sensor(snapshot).inverse()
         seen: list[SeenModel] = []
         for body in self._bodies():
@@ -78,13 +78,13 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
         return LogicalCameraReading(time_ns=snapshot.time_ns, models=tuple(seen))
 
     def _intersects(self, corners: _Points) -> bool:
-        """Whether no side of the pyramid has all corners of a box outside."""
+        """True if no frustum plane has all corners of a box outside."""
         outside = corners @ self._planes[:, :3].T < self._planes[:, 3]
         return not outside.all(axis=0).any()
 
 
 def _frustum_planes(settings: LogicalCamera) -> _Points:
-    """(6, 4) n x, n y, n z and the least n · p of points inside: near and far, then left, right, top and bottom."""
+    """Return (6, 4) planes, normal and least n · p of points inside: near, far, left, right, top and bottom."""
     across = settings.horizontal_fov_rad / 2
     along = math.atan(math.tan(across) / settings.aspect_ratio)
     sides = [
@@ -97,6 +97,6 @@ def _frustum_planes(settings: LogicalCamera) -> _Points:
 
 
 def _box(points: _Points) -> _Points:
-    """(8, 3) corners of the upright box around points."""
+    """Return the (8, 3) corners of the axis-aligned box around points."""
     low, high = points.min(axis=0), points.max(axis=0)
     return np.array([np.where(mask, high, low) for mask in np.ndindex(2, 2, 2)])

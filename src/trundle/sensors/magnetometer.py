@@ -11,22 +11,22 @@ from .noise import NoiseSource, apply_noise
 
 
 class MagnetometerReading(Struct, frozen=True, kw_only=True):
-    """The field where the sensor is."""
+    """Magnetic field at the sensor."""
 
     time_ns: int
     field: Vector3
-    """In the sensor's frame [T]."""
+    """Field in the sensor's frame [T]."""
 
 
 class MagnetometerSensor(LiveSensor[MagnetometerReading]):
-    """Turns the world's one magnetic field into its own axes."""
+    """Magnetometer: the world's uniform magnetic field in the sensor's frame."""
 
     def __init__(self, mount: SensorMount, *, world_field: Vector3) -> None:
-        """Mount it; see `LiveSensor`.
+        """Mount the sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            world_field: the same everywhere [T].
+            mount: model, link and sensor.
+            world_field: uniform field in the world frame [T].
         """
         super().__init__(mount)
         assert isinstance(mount.sensor.instrument, Magnetometer), f"{mount.sensor.name!r} is no magnetometer"
@@ -34,7 +34,7 @@ class MagnetometerSensor(LiveSensor[MagnetometerReading]):
         self._noise = [NoiseSource(each, mount.random) for each in mount.sensor.instrument.field]
 
     def measure(self, snapshot: Snapshot) -> MagnetometerReading:
-        """The field at this instant."""
+        """Measure the field."""
         world_from_sensor = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         own = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector(self._field)
         return MagnetometerReading(time_ns=snapshot.time_ns, field=apply_noise(own, self._noise, snapshot.time_ns))

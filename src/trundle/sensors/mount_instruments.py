@@ -1,4 +1,4 @@
-"""Mounts the sensors of a running world that need no picture."""
+"""Creation of a running world's sensors other than cameras."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -42,7 +42,7 @@ InstrumentSensor: TypeAlias = (
 
 
 class _MountContext(Struct, frozen=True, eq=False):
-    """Where a sensor is to be mounted, and what is around it."""
+    """Simulation and mount of a sensor to be created."""
 
     simulation: Simulation
     ray_scene: RayScene
@@ -50,14 +50,14 @@ class _MountContext(Struct, frozen=True, eq=False):
 
     @property
     def world(self) -> World:
-        """That is simulated."""
+        """World that is simulated."""
         return self.simulation.world
 
 
 def mount_instruments(
     simulation: Simulation, *, model: str | None, ray_scene: RayScene | None
 ) -> list[InstrumentSensor]:
-    """As `mount_sensors`, whose arguments these are."""
+    """Create the sensors of `mount_sensors`, with the same arguments."""
     mounted: list[InstrumentSensor] = []
     ray_scene = ray_scene or RayScene(simulation)
     index = number = 0
@@ -68,7 +68,7 @@ def mount_instruments(
                 number += 1
                 make = MAKERS.get(sensor.type)
                 if sensor.type == "force_torque" and wanted:
-                    what = f"sensor {sensor.name!r}: force_torque sensors measure joints; on a link it tells nothing"
+                    what = f"sensor {sensor.name!r}: force_torque sensors measure joints; not simulated on a link"
                     simulation.report.warn(sensor.at, what)
                 if make is not None and wanted:
                     mount = SensorMount(owner, link, sensor, index, (simulation.seed, number))
@@ -82,7 +82,7 @@ def mount_instruments(
 
 
 def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[InstrumentSensor]:
-    """The force-torque sensors of a model's joints; `first` is its first link's index."""
+    """Create the force-torque sensors of a model's joints; `first` is its first link's index."""
     indices = {link.name: first + i for i, link in enumerate(model.links)}
     mounted: list[InstrumentSensor] = []
     for number, joint in enumerate(model.joints):
@@ -114,13 +114,13 @@ def _air_speed(at: _MountContext) -> AirSpeedSensor:
 
 def _imu(at: _MountContext) -> ImuSensor:
     settings = at.mount.sensor.imu
-    told_from_world = reference_from_world(
+    reference = reference_from_world(
         None if settings is None else settings.reference,
         at_start=at.mount.initial_pose(),
         gravity=at.world.physics.gravity,
         heading_rad=math.radians(at.world.spherical_coordinates.heading_deg),
     )
-    return ImuSensor(at.mount, gravity=at.world.physics.gravity, reference_from_world=told_from_world)
+    return ImuSensor(at.mount, gravity=at.world.physics.gravity, reference_from_world=reference)
 
 
 def _range(at: _MountContext) -> RangeSensor:

@@ -1,4 +1,4 @@
-"""Noise as SDF states it: a Gaussian at every reading, a bias, and steps that values are rounded to."""
+"""Noise of SDF: a Gaussian per reading, a bias and quantisation."""
 
 import math
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ _Values = NDArray[np.float64]
 
 
 class NoiseSource:
-    """The noise of one value, or of every value of a scan."""
+    """Noise of one value, or of every value of a scan."""
 
     def __init__(self, noise: Noise, random: "np.random.Generator") -> None:
         self._noise = noise
@@ -24,11 +24,11 @@ class NoiseSource:
         self.is_silent = noise == Noise()
 
     def apply_to_value(self, value: float, time_ns: int = 0) -> float:
-        """A value with noise on it; when matters to a bias that wanders."""
+        """Return a value with noise; the time advances a wandering bias."""
         return float(self.apply(np.array([value]), time_ns)[0])
 
     def apply(self, values: _Values, time_ns: int) -> _Values:
-        """The values of an instant with noise on each."""
+        """Return an instant's values with noise on each."""
         noise = self._noise
         if self.is_silent:
             return values
@@ -37,7 +37,7 @@ class NoiseSource:
         return np.round(noisy / noise.precision) * noise.precision if noise.precision else noisy
 
     def _wander(self, time_ns: int) -> None:
-        """Let the bias go on, exactly for however long it was, as Gazebo does."""
+        """Advance the bias by the elapsed time with the exact Ornstein-Uhlenbeck step, as Gazebo does."""
         density, tau = self._noise.wander_density, self._noise.wander_time_s
         then, self._last_ns = self._last_ns, time_ns
         if not (density and tau) or then is None or time_ns <= then:
@@ -48,6 +48,6 @@ class NoiseSource:
 
 
 def apply_noise(values: Vector3, sources: Sequence[NoiseSource], time_ns: int) -> Vector3:
-    """Three numbers of an instant with the noise of each."""
+    """Return a vector with the noise of each component."""
     x, y, z = (source.apply_to_value(value, time_ns) for value, source in zip(values, sources, strict=True))
     return (x, y, z)

@@ -1,4 +1,4 @@
-"""Ray sensors and lidars: how far it is, in many directions at once."""
+"""Ray sensors and lidars."""
 
 import numpy as np
 from msgspec import Struct
@@ -13,29 +13,29 @@ from .noise import NoiseSource
 from .rays import Rays
 
 DEFAULT_RATE_HZ = 40.0
-"""Of a sensor whose update_rate is 0."""
+"""Update rate of a sensor whose update_rate is 0."""
 
 
 class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
-    """What a scan found."""
+    """Ranges and intensities of a scan."""
 
     time_ns: int
     scan: RangeScan
     ranges: NDArray[np.float64]
-    """(vertical values, horizontal values) [m]; inf where nothing is within reach, −inf nearer than the least."""
+    """(vertical values, horizontal values) [m]; inf beyond the maximum range, −inf below the minimum."""
     intensities: NDArray[np.float64]
-    """As `ranges`: the laser_retro of what was met; 0 where nothing was."""
+    """laser_retro of the surface hit, shaped as `ranges`; 0 without a hit."""
 
 
 class RangeSensor(LiveSensor[RangeReading]):
-    """Casts a fan of rays: against the collision shapes of other links, or on Gazebo's GPU against all visuals."""
+    """Ray sensor: casts against the collision shapes of other links; a GPU sensor, as Gazebo's, against all visuals."""
 
     def __init__(self, mount: SensorMount, *, rays: Rays) -> None:
         """Mount a ray sensor; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            rays: asks the engine.
+            mount: model, link and sensor.
+            rays: casts the rays.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         assert mount.sensor.scan is not None, f"{mount.sensor.name!r} has no scan"
@@ -45,7 +45,7 @@ class RangeSensor(LiveSensor[RangeReading]):
         self._directions = directions_of(mount.sensor.scan)
 
     def measure(self, snapshot: Snapshot) -> RangeReading:
-        """Look round from where the sensor is now."""
+        """Cast the scan from the sensor's pose."""
         scan = self.scan
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         met = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
@@ -63,12 +63,12 @@ class RangeSensor(LiveSensor[RangeReading]):
 
 
 def directions_of(scan: RangeScan) -> NDArray[np.float64]:
-    """(vertical · horizontal, 3) unit vectors in the sensor's frame, row by row from the lowest."""
+    """Return (vertical · horizontal, 3) unit vectors in the sensor's frame, row by row from the lowest."""
     yaw, pitch = np.meshgrid(angles_of(scan.horizontal), angles_of(scan.vertical))
     flat = np.cos(pitch)
     return np.stack([flat * np.cos(yaw), flat * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3)
 
 
 def angles_of(axis: ScanAxis) -> NDArray[np.float64]:
-    """(values,) [rad], both ends included; one ray alone looks along the least angle."""
+    """Return (values,) angles [rad], both ends included; a single ray uses the minimum angle."""
     return np.linspace(axis.min_angle, axis.max_angle, axis.values)

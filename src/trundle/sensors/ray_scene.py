@@ -1,4 +1,4 @@
-"""What sensors that need no picture find around them."""
+"""Scene of the sensors other than cameras: ray casters, transmitters and model extents."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,29 +15,30 @@ from .wireless import Transmitter
 
 _Array = NDArray[np.float64]
 _FAR = 1e6
-"""[m] How far an endless plane goes."""
+"""Half width of an infinite plane's box [m]."""
 _HALF_SPACE = [(x, y, z) for x in (-_FAR, _FAR) for y in (-_FAR, _FAR) for z in (-_FAR, 0.0)]
 
 
 class RayScene:
-    """The world around the sensors of one simulation; what is dear is made when the first of them asks."""
+    """World around one simulation's sensors; ray casters are built on first use."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
         self._collision_caster: RayCaster | None = None
         self._visual_casters: dict[int, RayCaster] = {}
-        """By the mask of what is seen."""
+        """Visibility mask → caster."""
         self._models: list[ModelShapes] | None = None
         self._models_world: World | None = None
 
     def rays(self, origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
-        """Against collision shapes; see `Rays`."""
+        """Cast against collision shapes; see `Rays`."""
         self._collision_caster = self._updated_caster(self._collision_caster, collisions=True)
         return self._collision_caster.cast(origin, directions, reach, exclude)
 
     def rays_excluding(self, model: Model, link: Link) -> Rays:
-        """Against the collision shapes of what this link may touch, as Gazebo's sonar is a shape of its link: of its
-        own model that is nothing, or with <self_collide> what no joint ties to it."""
+        """Return a caster against the collision shapes that this link may collide with, as Gazebo's sonar is a shape of
+        its link: none of its own model, or with <self_collide> those that no joint connects to it.
+        """
         tied = {link.name, *(end for joint in model.joints for end in _ends(joint, link.name))}
 
         def may_touch(other: Link) -> bool:
@@ -56,7 +57,7 @@ class RayScene:
         return cast
 
     def visual_rays(self, nearest: float, mask: int) -> Rays:
-        """Against visuals whose flags share a bit with the mask, and from this distance on [m].
+        """Return a caster against visuals whose flags share a bit with the mask, from the distance `nearest` on [m].
 
         Gazebo's GPU rays see their own link, too.
         """
@@ -71,7 +72,7 @@ class RayScene:
         return cast
 
     def _updated_caster(self, caster: RayCaster | None, *, collisions: bool, mask: int = EVERY_BIT) -> RayCaster:
-        """A caster with everything where it is now; another one after models came, went or were edited."""
+        """Return a caster with current poses; a new one after models were spawned, deleted or edited."""
         simulation = self._simulation
         if caster is None or caster.world is not simulation.world:
             caster = RayCaster(simulation.world, collisions=collisions, mask=mask)
@@ -79,7 +80,7 @@ class RayScene:
         return caster
 
     def transmitters(self, type_: str) -> list[Transmitter]:
-        """Every sensor of a type that others look for."""
+        """Return every sensor of a transmitting type."""
         found: list[Transmitter] = []
         index = 0
         for model in self._simulation.world.models:
@@ -101,7 +102,7 @@ class RayScene:
 
     @property
     def models(self) -> list[ModelShapes]:
-        """Every model, with the corners of its collision shapes."""
+        """All models with the corners of their collision shapes."""
         world = self._simulation.world
         if self._models is None or self._models_world is not world:
             self._models, self._models_world = _model_shapes(world), world
@@ -109,7 +110,7 @@ class RayScene:
 
 
 def _ends(joint: Joint, link: str) -> tuple[str, str]:
-    """The links that a joint ties this one to; of another joint this one alone."""
+    """Return the joint's links if `link` is one of them, else `link` twice."""
     return (joint.parent, joint.child) if link in (joint.parent, joint.child) else (link, link)
 
 
@@ -137,7 +138,7 @@ def _model_shapes(world: World) -> list[ModelShapes]:
 
 
 def _base(model: Model) -> tuple[int, Pose]:
-    """The number of the link that the model's frame rides on, and the frame in it."""
+    """Return the index of the canonical link and the model frame in it."""
     names = [link.name for link in model.links]
     number = names.index(model.canonical_link) if model.canonical_link in names else 0
     return number, model.links[number].model_from_link.inverse()

@@ -1,4 +1,4 @@
-"""Rays, and what they find."""
+"""Ray casting against collisions or visuals."""
 
 from collections.abc import Callable, Sequence
 from typing import Protocol
@@ -15,37 +15,37 @@ from trundle.spatial import Pose, Vector3
 
 _Array = NDArray[np.float64]
 _ENDLESS = 2e6
-"""[m] Width of a plane that is touched; only where it is seen has it a size."""
+"""Width of an infinite collision plane [m]; only a visual plane has a size."""
 _LAYERS = 8
-"""So many links within one another are looked through; a lidar sits inside two or three."""
+"""Most nested links that a ray passes through; a lidar sits inside two or three."""
 _AWAY = 1e6
-"""[m] Where links are put that are not to be met."""
+"""Position that hides links from rays [m]."""
 
 
 class RayHits(Struct, frozen=True, eq=False):
-    """What each ray met."""
+    """Hit of each ray."""
 
     distances: _Array
-    """(rays,) [m]; inf where there is nothing."""
+    """(rays,) Distance [m]; inf without a hit."""
     retros: _Array
-    """(rays,) The laser_retro of what is there; 0 where there is nothing."""
+    """(rays,) laser_retro of the surface; 0 without a hit."""
     links: NDArray[np.intp]
-    """(rays,) The link that it is on; −1 where there is nothing."""
+    """(rays,) Link hit; −1 without a hit."""
 
 
 class Rays(Protocol):
-    """Casts rays against one kind of shapes."""
+    """Ray cast against one kind of shapes."""
 
     def __call__(self, origin: Vector3, directions: _Array, reach: float, exclude: int, /) -> RayHits:
-        """From one place in (rays, 3) directions in the world, [m] far, looking through one link."""
+        """Cast from one origin along (rays, 3) directions in the world, up to `reach` [m], ignoring one link."""
         ...
 
 
 class RayCaster:
-    """Casts rays against all collision shapes of a world, or all its visuals."""
+    """Ray caster against all collision shapes of a world, or all its visuals."""
 
     def __init__(self, world: World, *, collisions: bool, mask: int = EVERY_BIT) -> None:
-        """Make a scene of them; what it leaves out has been said by who drew or compiled it."""
+        """Build the scene; compiling or rendering the world already warned of unsupported shapes."""
         self.world = world
         scene = scene_from_world(world, Diagnostics(), collisions=collisions, mask=mask)
         scene = _with_infinite_planes(scene) if collisions else scene
@@ -55,8 +55,8 @@ class RayCaster:
         self._bodies = np.array([*(shape.body for shape in scene.shapes), -1], dtype=np.intp)
 
     def update(self, poses: _Array, animation_state: Callable[[str], AnimationState]) -> None:
-        """Move the links, (links, 7) x y z qw qx qy qz in the world, and the skins of actors."""
-        if poses is not self._poses:  # those that were asked for again at one instant are the same array
+        """Move links to poses, (links, 7) x y z qw qx qy qz in the world, and deform the skins of actors."""
+        if poses is not self._poses:  # repeated requests at one instant return the same array
             self._poses = poses
             self._renderer.update(poses)
         update_skins(self._renderer, self._scene, animation_state)
@@ -67,7 +67,7 @@ class RayCaster:
         return RayHits(distances, self._retros[shapes], self._bodies[shapes])
 
     def cast_through(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> RayHits:
-        """Cast rays that look through some links wherever they are."""
+        """Cast rays that ignore some links."""
         poses = self._poses.copy()
         poses[hidden, :3] = _AWAY
         self._renderer.update(poses)
@@ -76,7 +76,7 @@ class RayCaster:
         return found
 
     def cast_from_distance(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> RayHits:
-        """Cast rays that look through a link where it is nearer than this [m], as a GPU's begin at its near clip."""
+        """Cast rays that ignore links nearer than `nearest` [m], as a GPU's near clip plane does."""
         found = self.cast(origin, directions, reach, None)
         poses = self._poses.copy()
         for _ in range(_LAYERS):
@@ -93,7 +93,7 @@ class RayCaster:
 
 
 def _with_infinite_planes(scene: Scene) -> Scene:
-    """The scene with planes that have no rim."""
+    """Return the scene with infinite planes."""
     shapes = tuple(
         replace(shape, geometry=replace(shape.geometry, size=(_ENDLESS, _ENDLESS)))
         if isinstance(shape.geometry, Plane)

@@ -1,4 +1,4 @@
-"""Sonars: how near the nearest thing in a cone is."""
+"""Sonars: range of the nearest surface in a cone."""
 
 import math
 
@@ -14,28 +14,28 @@ from .live_sensor import LiveSensor, SensorMount
 from .rays import Rays
 
 DEFAULT_RATE_HZ = 40.0
-"""Of a sonar whose update_rate is 0."""
+"""Update rate of a sonar whose update_rate is 0."""
 _RINGS = 8
 _ALL_ROUND = math.pi
 
 
 class SonarReading(Struct, frozen=True, kw_only=True):
-    """What came back."""
+    """Range of the nearest surface."""
 
     time_ns: int
     range_m: float
-    """Never less than the least nor more than the largest, which also stands for nothing, as in Gazebo."""
+    """Range within the sensor's limits; the maximum also stands for no echo, as in Gazebo."""
 
 
 class SonarSensor(LiveSensor[SonarReading]):
-    """Looks through a cone by 217 rays; Gazebo lays a cone of triangles over the shapes, with the same answer."""
+    """Sonar of 217 rays in a cone; Gazebo intersects a cone mesh with the shapes, with the same result."""
 
     def __init__(self, mount: SensorMount, *, rays: Rays) -> None:
         """Mount a sonar; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            rays: asks the engine.
+            mount: model, link and sensor.
+            rays: casts the rays.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         assert isinstance(mount.sensor.instrument, Sonar), f"{mount.sensor.name!r} is no sonar"
@@ -46,15 +46,15 @@ class SonarSensor(LiveSensor[SonarReading]):
         self.link_from_beam = mount.sensor.link_from_sensor @ Pose(
             quaternion=quaternion_from_rpy(0.0, math.pi / 2, 0.0)
         )
-        """Whose x axis is the sonar's: −z of the sensor's own frame."""
+        """Beam frame, whose x axis is −z of the sensor's frame."""
         self._directions = _cone(half)
         self._reach = self.settings.max_m / self._directions[:, 0] if is_cone else np.inf
-        """How far the cone goes along each ray [m]."""
+        """Length of the cone along each ray [m]."""
         self._farthest = math.hypot(self.settings.max_m, self.settings.radius) if is_cone else self.settings.radius
         self._rays = rays
 
     def measure(self, snapshot: Snapshot) -> SonarReading:
-        """Listen at this instant."""
+        """Measure the range."""
         beam = self.world_from_link(snapshot) @ self.link_from_beam
         directions = rotate_vectors(beam, self._directions)
         found = self._rays(beam.position, directions, self._farthest, self.link_index).distances
@@ -64,7 +64,7 @@ class SonarSensor(LiveSensor[SonarReading]):
 
 
 def _cone(half_rad: float) -> NDArray[np.float64]:
-    """(rays, 3) unit vectors around +x, in rings of six, twelve, eighteen, … about the middle one."""
+    """Return (rays, 3) unit vectors around +x: the axis, and rings of 6, 12, 18, … rays."""
     rays = [(1.0, 0.0, 0.0)]
     for ring in range(1, _RINGS + 1):
         angle = half_rad * ring / _RINGS

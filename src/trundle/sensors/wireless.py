@@ -1,4 +1,4 @@
-"""Radio: who is heard where, and which tags are near."""
+"""Wireless receivers and RFID readers."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -14,21 +14,21 @@ from .live_sensor import LiveSensor, SensorMount
 from .rays import Rays
 
 DEFAULT_RATE_HZ = 10.0
-"""Of a receiver whose update_rate is 0."""
+"""Update rate of a receiver whose update_rate is 0."""
 _LIGHT = 299_792_458.0
-"""[m/s]"""
+"""Speed of light [m/s]."""
 _THROUGH_AIR, _THROUGH_THINGS = 6.0, 12.0
-"""Gazebo's exponents of attenuation."""
+"""Gazebo's path loss exponents."""
 _SHADOWING = 6.0
-"""[dB] Deviation of what Gazebo takes off at random."""
+"""Standard deviation of Gazebo's random shadowing loss [dB]."""
 _NEAREST = 1.0
-"""[m] Nothing is nearer than that."""
+"""Lower bound of the distance [m]."""
 _TAG_REACH = 5.0
-"""[m] Gazebo's."""
+"""Gazebo's RFID range [m]."""
 
 
 class Transmitter(Struct, frozen=True, kw_only=True):
-    """A transmitter or a tag, and where it is."""
+    """Transmitter or RFID tag on a link."""
 
     name: str
     link_index: int
@@ -36,37 +36,37 @@ class Transmitter(Struct, frozen=True, kw_only=True):
     settings: Transceiver
 
     def position(self, snapshot: Snapshot) -> Vector3:
-        """Where it is in the world [m]."""
+        """Return the position in the world [m]."""
         x, y, z, qw, qx, qy, qz = snapshot.poses[self.link_index].tolist()
         return Pose((x, y, z), (qw, qx, qy, qz)).transform_point(self.link_from_transmitter.position)
 
 
 class ReceivedSignal(Struct, frozen=True, kw_only=True):
-    """A transmitter that a receiver hears."""
+    """Signal of a transmitter in range."""
 
     name: str
-    """Its essid."""
+    """ESSID of the transmitter."""
     frequency_mhz: float
     level_dbm: float
 
 
 class WirelessReading(Struct, frozen=True, kw_only=True):
-    """Who is heard."""
+    """Signals received."""
 
     time_ns: int
     signals: tuple[ReceivedSignal, ...]
 
 
 class WirelessSensor(LiveSensor[WirelessReading]):
-    """Hears transmitters by Gazebo's Hata-Okumura model: things between attenuate."""
+    """Wireless receiver with Gazebo's Hata-Okumura model: obstacles attenuate."""
 
     def __init__(self, mount: SensorMount, *, transmitters: Callable[[], Sequence[Transmitter]], rays: Rays) -> None:
         """Mount a receiver; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            transmitters: there are.
-            rays: asks the engine what is between.
+            mount: model, link and sensor.
+            transmitters: returns all transmitters.
+            rays: casts rays to find obstacles.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         assert isinstance(mount.sensor.instrument, Transceiver), f"{mount.sensor.name!r} is no receiver"
@@ -76,7 +76,7 @@ class WirelessSensor(LiveSensor[WirelessReading]):
         self._random = mount.random
 
     def measure(self, snapshot: Snapshot) -> WirelessReading:
-        """Who is heard at this instant."""
+        """Return the signals above the sensitivity."""
         own = self._settings
         heard: list[ReceivedSignal] = []
         for transmitter in self._transmitters():
@@ -98,7 +98,7 @@ class WirelessSensor(LiveSensor[WirelessReading]):
         return sent.power_dbm + sent.gain_dbi + self._settings.gain_dbi - lost + wave - far
 
     def _is_obstructed(self, here: Vector3, there: Vector3, other: int) -> bool:
-        """Whether a thing is between that belongs to neither link: rays from both ends stop before they meet."""
+        """True if a third link lies between: rays from both ends stop before they meet."""
         across = normalized((there[0] - here[0], there[1] - here[1], there[2] - here[2]))
         if across is None:
             return False
@@ -109,7 +109,7 @@ class WirelessSensor(LiveSensor[WirelessReading]):
 
 
 class RfidReading(Struct, frozen=True, kw_only=True):
-    """Which tags are near."""
+    """RFID tags in range."""
 
     time_ns: int
     tags: tuple[str, ...]
@@ -117,20 +117,20 @@ class RfidReading(Struct, frozen=True, kw_only=True):
 
 
 class RfidSensor(LiveSensor[RfidReading]):
-    """Tells the tags within five metres, whatever is between, as Gazebo does."""
+    """RFID reader: lists tags within five metres, regardless of obstacles, as Gazebo does."""
 
     def __init__(self, mount: SensorMount, *, tags: Callable[[], Sequence[Transmitter]]) -> None:
         """Mount a reader; see `LiveSensor`.
 
         Args:
-            mount: where it is.
-            tags: there are.
+            mount: model, link and sensor.
+            tags: returns all tags.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         self._tags = tags
 
     def measure(self, snapshot: Snapshot) -> RfidReading:
-        """Which tags are near at this instant."""
+        """List the tags in range."""
         here = self.world_from_sensor(snapshot).position
         near = [tag.name for tag in self._tags() if math.dist(here, tag.position(snapshot)) <= _TAG_REACH]
         return RfidReading(time_ns=snapshot.time_ns, tags=tuple(near))

@@ -1,1 +1,1 @@
-"""Cameras of every kind: a snapshot becomes a picture."""
+"""Cameras of every kind: snapshots in, images out."""

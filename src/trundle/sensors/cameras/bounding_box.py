@@ -1,4 +1,4 @@
-"""Bounding box cameras: where the labelled things are."""
+"""Bounding box cameras: boxes around labelled models."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +14,13 @@ _Points = NDArray[np.float64]
 
 
 class BoundingBoxCameraSensor(CameraSensor):
-    """Tells a box around each labelled model of which a pixel can be seen."""
+    """Camera that reports a box around each labelled model with a visible pixel."""
 
     needs_segmentation = True
     sees_labels = True
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
-        """Look, and draw a box round each thing."""
+        """Render, and compute the box of each visible instance."""
         picture = self.render(snapshot)
         assert picture.segmentation is not None
         things = instance_labels(self.scene)
@@ -47,8 +47,8 @@ class BoundingBoxCameraSensor(CameraSensor):
         return SeenBox(model=model, label=label, center=center, size=(float(high[0] - low[0]), float(high[1] - low[1])))
 
     def _box_3d(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
-        """The box along the axes of the thing's first body."""
-        world_from_body = pose_from_row(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
+        """Return the box along the axes of the instance's first body: world_from_box and size [m]."""
+        world_from_body = pose_of(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
         points = transform_points(world_from_body.inverse(), self._outline(shapes, snapshot))
         low, high = points.min(axis=0), points.max(axis=0)
         x, y, z = ((low + high) / 2).tolist()
@@ -58,7 +58,7 @@ class BoundingBoxCameraSensor(CameraSensor):
     def _full_box(
         self, shapes: list[int], snapshot: Snapshot, low: tuple[int, int], high: tuple[int, int]
     ) -> tuple[tuple[float, float], tuple[float, float]]:
-        """What is visible, and beyond it what other things hide, up to the picture's rim."""
+        """Return the 2D box [px] around the visible and the occluded part, clipped to the image."""
         points = transform_points(self.world_from_camera(snapshot).inverse(), self._outline(shapes, snapshot))
         points = points[points[:, 0] > self.optics.near_m]
         if not len(points):
@@ -70,7 +70,7 @@ class BoundingBoxCameraSensor(CameraSensor):
         return first, (max(float(high[0]), float(columns.max())), max(float(high[1]), float(rows.max())))
 
     def _outline(self, shapes: list[int], snapshot: Snapshot) -> _Points:
-        """(n, 3) How far the shapes reach, in the world; of endless planes the place alone."""
+        """Return the extents of shapes as (n, 3) points in the world; infinite planes give their origin only."""
         found: list[_Points] = []
         for number in shapes:
             shape = self.scene.scene.shapes[number]

@@ -1,4 +1,4 @@
-"""Camera sensors: a snapshot becomes a picture."""
+"""Camera sensors: snapshots in, images out."""
 
 from collections.abc import Callable, Sequence
 from typing import ClassVar
@@ -17,57 +17,56 @@ from .projection import PinholeProjection, projection_of
 from .scene import CameraScene, RenderRequest
 
 DEFAULT_RATE_HZ = 30.0
-"""Of a camera whose update_rate is 0. Gazebo then draws at every step, which nobody means."""
+"""Update rate of a camera whose update_rate is 0; Gazebo then renders at every step."""
 
 
 class SeenBox(Struct, frozen=True, kw_only=True):
-    """A thing that a bounding box camera found."""
+    """Detection by a bounding box camera."""
 
     model: str
     label: int
     center: tuple[float, ...]
-    """[px]; of a box in space [m], in the camera's frame."""
+    """[px]; for a 3D box [m], in the camera frame."""
     size: tuple[float, ...]
-    """[px]; of a box in space [m], along its own axes."""
+    """[px]; for a 3D box [m], along its own axes."""
     camera_from_box: Pose = Pose()
-    """Of a box in space."""
+    """Pose of a 3D box."""
 
 
 class CameraReading(Struct, frozen=True, eq=False, kw_only=True):
-    """What a camera saw, and when; what its kind does not see is None."""
+    """Camera reading; fields that the kind of camera does not measure are None."""
 
     time_ns: int
-    """The instant the world looked so."""
+    """Simulation time of the snapshot rendered."""
     rgb: NDArray[np.uint8]
-    """(height, width, 3) For the eye: of a thermal camera it is grey, of a segmentation camera it has a colour for each
-    label."""
+    """(height, width, 3) Colour image; grey for a thermal camera, one colour per label for a segmentation camera."""
     depth: NDArray[np.float32] | None = None
-    """(height, width) [m] along the view axis; not a number where nothing is within the clip distances."""
+    """(height, width) Depth along the view axis [m]; NaN outside the depth range."""
     labels: NDArray[np.uint8] | NDArray[np.int32] | None = None
-    """(height, width) The label, or 65536 times the label plus a number for each thing that has it."""
+    """(height, width) Label, or 65536 · label + instance number."""
     boxes: tuple[SeenBox, ...] | None = None
     temperatures: NDArray[np.float32] | None = None
     """(height, width) [K]"""
 
 
 class CameraSensor(LiveSensor[CameraReading]):
-    """A hook that takes a picture when it is due and somebody wants it.
+    """Camera that renders when it is due and an output is in use.
 
-    Pictures of one size that are due at one instant are drawn by one call.
+    Images of one size that are due in the same step are rendered in one batch.
     """
 
     needs_depth: ClassVar[bool] = False
     needs_segmentation: ClassVar[bool] = False
-    """What its kind needs besides colours."""
+    """Render passes needed besides colour."""
     sees_labels: ClassVar[bool] = False
-    """Whether it tells things by their labels."""
+    """True if the camera identifies objects by their labels."""
 
     def __init__(self, mount: SensorMount, optics: CameraOptics, *, scene: CameraScene) -> None:
         """Mount a camera.
 
         Args:
-            mount: where it is.
-            optics: of this camera.
+            mount: model, link and sensor.
+            optics: this camera's optics.
             scene: shared by all cameras.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
@@ -83,32 +82,33 @@ class CameraSensor(LiveSensor[CameraReading]):
         self.projection = projection_of(optics, self.intrinsics)
         self._spot = mount
         self.image_count = 0
-        """Pictures finished."""
+        """Images rendered."""
         self.scene = scene
         self.multicamera: Sequence[CameraSensor] = (self,)
         """All cameras of its sensor, which share one clock."""
         self._is_triggered: bool | None = None
-        """To take a picture; None: it need not be told."""
+        """True while a trigger is pending; None: the camera is not triggered."""
         self._request: RenderRequest | None = None
 
     def set_rate(self, rate_hz: float) -> None:
-        """Have all cameras of the sensor take pictures so often from now on."""
+        """Set the update rate of all cameras of the sensor [Hz]."""
         for camera in self.multicamera:
             LiveSensor.set_rate(camera, rate_hz)
 
     @property
     def name(self) -> str:
-        """As in the file; of a multicamera's: `<sensor>/<camera>`."""
+        """Sensor name; for a camera of a multicamera `<sensor>/<camera>`."""
         return f"{self.sensor.name}/{self.optics.name}" if self.optics.name else self.sensor.name
 
     @property
     def is_pinhole(self) -> bool:
-        """Whether its picture is what a renderer draws, without lens and distortion."""
+        """True if the image is a plain rendering, without lens or distortion."""
         return isinstance(self.projection, PinholeProjection)
 
     def await_trigger(self) -> Callable[[], None]:
-        """Take no picture until the function that this returns is called, and then one when it is due next; it may be
-        called from any thread."""
+        """Switch to triggered mode and return the trigger function, which any thread may call; the image is taken at
+        the next due time.
+        """
         self._is_triggered = False
 
         def trigger() -> None:
@@ -117,24 +117,24 @@ class CameraSensor(LiveSensor[CameraReading]):
         return trigger
 
     def enabled(self) -> bool:
-        """Whether anybody wants its pictures, and it need not be told to take one, or has been."""
+        """True if a listener is active and no trigger is outstanding."""
         return self._is_triggered is not False and super().enabled()
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Take a picture, and show it to those who want to see it."""
+        """Take an image and pass it to the listeners."""
         self._is_triggered = self._is_triggered and False
         super().after_step(snapshot)
 
     def disable_crop(self) -> None:
-        """Leave what distortion shows as it is, with black borders where nothing is."""
+        """Keep the full distorted image, with black borders."""
         self.projection = projection_of(self.optics, self.intrinsics, crop=False)
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
-        """Take a picture of this instant."""
+        """Render an image."""
         return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.render(snapshot).rgb))
 
     def prepare(self, snapshot: Snapshot) -> None:
-        """Order its pictures of this instant, with those of the other cameras that are due."""
+        """Request rendering, batched with the other cameras that are due."""
         eye = self.world_from_camera(snapshot)
         views = [(eye @ face, lens) for face, lens in self.projection.pinhole_views]
         self._request = self.scene.request(
@@ -142,7 +142,7 @@ class CameraSensor(LiveSensor[CameraReading]):
         )
 
     def render(self, snapshot: Snapshot) -> Picture:
-        """What the camera sees at this instant."""
+        """Return the rendered image of the camera."""
         self.image_count += 1
         if self._request is None or self._request.snapshot is not snapshot:
             self.prepare(snapshot)
@@ -151,7 +151,7 @@ class CameraSensor(LiveSensor[CameraReading]):
         return self.projection.compose(self.scene.fetch(request))
 
     def noisy(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """The picture with noise of the same size on all colours of a pixel, as Gazebo's shader adds it."""
+        """Return the image with noise equal on all channels of a pixel, as in Gazebo's shader."""
         noise = self.optics.noise
         if noise == Noise():
             return rgb
@@ -160,9 +160,9 @@ class CameraSensor(LiveSensor[CameraReading]):
         return noisy
 
     def noise_seed(self) -> int:
-        """Return the seed of the next picture's noise."""
+        """Return the seed of the next image's noise."""
         return int(self._spot.random.integers(1 << 64, dtype=np.uint64))
 
     def world_from_camera(self, snapshot: Snapshot) -> Pose:
-        """Where it is at this instant."""
+        """Return the camera pose in the world."""
         return self.world_from_link(snapshot) @ self.link_from_camera

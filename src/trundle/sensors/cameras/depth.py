@@ -1,4 +1,4 @@
-"""Depth cameras: how far away each pixel's surface is."""
+"""Depth cameras."""
 
 import math
 
@@ -12,12 +12,12 @@ from .camera import CameraReading, CameraSensor
 
 
 class DepthCameraSensor(CameraSensor):
-    """Sees colours and depths from one place, as Gazebo's depth cameras do."""
+    """Camera for registered colour and depth images, as Gazebo's depth camera."""
 
     needs_depth = True
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
-        """Take both pictures; as in gazebo_ros' openni plugin, depths out of range are not numbers."""
+        """Render both images; depths out of range are NaN, as in gazebo_ros' openni plugin."""
         picture = self.render(snapshot)
         assert picture.depth is not None
         noise = self.optics.noise

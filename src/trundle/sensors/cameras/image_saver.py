@@ -1,4 +1,4 @@
-"""Saves what cameras see, within bounds: a description says that it is done, and the user where and how much."""
+"""Image files of <save>, within a quota and below one folder of the working directory."""
 
 import io
 import os
@@ -11,17 +11,17 @@ from trundle.simulation import Simulation
 from .camera import CameraReading, CameraSensor
 
 FOLDER = "saved_images"
-"""In the working directory; every picture that a camera saves goes below it."""
+"""Folder in the working directory that holds all saved images."""
 SAVE_ALL = "TRUNDLE_SAVE_ALL"
-"""Set to 1, there is no bound."""
+"""Environment variable; 1 lifts the quota."""
 _MAX_IMAGES = 100_000
 _MAX_BYTES = 4 * 1024**3
-"""Some 40,000 pictures of 640 by 480 pixels."""
+"""About 40,000 images of 640 × 480 pixels."""
 _ILLEGAL = str.maketrans({":": "_", "/": "_", "\\": "_"})
 
 
 class Quota:
-    """How much all cameras of one run may still save."""
+    """Images and bytes that the cameras of one run may still save."""
 
     def __init__(self) -> None:
         has_bounds = os.environ.get(SAVE_ALL) != "1"
@@ -29,7 +29,7 @@ class Quota:
         self._bytes: float = _MAX_BYTES if has_bounds else float("inf")
 
     def reserve(self, size: int) -> bool:
-        """Take a file of so many bytes off it; False: it is spent."""
+        """Reserve a file of `size` bytes; False if the quota is exhausted."""
         self._images -= 1
         self._bytes -= size
         return self._images >= 0 and self._bytes >= 0
@@ -39,25 +39,25 @@ _QUOTAS: WeakKeyDictionary[Simulation, Quota] = WeakKeyDictionary()
 
 
 def quota_of(simulation: Simulation) -> Quota:
-    """The quota of a run, which models that are spawned later share."""
+    """Return the quota of a run, shared with models spawned later."""
     return _QUOTAS.setdefault(simulation, Quota())
 
 
 class ImageSaver:
-    """Writes each picture to a folder, under Gazebo's names: `<world>_<model>_<link>_<camera>(1)-0000.jpg`, …
+    """Writes each image to a folder under Gazebo's names: `<world>_<model>_<link>_<camera>(1)-0000.jpg`, …
 
-    Where an earlier run has left such files, (2) is next: no file that is there is written over.
+    The number in brackets is the first that no earlier run used; existing files are never overwritten.
     """
 
     def __init__(self, camera: CameraSensor, folder: Path, world: str, report: Diagnostics, quota: Quota) -> None:
-        """Get ready; the folder is made when the first picture is there.
+        """Prepare; the folder is created with the first image.
 
         Args:
-            camera: whose pictures.
-            folder: where they go.
+            camera: source of the images.
+            folder: where images are written.
             world: the world's name.
-            report: is told when they cannot be written; then no more are.
-            quota: how many.
+            report: gets a warning when writing fails and saving stops.
+            quota: shared limit.
         """
         names = (world, camera.model.name, camera.link.name, camera.name)
         self._start = "_".join(names).translate(_ILLEGAL)
@@ -71,29 +71,29 @@ class ImageSaver:
         self._is_stopped = False
 
     def enabled(self) -> bool:
-        """Whether it goes on."""
+        """True until saving stopped."""
         return not self._is_stopped
 
     def save(self, reading: CameraReading) -> None:
-        """Write one picture."""
+        """Write one image."""
         from PIL import Image
 
         data = io.BytesIO()
         Image.fromarray(reading.rgb).save(data, "JPEG", quality=95)
         if not self._quota.reserve(data.tell()):
-            bound = f"{_MAX_IMAGES} pictures or {_MAX_BYTES >> 30} GiB are saved in a run"
-            self._stop(f"{self._folder}: {bound}; no more are; {SAVE_ALL}=1 lifts that")
+            bound = f"{_MAX_IMAGES} images or {_MAX_BYTES >> 30} GiB are saved in a run"
+            self._stop(f"{self._folder}: limit reached: {bound}; {SAVE_ALL}=1 lifts the limit")
             return
         try:
             if not Path(os.path.realpath(self._folder)).is_relative_to(self._root):
-                self._stop(f"{self._folder}: a link in it leads out of {self._root}; no more pictures are saved")
+                self._stop(f"{self._folder}: a link in it leads out of {self._root}; saving stopped")
                 return
             self._folder.mkdir(parents=True, exist_ok=True)
             self._run = self._run or self._next_run()
             with self._path(self._run).open("xb") as file:
                 file.write(data.getbuffer())
         except OSError as error:
-            self._stop(f"{error.filename or self._folder}: {error.strerror or error}; no more pictures are saved")
+            self._stop(f"{error.filename or self._folder}: {error.strerror or error}; saving stopped")
             return
         self._count += 1
 
@@ -112,7 +112,7 @@ class ImageSaver:
 
 
 def folder_for(path: str) -> Path:
-    """Where pictures are saved, below `FOLDER`: what leads elsewhere, as /tmp/shots does, goes there with its names."""
+    """Return the folder for <save>, below `FOLDER`; a path elsewhere, such as /tmp/shots, is moved below it."""
     here = Path.cwd()
     output = here / FOLDER
     named = Path(os.path.normpath(here / os.path.expanduser(path)))

@@ -1,4 +1,4 @@
-"""Wide lenses, as SDF states them."""
+"""Wide-angle lenses of SDF."""
 
 import math
 
@@ -15,18 +15,18 @@ CUBE = (
     *(Pose.from_rpy(0.0, 0.0, 0.0, yaw=turn * _RIGHT_ANGLE) for turn in (1, 2, 3)),
     *(Pose.from_rpy(0.0, 0.0, 0.0, pitch=turn * _RIGHT_ANGLE) for turn in (-1, 1)),
 )
-"""camera_from_face of pinholes a quarter turn wide that look ahead, left, back, right, up and down."""
+"""camera_from_face of 90° pinholes that look ahead, left, back, right, up and down."""
 
 
 def focal_of(lens: Lens, fov_rad: float) -> float:
-    """The f of r = c1 f fun(θ / c2 + c3); where it is to fit the field of view and no f does, the lens' own."""
+    """Return f of r = c1 f fun(θ / c2 + c3): scaled to the field of view where possible, else the lens' own."""
     if not lens.scale_to_hfov or not fits(lens, fov_rad):
         return lens.f
     return 1.0 / _edge(lens, fov_rad)
 
 
 def fits(lens: Lens, fov_rad: float) -> bool:
-    """Whether some f makes the picture's width hold this field of view."""
+    """True if some f makes the image width span this field of view."""
     return math.isfinite(_edge(lens, fov_rad)) and _edge(lens, fov_rad) > 0.0
 
 
@@ -35,19 +35,22 @@ def _edge(lens: Lens, fov_rad: float) -> float:
 
 
 def radius_of(lens: Lens, fov_rad: float, angles: _Array) -> _Array:
-    """How far from the middle rays at these angles from the axis are seen; half the picture's width is 1."""
+    """Return the image radius of rays at angles from the axis; half the image width is 1."""
     scale = lens.c1 * focal_of(lens, fov_rad)
     return np.array([scale * _fun(lens.fun, angle / lens.c2 + lens.c3) for angle in angles.tolist()])
 
 
 def directions_through(lens: Lens, fov_rad: float, x: _Array, y: _Array) -> tuple[_Array, NDArray[np.bool_]]:
-    """Where pixels look: (…, 3) unit vectors in the camera's frame, and whether they see anything.
+    """Return the view ray of each pixel.
 
     Args:
-        lens: that they look through.
-        fov_rad: what the picture's width holds.
-        x: right of the middle; half the picture's width is 1.
-        y: below the middle, likewise.
+        lens: the lens.
+        fov_rad: horizontal field of view.
+        x: right of the image centre; half the image width is 1.
+        y: below the image centre, in the same unit.
+
+    Returns:
+        (…, 3) unit vectors in the camera frame, and a mask of the pixels that the lens images.
     """
     radius = np.hypot(x, y)
     known = radius / (lens.c1 * focal_of(lens, fov_rad))

@@ -1,4 +1,4 @@
-"""Mounts the cameras of a world."""
+"""Creation of a world's cameras."""
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -35,9 +35,9 @@ _KINDS: Mapping[str, str] = {
     "wide_angle_camera": "CameraSensor",
     "wideanglecamera": "CameraSensor",
 }
-"""By SDF's type; each is imported for the first camera of its type."""
+"""SDF type → class, which is imported on first use."""
 SIMULATED_CAMERAS = frozenset(_KINDS) | MEASURING
-"""SDF's sensor types that measure."""
+"""SDF sensor types that are simulated."""
 
 
 def mount_cameras(
@@ -47,13 +47,13 @@ def mount_cameras(
     model: str | None = None,
     beside: Sequence[CameraSensor] = (),
 ) -> list[CameraSensor]:
-    """Every camera of a world, in file order; sensors of types that do not measure yet are named.
+    """Create every camera of a world, in file order; warn of unsupported sensor types.
 
     Args:
         simulation: with its sensors; its seed is that of the noise.
-        make: makes the one renderer that all cameras of one visibility mask share; called only if there is one.
-        model: of this one alone.
-        beside: cameras that are there already; their renderers are shared, too.
+        make: creates a renderer, one per visibility mask; not called without cameras.
+        model: only the cameras of this model.
+        beside: existing cameras, whose renderers are shared.
     """
     world, report = simulation.world, simulation.report
     cameras: list[CameraSensor] = []
@@ -94,19 +94,18 @@ def _check_labels(cameras: Sequence[CameraSensor], report: Diagnostics) -> None:
     for camera in cameras:
         if camera.sees_labels and not camera.scene.labels.any():
             what = "nothing in the world has a label (gz-sim-label-system in a <visual> or <model> gives one)"
-            report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}; it sees background alone")
+            report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}; the image shows background only")
 
 
 def _supported_cameras(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOptics]:
-    """The sensor's cameras, in formats that are made."""
+    """Yield the sensor's cameras, with R8G8B8 for unsupported formats."""
     for optics in sensor.cameras:
         if optics.format in FORMATS:
             yield optics
         else:
-            report.warn(
-                sensor.at,
-                f"sensor {sensor.name!r}: no image format {optics.format}: {', '.join(FORMATS)}; R8G8B8 is used",
-            )
+            known = ", ".join(FORMATS)
+            what = f"no image format {optics.format}; formats: {known}; R8G8B8 is used"
+            report.warn(sensor.at, f"sensor {sensor.name!r}: {what}")
             yield replace(optics, format="R8G8B8")
 
 
@@ -128,6 +127,6 @@ def _report_unsupported(sensor: Sensor, report: Diagnostics) -> None:
     for optics in sensor.cameras:
         if optics.lens is not None and optics.lens.scale_to_hfov and not fits(optics.lens, optics.horizontal_fov_rad):
             fov = f"{optics.horizontal_fov_rad:g} rad"
-            report.warn(sensor.at, f"{who}: no such lens sees {fov}; it is not scaled to the field of view")
+            report.warn(sensor.at, f"{who}: no scale of this lens spans {fov}; <scale_to_hfov> is ignored")
         if optics.box_type == "full_2d" and (optics.distortion != Distortion() or optics.intrinsics is not None):
-            report.warn(sensor.at, f"{who}: full_2d boxes leave distortion and <intrinsics> out of account")
+            report.warn(sensor.at, f"{who}: full_2d boxes ignore distortion and <intrinsics>")

@@ -1,4 +1,4 @@
-"""Image formats of SDF, made of colours."""
+"""SDF's image formats, converted from RGB."""
 
 from collections.abc import Callable, Mapping
 
@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 _Rgb = NDArray[np.uint8]
 _Pixels = NDArray[np.uint8] | NDArray[np.uint16]
 _FULL = np.uint16(257)
-"""What makes 65535 of 255."""
+"""Factor from 8 to 16 bits: 65535 / 255."""
 
 
 def pixels_in(format_: str, rgb: _Rgb) -> tuple[_Pixels, str]:
-    """(height, width[, 3]) in a format, and ROS' name for it.
+    """Return the image in a format, (height, width[, 3]), and its ROS encoding.
 
     Args:
         format_: one of FORMATS.
@@ -31,7 +31,7 @@ def _bgr(rgb: _Rgb) -> _Pixels:
 
 
 def _grey(rgb: _Rgb) -> NDArray[np.uint8]:
-    """ITU-R BT.601's luma, as OpenCV makes it."""
+    """Return the ITU-R BT.601 luma, as OpenCV."""
     r, g, b = (rgb[..., i].astype(np.uint32) for i in range(3))
     return ((299 * r + 587 * g + 114 * b + 500) // 1000).astype(np.uint8)
 
@@ -45,7 +45,7 @@ def _deep_grey(rgb: _Rgb) -> _Pixels:
 
 
 def _bayer(pattern: str) -> Callable[[_Rgb], _Pixels]:
-    """Each pixel keeps the one colour of its place in a pattern of two by two, row by row."""
+    """Return a function that samples a 2 × 2 Bayer pattern, given row by row."""
 
     def make(rgb: _Rgb) -> _Pixels:
         mosaic = np.empty(rgb.shape[:2], dtype=np.uint8)
@@ -65,4 +65,4 @@ FORMATS: Mapping[str, tuple[str, Callable[[_Rgb], _Pixels]]] = {
     **dict.fromkeys(("R16G16B16", "RGB_INT16"), ("rgb16", _deep)),
     **{f"BAYER_{p.upper()}8": (f"bayer_{p}8", _bayer(p)) for p in ("rggb", "bggr", "gbrg", "grbg")},
 }
-"""SDF's and gz's names → ROS' encoding, and how to make it."""
+"""SDF and gz format → ROS encoding and converter."""

@@ -1,4 +1,4 @@
-"""Ways that a camera looks: the pinhole pictures it needs, and the picture it makes of them."""
+"""Camera projections: the pinhole images to render, and their composition into the camera's image."""
 
 import math
 from typing import Protocol
@@ -16,32 +16,32 @@ from .undistort import distorted, undistorted
 
 _Array = NDArray[np.float64]
 _STEEPEST = math.tan(math.radians(85.0))
-"""No pinhole picture reaches farther from its axis than this slope."""
+"""Largest slope from the axis of a rendered pinhole image."""
 _MAX_PX = 1 << 25
 _MAX_ALONG = 8190
-"""From the middle of a picture to its rim [px]."""
+"""Largest distance from the image centre to its border [px]."""
 _MIN_SCALE = 1e-7
 
 
 class CameraProjection(Protocol):
-    """How a camera looks."""
+    """Projection of a camera."""
 
     @property
     def pinhole_views(self) -> list[tuple[Pose, Intrinsics]]:
-        """The pinhole pictures it needs, of one size: camera_from_face, and their lenses."""
+        """Pinhole views to render, all of one size: camera_from_face and intrinsics."""
         ...
 
     def compose(self, pictures: list[Picture]) -> Picture:
-        """The camera's own picture, made of those."""
+        """Compose the camera's image from the rendered views."""
         ...
 
     def slopes(self) -> tuple[_Array, _Array]:
-        """How far to the right and down each pixel looks, (height, width) each, 1 m ahead [m]."""
+        """Return the slopes of each pixel's ray, to the right and down: (height, width) each, [m] at 1 m depth."""
         ...
 
 
 class PinholeProjection:
-    """One picture as it is drawn."""
+    """Pinhole projection: the image as rendered."""
 
     def __init__(self, intrinsics: Intrinsics) -> None:
         self.pinhole_views = [(Pose(), intrinsics)]
@@ -59,10 +59,10 @@ class PinholeProjection:
 
 
 class DistortedProjection:
-    """A pinhole picture that distortion bends, or whose middle or pixels are not as a renderer has them."""
+    """Pinhole with distortion, a shifted principal point, skew or non-square pixels."""
 
     def __init__(self, optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool) -> None:
-        """Find where each pixel looks, and the pinhole picture that holds all of that."""
+        """Compute each pixel's ray, and the pinhole view that covers them all."""
         columns, rows = _pixels(optics.width_px, optics.height_px)
         f, pinhole, distortion = intrinsics.focal_px, optics.intrinsics, optics.distortion
         if pinhole is None:
@@ -90,7 +90,7 @@ class DistortedProjection:
 
 
 class WideAngleProjection:
-    """What a wide lens sees, looked up in those sides of a cube that it needs."""
+    """Wide-angle lens, sampled from the faces of a cube map that it needs."""
 
     def __init__(self, optics: CameraOptics, intrinsics: Intrinsics) -> None:
         lens = optics.lens
@@ -100,7 +100,7 @@ class WideAngleProjection:
         half = width / 2
         x, y = (columns - half) / half, (rows - height / 2) / half
         directions, seen = directions_through(lens, optics.horizontal_fov_rad, x, y)
-        # Two pixels more than a quarter turn: neighbours are looked up within one face.
+        # Two extra pixels beyond 90°: interpolation stays within one face.
         size = lens.face_px + 2
         fov = 2.0 * math.atan(size / lens.face_px)
         face = Intrinsics(
@@ -118,17 +118,17 @@ class WideAngleProjection:
         return self._remap.compose(pictures)
 
     def slopes(self) -> tuple[_Array, _Array]:
-        """A wide lens looks to where no slope leads."""
+        """Undefined: a wide-angle ray may have no slope."""
         raise AssertionError("depths are seen through pinholes only")
 
 
 def projection_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = True) -> CameraProjection:
-    """How a camera with these optics looks.
+    """Return the projection of a camera.
 
     Args:
-        optics: of the camera.
-        intrinsics: of a pinhole as wide.
-        crop: whether a picture whose `k1` is negative is enlarged until no border is black, as in Gazebo.
+        optics: the camera's optics.
+        intrinsics: of the pinhole with the same field of view.
+        crop: for negative `k1`, enlarge the image until no border is black, as Gazebo does.
     """
     if optics.lens is not None:
         return WideAngleProjection(optics, intrinsics)
@@ -140,10 +140,10 @@ def projection_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = 
 def _gazebo_slopes(
     columns: _Array, rows: _Array, focal: float, distortion: Distortion, *, crop: bool
 ) -> tuple[_Array, _Array, NDArray[np.bool_]]:
-    """Slopes to the right and down that pixels see, and which of them see anything.
+    """Return the slopes to the right and down of each pixel's ray, and a mask of the valid ones.
 
-    Gazebo 11's map of a distortion is square, whatever the picture's shape: the picture is stretched to a square of its
-    longer side, bent, and stretched back. How much it is enlarged is what becomes of that square's diagonal.
+    Gazebo 11's distortion map is square for any aspect ratio: the image is stretched to a square of its longer side,
+    distorted and stretched back. The crop scale is the distorted length of that square's diagonal.
     """
     height, width = columns.shape
     side = max(width, height) / focal
@@ -154,7 +154,7 @@ def _gazebo_slopes(
         left, top = distorted(np.array(low[0]), np.array(low[1]), distortion)
         right, bottom = distorted(np.array(high[0]), np.array(high[1]), distortion)
         scale = (float(right - left) / side, float(bottom - top) / side)
-        if min(scale) < _MIN_SCALE:  # where Gazebo, too, does not crop
+        if min(scale) < _MIN_SCALE:  # as in Gazebo, no crop
             scale = (1.0, 1.0)
     u, v = (
         ((at / size - 0.5) * factor + 0.5 - center) * side
@@ -166,13 +166,13 @@ def _gazebo_slopes(
 
 
 def _pixels(width: int, height: int) -> tuple[_Array, _Array]:
-    """Columns and rows of the pixels' middles, (height, width) each."""
+    """Return the columns and rows of the pixel centres, (height, width) each."""
     columns, rows = np.arange(width, dtype=np.float64) + 0.5, np.arange(height, dtype=np.float64) + 0.5
     return np.tile(columns, (height, 1)), np.repeat(rows[:, None], width, axis=1)
 
 
 def _covering_intrinsics(right: _Array, down: _Array, focal: float, intrinsics: Intrinsics) -> Intrinsics:
-    """A pinhole picture that holds all these slopes, as sharp as the camera's own if that is possible."""
+    """Return a pinhole that covers all slopes, at the camera's own resolution where the size limits allow."""
     across = float(np.abs(right).max(initial=1e-3))
     along = float(np.abs(down).max(initial=1e-3))
     focal = min(focal, math.sqrt(_MAX_PX / (4.0 * across * along)), _MAX_ALONG / max(across, along))

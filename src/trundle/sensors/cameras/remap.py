@@ -1,4 +1,4 @@
-"""Pictures looked up in other pictures, by a table that is made once."""
+"""Image remapping by a precomputed table."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,21 +8,21 @@ from trundle.spatial import Pose, rotate_vectors
 
 _Array = NDArray[np.float64]
 _STEPS = 256
-"""Places between two pixels that are told apart: the table is the same on every machine."""
+"""Subpixel steps of the interpolation: fixed-point, so the table is equal on every machine."""
 _SHIFT = 16
-"""Bits of a weight, which is a product of two such places."""
+"""Bits of a weight, the product of two subpixel steps."""
 
 
 class Remap:
-    """Finds each pixel in one of several pinhole pictures of a size; colours are mixed of four neighbours."""
+    """Looks up each pixel in one of several equal-sized pinhole images; colours are interpolated bilinearly."""
 
     def __init__(self, faces: list[tuple[Pose, Intrinsics]], directions: _Array, seen: NDArray[np.bool_]) -> None:
-        """Make the table.
+        """Compute the table.
 
         Args:
-            faces: camera_from_face of pictures of one size; those that no pixel needs are left out.
-            directions: (height, width, 3) where each pixel looks, in the camera's frame.
-            seen: (height, width) whether it sees anything; else it is black, infinitely far and shows no shape.
+            faces: camera_from_face and intrinsics of views of one size; unused ones are dropped.
+            directions: (height, width, 3) ray of each pixel in the camera frame.
+            seen: (height, width) mask of valid pixels; others are black, infinitely far and show no shape.
         """
         in_faces = np.stack([rotate_vectors(pose.inverse(), directions) for pose, _ in faces])
         nearest = np.argmax(in_faces[..., 0], axis=0)
@@ -49,11 +49,11 @@ class Remap:
         self._blind = ~seen
 
     def compose(self, pictures: list[Picture]) -> Picture:
-        """Look every pixel up; depths and shapes are those of the nearest pixel, never mixed."""
+        """Compose the image; depths and shapes are taken from the nearest pixel, not interpolated."""
         colours = np.concatenate([picture.rgb.reshape(-1, 3) for picture in pictures])
         mixed = np.full((*self._blind.shape, 3), _STEPS * _STEPS // 2, dtype=np.uint32)
         for corner, weight in zip(self._corners, self._weights, strict=True):
-            mixed += np.take(colours, corner, axis=0, mode="clip") * weight  # "clip" looks no index over
+            mixed += np.take(colours, corner, axis=0, mode="clip") * weight  # "clip" skips the bounds check
         rgb = (mixed >> _SHIFT).astype(np.uint8)
         rgb[self._blind] = 0
         depths = [picture.depth for picture in pictures if picture.depth is not None]

@@ -1,4 +1,4 @@
-"""What all cameras look at: one renderer, and what each shape that it draws is."""
+"""Scene shared by cameras: one renderer, and the label, model and temperature of each shape."""
 
 from collections.abc import Callable
 
@@ -12,32 +12,33 @@ from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
 _MAX_BATCH_PX = 1 << 22
-"""Of one call: pictures that are large gain nothing by it, and all of them are kept until the last one is fetched."""
+"""Largest batch: large images gain nothing from batching, and a batch stays in memory until its last image is fetched.
+"""
 
 
 class RenderRequest(Struct, eq=False):
-    """Pictures that a camera wants of an instant."""
+    """Views that a camera requests of a snapshot."""
 
     snapshot: Snapshot
     views: list[tuple[Pose, Intrinsics]]
     depth: bool
     segmentation: bool
     batch: list["RenderRequest"]
-    """Those that are drawn when the first of them is fetched; afterwards none."""
+    """Requests rendered together on the first fetch; empty afterwards."""
     pictures: list[Picture] | None = None
-    """None: not drawn yet."""
+    """None until rendered."""
 
 
 class CameraScene:
-    """The world as cameras see it. Its tables are by a shape's number; number −1, no shape, is their last entry."""
+    """World as the cameras see it; tables are indexed by shape number, and −1 (no shape) is their last entry."""
 
     def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer], *, mask: int = EVERY_BIT) -> None:
-        """Make the scene and its renderer.
+        """Build the scene and its renderer.
 
         Args:
-            simulation: what there is to see; another scene is made after models came, went or were edited.
-            make: makes the one renderer that all cameras share.
-            mask: which visuals they see; see `scene_from_world`.
+            simulation: its world; the scene is rebuilt when models are spawned, deleted or edited.
+            make: creates the renderer that all cameras share.
+            mask: visibility mask of the cameras; see `scene_from_world`.
         """
         self.mask = mask
         self._simulation = simulation
@@ -45,7 +46,7 @@ class CameraScene:
         self._shown: Snapshot | None = None
         self._requested: Snapshot | None = None
         self._open: dict[tuple[int, int, bool, bool], list[RenderRequest]] = {}
-        """Of that instant, and not drawn yet: by height, width and kind."""
+        """Pending requests of that snapshot, by height, width and passes."""
         self._build(simulation.world)
 
     def _build(self, world: World) -> None:
@@ -61,16 +62,16 @@ class CameraScene:
         air = world.atmosphere.temperature
         shapes = [(shape.body, visuals.get((shape.body, shape.name))) for shape in self.scene.shapes]
         self.models: NDArray[np.intp] = np.array([*(model_of[body] for body, _ in shapes), -1], dtype=np.intp)
-        """Which model it is of; −1: none."""
+        """Model number of each shape; −1: none."""
         self.labels: NDArray[np.uint8] = np.array([*(v.label if v else 0 for _, v in shapes), 0], dtype=np.uint8)
         heats = [air if visual is None or visual.temperature is None else visual.temperature for _, visual in shapes]
         self.temperatures: NDArray[np.float32] = np.array([*heats, air], dtype=np.float32)
-        """[K]"""
+        """Temperature of each shape [K]."""
 
     def request(
         self, snapshot: Snapshot, views: list[tuple[Pose, Intrinsics]], *, depth: bool, segmentation: bool
     ) -> RenderRequest:
-        """Have pictures of one size drawn, by one call with those that are ordered before any of them is fetched."""
+        """Request views of one size; they are rendered in one batch with the requests made before the first fetch."""
         if self._requested is not snapshot:
             self._requested, self._open = snapshot, {}
         height, width = size_of(views)
@@ -84,7 +85,7 @@ class CameraScene:
         return request
 
     def fetch(self, request: RenderRequest) -> list[Picture]:
-        """The pictures that were ordered; the shapes are put in place once for all cameras."""
+        """Return the requested images; link poses are updated once for all cameras."""
         if request.pictures is None:
             self._show(request.snapshot)
             views = [view for each in request.batch for view in each.views]

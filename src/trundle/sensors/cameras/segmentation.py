@@ -1,4 +1,4 @@
-"""Segmentation cameras: what each pixel shows."""
+"""Segmentation cameras: a label per pixel."""
 
 import colorsys
 
@@ -11,22 +11,22 @@ from .camera import CameraReading, CameraSensor
 from .scene import CameraScene
 
 INSTANCES = 1 << 16
-"""What a label is multiplied by where things of one label are told apart."""
+"""Factor of the label in a panoptic value."""
 _GOLDEN = 0.6180339887498949
-"""Hues that many golden sections apart are never close to one another."""
+"""Golden ratio step of hues, which keeps the colours of labels apart."""
 
 
 class SegmentationCameraSensor(CameraSensor):
-    """Sees the labels that gz's Label plugin gave; what has none is background.
+    """Camera for the labels of gz's Label plugin; unlabelled shapes are background.
 
-    Semantic pictures hold labels; panoptic ones also number the models that share a label, from 1 on.
+    Semantic images hold labels; panoptic ones also number the models of each label from 1.
     """
 
     needs_segmentation = True
     sees_labels = True
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
-        """See what is where."""
+        """Render the labels."""
         shapes = self.render(snapshot).segmentation
         assert shapes is not None
         values = instance_labels(self.scene) if self.optics.panoptic else self.scene.labels
@@ -36,7 +36,7 @@ class SegmentationCameraSensor(CameraSensor):
 
 
 def instance_labels(scene: CameraScene) -> NDArray[np.int32]:
-    """By shape: 65536 times its label, plus the number of its model among those of that label."""
+    """Return 65536 · label + instance number for each shape, numbering the models of each label from 1."""
     values = np.zeros(len(scene.labels), dtype=np.int32)
     for label in np.unique(scene.labels[scene.labels > 0]):
         of_label = scene.labels == label
@@ -46,7 +46,7 @@ def instance_labels(scene: CameraScene) -> NDArray[np.int32]:
 
 
 def _colour(value: int) -> tuple[int, int, int]:
-    """Black for the background, else a hue of its own."""
+    """Return black for the background, else a distinct hue."""
     if value == 0:
         return (0, 0, 0)
     label, instance = divmod(value, INSTANCES) if value >= INSTANCES else (value, 0)

@@ -1,4 +1,4 @@
-"""Thermal cameras: how warm what they see is."""
+"""Thermal cameras: a temperature per pixel."""
 
 import numpy as np
 
@@ -8,12 +8,12 @@ from .camera import CameraReading, CameraSensor
 
 
 class ThermalCameraSensor(CameraSensor):
-    """Sees the temperatures that gz's Thermal plugin gave visuals; all else is as warm as the air."""
+    """Camera for the temperatures of gz's Thermal plugin; other shapes have the air's temperature."""
 
     needs_segmentation = True
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
-        """See how warm it is; for the eye the coldest thing is black and the warmest white."""
+        """Render the temperatures; the colour image maps the coldest to black and the warmest to white."""
         shapes = self.render(snapshot).segmentation
         assert shapes is not None
         known = self.scene.temperatures

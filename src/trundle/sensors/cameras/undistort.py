@@ -1,4 +1,4 @@
-"""Undoes Brown's distortion."""
+"""Brown distortion and its inverse."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,11 +9,11 @@ _Array = NDArray[np.float64]
 _ROUNDS = 60
 _STILL = 1e-9
 _CLOSE = 1e-5
-"""How well a slope must be met [m, 1 m ahead]: a hundredth of a pixel of most cameras."""
+"""Accepted residual of the inverse [m at 1 m depth]: a hundredth of a pixel for most cameras."""
 
 
 def undistorted(right: _Array, down: _Array, distortion: Distortion) -> tuple[_Array, _Array, NDArray[np.bool_]]:
-    """Slopes that are seen at these slopes, and where there are any: beyond its fold a distortion shows nothing."""
+    """Return the undistorted slopes and a mask of the valid ones: beyond its fold the distortion has no inverse."""
     x, y = right.copy(), down.copy()
     with np.errstate(all="ignore"):
         for _ in range(_ROUNDS):
@@ -27,7 +27,7 @@ def undistorted(right: _Array, down: _Array, distortion: Distortion) -> tuple[_A
 
 
 def distorted(x: _Array, y: _Array, distortion: Distortion) -> tuple[_Array, _Array]:
-    """Where rays of these slopes are seen, as OpenCV's plumb_bob has it."""
+    """Return the distorted slopes, as in OpenCV's plumb_bob."""
     radial, dx, dy = _terms(x, y, distortion)
     return x * radial + dx, y * radial + dy
 
