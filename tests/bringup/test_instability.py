@@ -37,7 +37,7 @@ def test_without_a_page_the_command_ends_and_says_what_ran_away(
     assert main(["run", str(world), *QUIET, "--json"]) == 1
     out, err = capsys.readouterr()
     assert out == ""
-    assert "the physics became unstable after 0.000 s: 'ball::l' ran away" in err
+    assert "the physics became unstable after 0.000 s: 'ball::l' diverged" in err
     assert "Traceback" not in err
 
 

@@ -143,7 +143,7 @@ def hollow(sim: Simulation) -> str:
 
 def test_what_moves_and_is_hollow_stays_hollow(load: Load, cache: Path) -> None:
     sim = load(tray(), "0 0 0.3", static=False)
-    how = r"physics takes it for 5 convex pieces: a surface up to (\S+) m away"
+    how = r"physics uses 5 convex pieces: a surface up to (\S+) m away"
     found = re.fullmatch(rf"collision 'c': a hollow mesh of 10 triangles; {how}", hollow(sim))
     assert found
     assert 0.0 < float(found[1]) < 0.011  # filled, it would be 0.5
@@ -154,9 +154,7 @@ def test_what_moves_and_is_hollow_stays_hollow(load: Load, cache: Path) -> None:
 
 def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: Load, cache: Path) -> None:
     sim = load(gate(), "0 -1 0.1", static=False, more=FLOOR)
-    found = re.search(
-        r"takes it for \d+ convex pieces: (\S+) times its volume, a surface up to (\S+) m away", hollow(sim)
-    )
+    found = re.search(r"uses \d+ convex pieces: (\S+) times its volume, a surface up to (\S+) m away", hollow(sim))
     assert found
     assert float(found[1]) == pytest.approx(1.0, abs=0.05)
     assert float(found[2]) < 0.1
@@ -200,7 +198,7 @@ def test_what_is_hardly_hollow_is_filled_aloud(load: Load, cache: Path) -> None:
     roof = [(5 + i, 5 + (i + 1) % 4, 9) for i in range(4)]
     lines = [f"v {x} {y} {z}" for x, y, z in corners] + ["f " + " ".join(map(str, face)) for face in [*sides, *roof]]
     sim = load("\n".join(lines), "0 0 5", static=False)
-    expected = "physics fills it: 1.01 times its volume, a surface up to 0.0"
+    expected = "physics fills its cavities: 1.01 times its volume, a surface up to 0.0"
     assert hollow(sim).startswith(f"collision 'c': a hollow mesh of 14 triangles; {expected}")
     assert sim.engine.compiled.geom_collisions.count("m::l::c") == 1
 

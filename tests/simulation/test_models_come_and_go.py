@@ -137,7 +137,7 @@ def test_whoever_counts_on_the_order_is_told(sim: Simulation, third: Model) -> N
 def test_a_state_of_other_models_is_refused(sim: Simulation, third: Model) -> None:
     saved = sim.save()
     sim.spawn(third)
-    with pytest.raises(UsageError, match="models came or went since this state was saved"):
+    with pytest.raises(UsageError, match="models were spawned or deleted since this state was saved"):
         sim.restore(saved)
 
 

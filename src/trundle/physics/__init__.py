@@ -1,4 +1,4 @@
-"""model → MuJoCo: the compile, and the engine that steps."""
+"""MuJoCo back end: compiles a model and steps it."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""MuJoCo's own OpenGL renderer behind our interface: for machines with a GPU, and to compare ours with."""
+"""MuJoCo's OpenGL renderer behind `Renderer`, for machines with a GPU and for comparison with the native one."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -14,9 +14,9 @@ from trundle.render import Intrinsics, Picture, Scene, SceneLight, Shape, size_o
 from trundle.spatial import Pose, rotation_from_z
 
 _NOWHERE = (0.0, 0.0, -1e6)
-"""Where a body without a pose is put [m]."""
+"""Position of a body without a pose [m]."""
 _SHININESS = 128.0
-"""MuJoCo's is a share of OpenGL's largest exponent."""
+"""OpenGL's largest exponent, of which MuJoCo's shininess is a share."""
 _THINNEST = 1e-4
 _LIGHTS = {
     "directional": mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
@@ -24,18 +24,20 @@ _LIGHTS = {
     "spot": mujoco.mjtLightType.mjLIGHT_SPOT,
 }
 _SHADED_M = 20.0
-"""How far round a directional light's place its shadows fall: MuJoCo's one map then has a pixel for each centimetre."""
+"""Radius of shadows around a directional light's position [m]: MuJoCo's single shadow map then has a pixel per
+centimetre.
+"""
 _DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
 
 
 class EglRenderer:
-    """Implements `Renderer` with OpenGL over EGL; without textures, fog and colours for ambient light alone."""
+    """`Renderer` with OpenGL over EGL; without textures, fog and ambient colours of materials."""
 
     def __init__(self, scene: Scene) -> None:
-        """Hand a scene to MuJoCo.
+        """Load a scene into MuJoCo.
 
         Raises:
-            UsageError: this machine has no EGL, or the package for it is missing.
+            UsageError: no EGL on this machine, or its package is missing.
         """
         self._context = _make_context()
         self._background = np.array([round(255 * share) for share in scene.background[:3]], dtype=np.uint8)
@@ -63,7 +65,7 @@ class EglRenderer:
         mujoco.mj_camlight(self._model, self._data)
 
     def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
-        """See `Renderer.set_vertices`; the light falls on it as it did before."""
+        """See `Renderer.set_vertices`; the normals stay as they were."""
         mesh = int(self._model.geom(f"s{shape}").dataid[0])
         first, count = int(self._model.mesh_vertadr[mesh]), int(self._model.mesh_vertnum[mesh])
         turn = np.empty(9)
@@ -133,7 +135,7 @@ class EglRenderer:
 
 
 def model_from_scene(scene: Scene) -> mujoco.MjModel:
-    """A scene as a model that is only looked at: each body, `b0` and so on, is where its pose puts it."""
+    """Return a scene as a model for rendering only: bodies `b0`, `b1`, … are mocap bodies."""
     spec = mujoco.MjSpec()
     spec.visual.quality.offsamples = 0
     spec.visual.headlight.ambient = scene.ambient[:3]
@@ -161,9 +163,9 @@ def _make_context() -> _Context:
         context.make_current()
     except (ImportError, AttributeError, RuntimeError, OSError) as error:
         why = " ".join(str(error).split()) or type(error).__name__
-        if isinstance(error, AttributeError):  # what PyOpenGL says of a function whose library is not there
+        if isinstance(error, AttributeError):  # PyOpenGL's error for a missing library
             why = "libEGL cannot be loaded"
-        what = "pip install 'trundle[egl]' and a driver bring it; --renderer cpu needs none"
+        what = "pip install 'trundle[egl]' and a driver provide it; --renderer cpu works without"
         raise UsageError(f"no OpenGL over EGL here ({why}); {what}") from None
     return context
 
@@ -206,7 +208,7 @@ def _add_shape(spec: mujoco.MjSpec, body: mujoco.MjsBody, shape: Shape, name: st
             if not mesh:
                 mesh = meshes[id(shape.geometry)] = f"m{len(meshes)}"
                 flat = vertices.astype(float).reshape(-1)
-                # A shell, as its volume may be none.
+                # Shell inertia, as its volume may be zero.
                 inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
                 spec.add_mesh(name=mesh, uservert=flat, userface=faces.reshape(-1), inertia=inertia)
     material = spec.add_material(

@@ -1,4 +1,4 @@
-"""Collisions of meshes as MuJoCo geoms: a convex hull, or the pieces that a hollow mesh is cut into."""
+"""Mesh collisions as MuJoCo geoms: a convex hull, or convex pieces."""
 
 from collections.abc import Iterator
 from contextlib import suppress
@@ -20,7 +20,7 @@ from .convex.pieces import split_mesh
 
 
 def cut_meshes(tree: KinematicTree) -> WorldDecomposition:
-    """Cut the meshes of collisions, in file order; what cannot be read is named where it is added."""
+    """Decompose the meshes of collisions, in file order; unreadable ones are reported by `add_mesh`."""
 
     def requests() -> Iterator[MeshRequest]:
         for place in tree.links.values():
@@ -45,7 +45,7 @@ def add_mesh(
     fixed: bool,
     decomposition: WorldDecomposition | None,
 ) -> list[tuple[mujoco.MjsGeom, CollidesWith]]:
-    """Add the mesh of a collision to a body; see `add_shape`, whose arguments these are."""
+    """Add a mesh collision to a body; arguments as in `add_shape`."""
     try:
         mesh = _mesh_of(collision)
     except MeshError as error:
@@ -55,8 +55,8 @@ def add_mesh(
         return []
     if decomposition is None:
         if not fixed and split_mesh(*_arrays(mesh), fixed=False).concave:
-            what = f"a mesh of {len(mesh.faces)} triangles that is not convex; how physics cuts it was not"
-            report.info(collision.at, f"collision {collision.name!r}: {what} looked at (check --collisions)")
+            what = f"a mesh of {len(mesh.faces)} triangles that is not convex; its pieces are"
+            report.info(collision.at, f"collision {collision.name!r}: {what} not checked (check --collisions)")
         (corners,) = thick_pieces([mesh.vertices.astype(float)], collision, report)
         return [(add_hull(spec, body, collision.link_from_collision, name, corners), CollidesWith.ALL)]
     cut = decomposition.pieces_of(*_arrays(mesh), fixed=fixed)
@@ -81,37 +81,37 @@ def _add_pieces(
     geoms = add_hulls(spec, body, pose, name, corners)
     if fixed or hull_of(np.concatenate(corners)) is None:
         return [(geom, CollidesWith.ALL) for geom in geoms]
-    # On a plane pieces stand as the hull around them all does, which touches it in far fewer points.
+    # On a plane the pieces stand as their common hull, which has far fewer contact points.
     hull = add_hull(spec, body, pose, f"{name}#hull", np.concatenate(corners))
     return [(hull, CollidesWith.PLANES), *((geom, CollidesWith.STANDING | CollidesWith.MOVING) for geom in geoms)]
 
 
 def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
-    """Say what stands for a hollow mesh, and how well."""
+    """Report what a concave mesh is simulated as, and its deviation."""
     misfits = cut.pieces.errors
     if not misfits:
         return
     worst = max(misfits, key=lambda misfit: misfit.distance)
     is_filled = any(misfit.is_filled for misfit in misfits)
-    how = "fills it" if is_filled else f"takes it for {len(cut.pieces.corners)} convex pieces"
+    how = "fills its cavities" if is_filled else f"uses {len(cut.pieces.corners)} convex pieces"
     times = "" if worst.volume_ratio is None else f"{round(worst.volume_ratio, 2):g} times its volume, "
     what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
     said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.distance:.2g} m away"
     if cut.is_failed:
         report.warn(collision.at, f"{said}; it could not be cut into convex pieces")
     elif cut.is_coarse:
-        report.warn(collision.at, f"{said}; fewer pieces than could be, to save time: {FULL}=1 has them all")
+        report.warn(collision.at, f"{said}; fewer pieces to save time; {FULL}=1 computes all")
     else:
         report.info(collision.at, said)
 
 
 def _arrays(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Vertices (N, 3) [m] and faces (M, 3) of a mesh."""
+    """Return vertices (N, 3) [m] and faces (M, 3) of a mesh."""
     return mesh.vertices.astype(float), mesh.faces.astype(np.intp)
 
 
 def _mesh_of(collision: Collision) -> Mesh | None:
-    """Read the mesh of a collision, as large as it says; None where it has none.
+    """Read the scaled mesh of a collision; None for other shapes.
 
     Raises:
         MeshError: it cannot be read.

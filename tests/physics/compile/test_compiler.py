@@ -139,8 +139,8 @@ def test_moments_that_belong_to_no_body_are_mended_aloud() -> None:
     odd = Link(name="a", at=Source("robot.sdf", 5), inertial=Inertial(mass=1.0, moments=(1.0, 1.0, 4.0)))
     world = compiled(model(odd), report=report)
     assert report.warnings == [
-        "robot.sdf:5: warning: link 'a': principal moments 1, 1, 4 kg·m² belong to no body "
-        "(the largest exceeds the sum of the others); physics raises the two smaller by 1"
+        "robot.sdf:5: warning: link 'a': principal moments 1, 1, 4 kg·m² violate the triangle inequality; "
+        "physics raises the two smaller by 1"
     ]
     assert sorted(world.model.body("m::a").inertia) == pytest.approx([2.0, 2.0, 4.0])
 
@@ -327,7 +327,8 @@ def test_too_many_soft_shapes_are_simulated_hard_aloud() -> None:
 
     (warning,) = report.warnings
     assert warning == (
-        "inline.sdf:1: warning: 150 of 150 shapes give (kp, min_depth), from 'b0::l::c' on; so many are simulated hard"
+        "inline.sdf:1: warning: 150 of 150 shapes are soft (kp, min_depth), the first 'b0::l::c'; "
+        "they are simulated as hard"
     )
 
 

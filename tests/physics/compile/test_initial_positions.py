@@ -90,7 +90,7 @@ def test_a_link_saved_where_no_joint_takes_it_is_named(tmp_path: Path) -> None:
     after = trundle.load(str(world(tmp_path, parts, state)))
 
     said = [
-        str(finding) for finding in after.report.findings if "saved where its joints cannot take it" in finding.what
+        str(finding) for finding in after.report.findings if "its joints cannot reach the saved pose" in finding.what
     ]
     assert len(said) == 1
     assert "link 'c'" in said[0]

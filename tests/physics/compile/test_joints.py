@@ -333,7 +333,7 @@ def test_a_stop_is_hard_whatever_its_stiffness_as_in_ode(load: Load) -> None:
     j.command_effort(3.0)
     sim.run(3.0)
     assert j.position == pytest.approx(0.2, abs=1e-4)
-    said = "joint 'j': a limit's <stiffness> and <dissipation> mean nothing to Gazebo's ODE; the stop is hard"
+    said = "joint 'j': a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
     assert sum(said in finding.what for finding in sim.report.findings) == 1
 
 

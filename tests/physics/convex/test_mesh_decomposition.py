@@ -129,7 +129,7 @@ def test_a_mesh_that_cannot_be_cut_is_filled_aloud(
     monkeypatch.setattr(jobs, "decompose_part", None)
     outcome = check(str(world(tmp_path, [obj(gate())])), {}, start=tmp_path, collisions=True)
     (said,) = [warning for warning in outcome.report.warnings if "hollow" in warning]
-    assert "physics fills it: 1.5 times its volume" in said
+    assert "physics fills its cavities: 1.5 times its volume" in said
     assert said.endswith("; it could not be cut into convex pieces")
     assert not cache.exists()
 
@@ -243,8 +243,8 @@ def test_what_takes_too_long_is_cut_coarsely_aloud_and_the_same_whatever_is_kept
 
     in_full, coarse = said()
     assert "fewer pieces" not in in_full
-    assert re.search(r"takes it for [2-8] convex pieces: .*a surface up to \S+ m away; fewer pieces than could", coarse)
-    assert coarse.endswith("to save time: TRUNDLE_FULL_DECOMPOSITION=1 has them all")
+    assert re.search(r"uses [2-8] convex pieces: .*a surface up to \S+ m away; fewer pieces to save", coarse)
+    assert coarse.endswith("to save time; TRUNDLE_FULL_DECOMPOSITION=1 computes all")
     monkeypatch.setenv("TRUNDLE_FULL_DECOMPOSITION", "1")
     assert not any("fewer pieces" in what for what in said())  # and now both are kept in full
     monkeypatch.delenv("TRUNDLE_FULL_DECOMPOSITION")
@@ -263,8 +263,7 @@ def test_check_cuts_nothing_unless_asked(tmp_path: Path, cut: list[ConcavePart],
     outcome = check(str(file), {}, start=tmp_path)
     (said,) = [finding.what for finding in outcome.report.findings if "triangles" in finding.what]
     assert said == (
-        "collision 'c': a mesh of 44 triangles that is not convex; how physics cuts it was not looked at "
-        "(check --collisions)"
+        "collision 'c': a mesh of 44 triangles that is not convex; its pieces are not checked (check --collisions)"
     )
     assert not cut
     check(str(file), {}, start=tmp_path, collisions=True)
@@ -306,7 +305,7 @@ def test_a_log_has_a_line_at_the_start_and_one_at_the_end_where_it_takes_long(
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.splitlines() == [
-        "cutting 30 hollow meshes into convex pieces, about 30 s; that is done once",
+        "cutting 30 hollow meshes into convex pieces, about 30 s; cached for later runs",
         "cut 30 of 30 hollow meshes in 27 s",
     ]
 

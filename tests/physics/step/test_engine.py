@@ -254,7 +254,7 @@ def test_physics_that_blows_up_names_the_body_and_keeps_the_last_good_state(forc
     sim.run(0.1)
     good = sim.snapshot()
     sim["wild"].apply_wrench(Wrench(force=(force, 0.0, 0.0)))
-    with pytest.raises(SimulationUnstableError, match="'wild::l' ran away") as caught:
+    with pytest.raises(SimulationUnstableError, match="'wild::l' diverged") as caught:
         sim.run(0.5)
     assert "after 0.100 s" in str(caught.value)
     assert same(sim.snapshot(), good)
@@ -311,7 +311,7 @@ def test_joints_speeding_off_slowly_are_caught_too() -> None:
         for _ in range(10_000):
             sim.step()
 
-    with pytest.raises(SimulationUnstableError, match="'wheel::rim' ran away"):
+    with pytest.raises(SimulationUnstableError, match="'wheel::rim' diverged"):
         one_by_one()
     assert np.isfinite(sim.snapshot().joint_positions).all()
     assert np.isfinite(sim.snapshot().joint_velocities).all()
@@ -319,8 +319,8 @@ def test_joints_speeding_off_slowly_are_caught_too() -> None:
 
 def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
     sim = wheel()
-    sim["wheel"].joint("hub").command_effort(1e10)
-    with pytest.raises(SimulationUnstableError, match="'wheel::rim' ran away on joint 'wheel::hub'") as caught:
+    sim["wheel"].joint("hub").set_effort(1e10)
+    with pytest.raises(SimulationUnstableError, match="'wheel::rim' diverged on joint 'wheel::hub'") as caught:
         sim.run(10.0)
     assert caught.value.divergence.joint == "wheel::hub"
     balls = yard()

@@ -1,1 +1,1 @@
-"""World → MuJoCo model: bodies, joints, geoms, contact pairs, solver settings."""
+"""Compilation of a World to a MuJoCo model: bodies, joints, geoms, contact pairs and solver settings."""

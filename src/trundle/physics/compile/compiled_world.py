@@ -1,4 +1,4 @@
-"""What was what: the way from a world's names to the engine's numbers."""
+"""Index from the names of a world to ids and addresses of the MuJoCo model."""
 
 from collections.abc import Mapping, Sequence
 
@@ -18,7 +18,7 @@ _WIDTH = {int(mujoco.mjtJoint.mjJNT_BALL): 3}
 
 
 class CompiledWorld(Struct, frozen=True, eq=False):
-    """A MuJoCo model and its index; links and joints are in file order, the joints between models last."""
+    """MuJoCo model and its index; links and joints in file order, joints between models last."""
 
     world: World
     model: mujoco.MjModel
@@ -28,32 +28,32 @@ class CompiledWorld(Struct, frozen=True, eq=False):
     """`model::joint`"""
     link_bodies: _Indices
     joint_axes: tuple[range, ...]
-    """Each joint's freedoms, as indices into the arrays below; a ball joint has three."""
+    """Axes of each joint, as indices into the arrays below; a ball joint has three."""
     joint_anchors: tuple[tuple[int, Vector3, float], ...]
-    """Of each joint: the link that hangs from it, or −1; its anchor in that link's frame [m]; −1 where the link is the
-    joint's parent.
+    """Per joint: its child link's index, its anchor in that link's frame [m], and 1; for a joint reversed in the tree
+    the parent link's, and −1. A loop joint has index −1.
     """
     first_axes: _Indices
-    """Of each joint; −1 where it has none."""
+    """First axis of each joint; −1 if it has none."""
     axis_qpos: _Indices
-    """Where the axis' position is in qpos; of each of a ball joint's: where its quaternion begins."""
+    """Address of the axis in qpos; for the axes of a ball joint that of its quaternion."""
     axis_dof: _Indices
     axis_actuator: _Indices
-    """Its motor; −1: a ball joint's."""
+    """Actuator of the axis; −1 for a ball joint."""
     axis_sign: NDArray[np.float64]
-    """−1 where the engine's position runs the other way."""
+    """−1 if MuJoCo's position has the opposite sign."""
     axis_effort: NDArray[np.float64]
-    """[N·m or N] Largest actuation."""
+    """Largest actuation [N·m or N]."""
     axis_velocity: NDArray[np.float64]
-    """[rad/s or m/s] Beyond this an effort does not push on."""
+    """Speed above which an effort no longer accelerates the axis [rad/s or m/s]."""
     axis_range: NDArray[np.float64]
-    """(axes, 2) [rad or m] Limits."""
+    """(axes, 2) limits [rad or m]."""
     ball_joints: tuple[int, ...]
-    """The first axis of each ball joint."""
+    """First axis of each ball joint."""
     geom_collisions: tuple[str, ...]
     """`model::link::collision` of each geom."""
     initial_qpos: NDArray[np.float64] | None = None
-    """Positions of everything at the start, where that is not as written."""
+    """qpos at the start; None: as written."""
 
 
 def index_world(
@@ -63,7 +63,7 @@ def index_world(
     collisions: Mapping[str, str],
     model: mujoco.MjModel,
 ) -> CompiledWorld:
-    """Look every name up in a compiled model."""
+    """Resolve every name in a compiled model."""
     qpos: list[int] = []
     dof: list[int] = []
     actuator: list[int] = []
@@ -119,5 +119,5 @@ def _joint_anchor(edge: JointEdge, tree: KinematicTree) -> tuple[int, Vector3, f
 
 
 def _limits(axis: JointAxis | None) -> list[float]:
-    """Of a ball, and of one that follows another against limits that would hold it: none."""
+    """Return the limits [rad or m]. Ball joints, and mimic joints with lower == upper, are unlimited."""
     return [-np.inf, np.inf] if axis is None or axis.is_rigid else sorted((axis.lower, axis.upper))

@@ -1,7 +1,7 @@
-"""Turns a World into a MuJoCo model.
+"""Compiler from World to MuJoCo model.
 
-A link is a body, whatever order the file has them in; what moves freely is a tree that starts at a link nobody
-holds. A joint whose limits leave no freedom (the 0..0 of many published robots) becomes none: its child is fixed.
+Each link becomes a body, in any file order; a link without a parent joint is the root of a free tree. A joint whose
+limits leave no freedom (the 0..0 of many published robots) is dropped: its child is fixed to its parent.
 """
 
 import warnings
@@ -34,30 +34,30 @@ if TYPE_CHECKING:
     from ..convex.mesh_decomposition import WorldDecomposition
 
 _KINEMATIC_MASS = 1e6
-"""How many times heavier a kinematic link is than written: nothing that the file has moves it."""
+"""Mass factor of a kinematic link, which forces do not move noticeably."""
 
 
 def compile_world(world: World, report: Diagnostics, *, cut_meshes: bool = True) -> CompiledWorld:
-    """Compile; what the engine cannot use as written is mended, aloud.
+    """Compile a world; values that MuJoCo cannot use are replaced with a warning.
 
     Args:
-        world: what there is.
-        report: takes what is mended.
-        cut_meshes: cut hollow meshes into convex pieces; else each mesh is its hull.
+        world: as read.
+        report: takes the warnings.
+        cut_meshes: decompose concave meshes into convex pieces; else each mesh is its convex hull.
 
     Raises:
-        DescriptionError: the engine refuses what is left.
+        DescriptionError: MuJoCo refuses the model.
     """
     return Compiler(flattened(world), report, cut_meshes=cut_meshes).compile()
 
 
 class Compiler:
-    """A specification that grows from a world without nested models."""
+    """MjSpec under construction, from a world without nested models."""
 
     def __init__(self, world: World, report: Diagnostics, *, cut_meshes: bool = True) -> None:
         self.cuts_meshes = cut_meshes
         self.decomposition: WorldDecomposition | None = None
-        """How meshes are cut, once they are."""
+        """Mesh decomposition, once computed."""
         self.world = world
         self.report = report
         self.spec = mujoco.MjSpec()
@@ -73,19 +73,21 @@ class Compiler:
             for node in self.tree.links.values()
             if world.models[node.model].static and node.name not in joined
         )
-        """Links whose shapes are the world body's: MuJoCo looks at every shape of any other body at every step."""
+        """Static links without joints: their shapes go to the world body, because MuJoCo tests every shape of any other
+        body at every step.
+        """
         parts = Counter(edge.child for edge in self.tree.loops)
         self.mass_share = {name: 1 / (1 + parts[name]) for name in self.tree.links}
-        """Of a link's mass that its body has: links that close a loop are cut in equal parts."""
+        """Share of a link's mass in its body: a link that closes a loop is split into equal parts."""
         self.bodies: dict[str, mujoco.MjsBody] = {}
         self.shapes: list[ShapeEntry] = []
         self.shape_names: set[str] = set()
 
     def compile(self) -> CompiledWorld:
-        """Fill the specification, and compile it.
+        """Fill the specification and compile it.
 
         Raises:
-            DescriptionError: the engine refuses it.
+            DescriptionError: MuJoCo refuses the model.
         """
         pair_params = self.fill()
         reserve_tables(self.spec, pair_params, self.shapes, self.world)
@@ -99,7 +101,7 @@ class Compiler:
         return replace(world, initial_qpos=initial_positions(compiled, self.tree, self.joints.axes, self.report))
 
     def fill(self) -> dict[tuple[str, str], ContactParams]:
-        """Put the world into the specification; return how its shapes touch."""
+        """Add the world to the specification; return the contact parameters of its shape pairs."""
         for node in self.tree.links.values():
             self._add_link(node)
         for edge in self.tree.loops:
@@ -121,7 +123,7 @@ class Compiler:
         return pair_params
 
     def compile_spec(self) -> mujoco.MjModel:
-        """Hand the world to MuJoCo; its own checks speak in its own words."""
+        """Compile the specification; MuJoCo's errors and warnings are passed on."""
         with native_output_hidden(), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:
@@ -130,11 +132,11 @@ class Compiler:
                 what = " ".join(str(error).split())
                 raise DescriptionError(self.world.at, f"the engine cannot simulate this: {what}") from None
         for warning in caught:
-            self.report.warn(self.world.at, f"the engine is in doubt: {' '.join(str(warning.message).split())}")
+            self.report.warn(self.world.at, f"MuJoCo warns: {' '.join(str(warning.message).split())}")
         return compiled
 
     def _add_link(self, node: LinkNode) -> None:
-        """Add a link's body, after those that it hangs from."""
+        """Add a link's body, after the bodies of its ancestors."""
         chain: list[LinkNode] = []
         below: LinkNode | None = node
         while below is not None and below.name not in self.bodies:
@@ -154,7 +156,7 @@ class Compiler:
         return None if node.fixed else self.tree.parent_joint.get(node.name)
 
     def _close_loop(self, edge: JointEdge) -> None:
-        """Hang a part of a link from another parent."""
+        """Add part of a link as a body below its second parent."""
         node = self.tree.links[edge.child]
         part = f"{node.name} on {edge.name}"
         self.joints.add(self._add_body(part, node, edge), edge, node.world_from_link_at_zero)
@@ -162,7 +164,7 @@ class Compiler:
         self.report.info(edge.joint.at, f"joint {edge.joint.name!r} closes a loop of links; a constraint holds it")
 
     def _add_body(self, name: str, node: LinkNode, edge: JointEdge | None) -> mujoco.MjsBody:
-        """Add a link, or its share of one that a loop cuts in parts, where it hangs from."""
+        """Add a body for a link, or for its share of a split one, below the parent of `edge`."""
         link, share = node.link, self.mass_share[node.name]
         parent, world_from_parent = self.spec.worldbody, Pose()
         if edge is not None and edge.parent != WORLD:
@@ -233,7 +235,7 @@ class Compiler:
         )
 
     def _shape_name(self, name: str) -> str:
-        """The name, made unique: collisions of one link may share theirs."""
+        """Return a unique name: collisions of one link may share theirs."""
         unique, number = name, 2
         while unique in self.shape_names:
             unique, number = f"{name}#{number}", number + 1
@@ -241,7 +243,7 @@ class Compiler:
         return unique
 
     def _add_motor(self, joint: str) -> None:
-        """A motor that does nothing until it is told to: every gain is zero."""
+        """Add an actuator with zero gains, which is inactive until commanded."""
         motor = self.spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         motor.gaintype = mujoco.mjtGain.mjGAIN_FIXED
         motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
@@ -253,5 +255,5 @@ class Compiler:
 
 
 def _in_world(collision: Collision, node: LinkNode) -> Collision:
-    """The same, posed in the world."""
+    """Return the collision posed in the world."""
     return replace(collision, link_from_collision=node.world_from_link @ collision.link_from_collision)

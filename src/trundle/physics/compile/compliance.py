@@ -1,8 +1,8 @@
-"""Compliance of contacts: how a load is shared where statics alone does not say, and springs as a file has them.
+"""Compliance of contacts: load sharing in statically indeterminate cases, and springs from kp and kd.
 
-A rigid body on more points than it needs may be carried in many ways. As in ODE, every point is equally soft: a wheel
-counts as two, its edges, a sphere as one, a box as its corners. MuJoCo's own contacts are as stiff as what they carry
-is heavy to move there, so that the casters of a chassis would take the load off its wheels.
+A rigid body on more contact points than it needs is statically indeterminate. As in ODE, every point is equally soft: a
+wheel counts as two (its edges), a sphere as one, a box as its corners. MuJoCo's own contact stiffness scales with the
+effective mass at the point, so the casters of a chassis would unload its wheels.
 """
 
 from collections.abc import Mapping
@@ -15,35 +15,39 @@ from .contact_params import ContactParams
 from .solver_settings import SOLIMP
 
 _HARDEST = 0.999
-"""Impedance that shared loads may ask for: beyond, the solver takes more steps than that is worth."""
+"""Largest impedance of shared loads; a higher one costs the solver too many iterations."""
 _DRIVEN = 0.8
-"""Impedance at the heaviest link of what has joints. As far as `cpp/contact_offset.cc` foresees a wheel's acceleration
-wrongly, loads are off by the error over this softness: on 0.99 the loads of what begins to slide take 0.5 s to be
-shared, and light vehicles chatter. A vehicle sinks in by 15 µm, and creeps down 20° at 5 µm/s, both 20 times more.
+"""Impedance at the heaviest link of a jointed tree.
+
+`cpp/contact_offset.cc` predicts a wheel's acceleration; its error over the softness 1 − d is an error of
+the loads. With 0.99 the loads of a vehicle that begins to slide need 0.5 s to be shared, and light vehicles chatter. A
+vehicle sinks in by 15 µm and creeps down 20° at 5 µm/s, both 20 times more than with 0.99.
 """
 _SOFT = 0.01
-"""Impedance of springs. MuJoCo adds d / (1 − d) of the mass that a contact moves to it, which slows its swings."""
+"""Impedance of springs. MuJoCo adds d / (1 − d) of the effective mass at the contact, which slows oscillations."""
 _HOLD = 2000.0
-"""[1/h] Damping of friction in what is soft: what rests creeps as little as on a hard floor."""
+"""Damping of friction in soft contacts [1/h]: resting bodies creep as little as on a hard floor."""
 _STIFFEST = 0.05
-"""[1/h²] Stiffness over mass from which on a step cannot tell a spring from a hard contact."""
+"""Stiffness over mass [1/h²] at which a step no longer resolves a spring, which is then a hard contact."""
 _STIFFEST_HELD = 1.0
-"""[1/h²] The same of what may be deep: up to its min_depth it gives way as fast as its stiffness lets it."""
+"""The limit [1/h²] for pairs with a min_depth: up to it the contact yields as far as its stiffness allows."""
 
 
 def is_soft(stiffness: float, inverse_mass: float, h: float, *, min_depth: float = 0.0) -> bool:
-    """Whether a step can tell a contact of some stiffness [N/m] between masses (inverse, [1/kg]) from a hard one."""
+    """True if a time step resolves a contact of a stiffness [N/m] between masses (inverse, [1/kg]) as a spring."""
     stiffest = _STIFFEST if min_depth <= 0.0 else _STIFFEST_HELD
     return 0.0 < stiffness * inverse_mass * h * h < stiffest
 
 
 def pair_name(a: str, b: str) -> str:
-    """The engine's name for two shapes that may touch."""
+    """Return MuJoCo's name for a contact pair of two shapes."""
     return f"{a} {b}"
 
 
 def set_compliance(model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], ContactParams]) -> None:
-    """Make each pair as soft as its surfaces are, or, where those are hard, as all points of what stands on them."""
+    """Set each pair's compliance from its kp and kd, or, for hard surfaces, from the compliance of its tree's contact
+    points.
+    """
     softness = _tree_softness(model)
     for (a, b), params in pair_params.items():
         bodies = [int(model.geom_bodyid[model.geom(name).id]) for name in (a, b)]
@@ -62,19 +66,19 @@ def set_compliance(model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], 
 
 
 def _spring(params: ContactParams, inverse_mass: float, h: float) -> tuple[float, float]:
-    """The solref by which a constraint of impedance d and inverse mass A pushes with kp · depth + kd · speed.
+    """Return the solref by which a constraint of impedance d and inverse mass A exerts kp · depth + kd · speed.
 
-    Its force is (K d · depth + B · speed) / R with R = A (1 − d) / d, K = −solref₀ / d² and B = −solref₁ / d. As it
-    is the depth at the step's end, a spring damps by h · kp, too.
+    Its force is (K d · depth + B · speed) / R with R = A (1 − d) / d, K = −solref₀ / d² and B = −solref₁ / d. MuJoCo
+    uses the depth at the end of the step, so the spring itself damps by h · kp.
     """
     reach = inverse_mass * (1 - _SOFT) * params.points
     return -params.kp * reach, -max(params.kd - h * params.kp, 0.0) * reach
 
 
 def _tree_softness(model: mujoco.MjModel) -> dict[int, float]:
-    """A · (1 − d) of one point of each tree that stands free, by the body that is heaviest to move.
+    """Return A · (1 − d) of one contact point of each free tree, from the body with the smallest inverse weight.
 
-    A load presses a contact in by as much, for its spring's stiffness has a 1 / d, too.
+    A load presses a contact in by the same factor, because the stiffness of its spring has a 1 / d, too.
     """
     free = {int(model.body_treeid[model.jnt_bodyid[j]]) for j in np.flatnonzero(model.jnt_type == _FREE)}
     weights: NDArray[np.float64] = model.body_invweight0[:, 0]
@@ -89,4 +93,4 @@ def _tree_softness(model: mujoco.MjModel) -> dict[int, float]:
 
 _FREE = int(mujoco.mjtJoint.mjJNT_FREE)
 _LONE = 6
-"""Freedoms of a tree that is a single body."""
+"""Degrees of freedom of a tree with a single body."""

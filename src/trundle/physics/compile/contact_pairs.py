@@ -1,10 +1,10 @@
-"""Which shapes may touch, and how: Gazebo's rules written as MuJoCo contact pairs.
+"""Collision filtering and contact parameters: Gazebo's rules as MuJoCo contact pairs.
 
-In Gazebo the smaller friction of two surfaces wins; MuJoCo takes the larger, so each pair states its own. Links
-joined by a joint never touch, links of one model only where they say so.
+Gazebo uses the smaller friction of two surfaces, MuJoCo the larger, so each pair sets its own. Links connected by a
+joint never collide, links of one model only with <self_collide>.
 
-ODE and MuJoCo cannot agree on everything: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits
-how fast ODE corrects depth, does not count: what begins deep is put out (see `separation`), what hits comes up slowly.
+ODE and MuJoCo differ: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits ODE's depth
+correction, is ignored: initial penetration is resolved at once (see `separation`), impacts are corrected slowly.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -22,23 +22,24 @@ from .shapes import CollidesWith, ShapeEntry
 from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solref
 
 MAX_PAIRS = 2000
-"""Of what stands with what moves. Beyond these, shapes meet by MuJoCo's own search: a pair costs about 10 ns a step
-whether it meets or not."""
+"""Most pairs of a fixed and a moving shape. Beyond, MuJoCo's broad phase finds contacts: a pair costs about 10 ns per
+step, in contact or not.
+"""
 MAX_MOVING_PAIRS = 1000
-"""Of what moves: fewer, for that is seldom near one another."""
+"""Most pairs of moving shapes; fewer, because these are rarely close to one another."""
 MAX_SOFT_PAIRS = 20_000
-"""Of shapes that give: beyond, they are as hard as all others that meet by search."""
+"""Most pairs of soft shapes; beyond, they are simulated as hard."""
 _BITS = 0x7FFFFFFF
 _TOUCHING = 1e-9
-"""[m] What is set down on a floor touches it from the first step on: MuJoCo wants it to be below its surface."""
+"""Margin of contacts [m]: a shape placed exactly on a floor is in contact from the first step on."""
 _NO_FORCE_DEPTH = 1e3
-"""[m] Deeper than any shape is in another: the two meet and feel nothing before."""
+"""Depth [m] beyond any penetration: contacts below it are detected without a force."""
 
 
 def add_contacts(
     spec: mujoco.MjSpec, shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: KinematicTree, report: Diagnostics
 ) -> dict[tuple[str, str], ContactParams]:
-    """Write a pair for every two shapes that may touch; return how they do."""
+    """Add a pair for every two shapes that may collide; return their parameters by shape names."""
     pair_params: dict[tuple[str, str], ContactParams] = {}
     for shape in shapes:
         shape.geom.contype = shape.geom.conaffinity = 0
@@ -49,7 +50,7 @@ def add_contacts(
     solid = [shape for shape in moving if shape.collides_with & CollidesWith.MOVING]
     special = _needs_pairs(shapes, models, tree, h=spec.option.timestep, report=report)
     if len(fixed) * len(moving) > MAX_PAIRS:
-        # Planes, which most things stand on, keep their pairs: only a pair can keep what slides from hopping.
+        # Planes, under most bodies, keep their pairs: only a pair's solreffriction keeps sliding bodies from hopping.
         found = [shape for shape in fixed if shape.name not in special and shape.kind is CollidesWith.STANDING]
         finding = [
             shape for shape in moving if shape.name not in special and shape.collides_with & CollidesWith.STANDING
@@ -78,7 +79,7 @@ def add_contacts(
 def _needs_pairs(
     shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: KinematicTree, *, h: float, report: Diagnostics
 ) -> frozenset[str]:
-    """Names of the shapes that touch in a way of their own, and so need pairs however many there are."""
+    """Return the names of shapes that need explicit pairs, because of their surface or compliance."""
     odd = {shape.name for shape in shapes if not is_plain(shape.surface)}
     heaviest = max((tree.links[shape.link].link.inertial.mass for shape in shapes if not shape.fixed), default=0.0)
 
@@ -91,8 +92,8 @@ def _needs_pairs(
     if len(giving) * len(shapes) <= MAX_SOFT_PAIRS:
         return frozenset(odd | {shape.name for shape in giving})
     first = giving[0]
-    what = f"{len(giving)} of {len(shapes)} shapes give (kp, min_depth), from {first.collision!r} on"
-    report.warn(models[first.model].at, f"{what}; so many are simulated hard")
+    what = f"{len(giving)} of {len(shapes)} shapes are soft (kp, min_depth), the first {first.collision!r}"
+    report.warn(models[first.model].at, f"{what}; they are simulated as hard")
     return frozenset(odd)
 
 
@@ -109,7 +110,7 @@ class _CollisionRules:
         return can and bitmasks_match(a.surface, b.surface) and self.links_can_collide(a, b)
 
     def links_can_collide(self, a: ShapeEntry, b: ShapeEntry) -> bool:
-        """Whether the links of two shapes may touch, whatever their bitmasks say."""
+        """True if the links of two shapes may collide, regardless of bitmasks."""
         if a.link == b.link or frozenset((a.link, b.link)) in self._joined:
             return False
         return a.model != b.model or (self._self_collides[a.link] and self._self_collides[b.link])
@@ -135,7 +136,7 @@ def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, params: Contact
     pair = spec.add_pair(name=pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
     slides_freely = params.mu <= 0 and params.mu2 <= 0
     pair.condim = 1 if slides_freely else 4 if params.torsion > 0 or params.patch > 0 else 3
-    # On a horizontal floor MuJoCo's first tangent lies along y, as ODE's does where no fdir1 is given.
+    # MuJoCo's first tangent on a horizontal floor is y, as ODE's without fdir1.
     pair.friction = [max(params.mu, 1e-5), max(params.mu2, 1e-5), max(params.torsion, 1e-5), 0.0001, 0.0001]
     pair.solref = limit_solref(h) if params.min_depth > 0 else contact_solref(h)
     pair.solreffriction = sliding_solref(h)
@@ -148,7 +149,7 @@ def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, params: Contact
 def _enable_search_of_fixed(
     fixed: Sequence[ShapeEntry], moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]
 ) -> None:
-    """Let moving shapes find what stands; they do not find each other so."""
+    """Enable collision search between moving and fixed shapes, and not among the moving ones."""
     for shape in fixed:
         _set_geom_contact(shape, h, ranks)
         shape.geom.contype = shape.surface.collide_bitmask & _BITS
@@ -158,7 +159,7 @@ def _enable_search_of_fixed(
 
 
 def _enable_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[float, int]) -> None:
-    """Let moving shapes find each other."""
+    """Enable collision search among moving shapes."""
     for shape in moving:
         _set_geom_contact(shape, h, ranks)
         shape.geom.contype = shape.surface.collide_bitmask & _BITS
@@ -166,7 +167,7 @@ def _enable_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[flo
 
 
 def _set_geom_contact(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -> None:
-    """Write what contacts found by search need on the shape itself; the smaller friction has the higher priority."""
+    """Set a geom's own contact parameters for collision search; the smaller friction has the higher priority."""
     mu, geom = friction_of(shape.surface), shape.geom
     geom.priority = ranks[mu]
     geom.friction = [mu, 0.005, 0.0001]
@@ -176,7 +177,7 @@ def _set_geom_contact(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -
 
 
 def _exclude_pairs(spec: mujoco.MjSpec, pairs: Iterable[tuple[ShapeEntry, ShapeEntry]], rules: _CollisionRules) -> None:
-    """Exclude links from the search that must not touch."""
+    """Exclude the body pairs that must not collide from the search."""
     apart = {
         (min(a.link, b.link), max(a.link, b.link))
         for a, b in pairs

@@ -1,4 +1,4 @@
-"""What two surfaces are like where they touch, by ODE's rules as Gazebo uses them."""
+"""Contact parameters of a pair of surfaces, by ODE's rules as Gazebo uses them."""
 
 import math
 
@@ -8,11 +8,11 @@ from trundle.model import Surface
 from trundle.spatial import ZERO, Vector3
 
 INFINITE_FRICTION = 100.0
-"""What SDF's negative mu stands for: steeper than any slope."""
+"""Friction coefficient for SDF's negative mu (infinite)."""
 _LEAST = 1e-4
-"""Least ratio of one friction to the other: none at all is more than MuJoCo's solver takes."""
+"""Smallest ratio between the two friction coefficients; MuJoCo's solver does not take zero."""
 _MAX_SLIP = 1e9
-"""[m/s/N, rad/s/(N·m)] As good as none of the friction."""
+"""Upper bound of slip [m/s/N, rad/s/(N·m)], practically without friction."""
 _OF_PAIRS = (
     "fdir1",
     "slip1",
@@ -23,50 +23,51 @@ _OF_PAIRS = (
     "restitution",
     "collide_without_contact",
 )
-"""What only a pair of shapes can have."""
+"""Parameters that only an explicit pair supports."""
 
 
 class ContactParams(Struct, frozen=True, kw_only=True):
-    """Two surfaces as one."""
+    """Combined contact parameters of two surfaces."""
 
     mu: float
     mu2: float
     fdir1: Vector3
-    """First friction direction; zero: left to the engine."""
+    """First friction direction; zero: chosen by the engine."""
     fdir1_shape: int
-    """In the frame of which of the two."""
+    """Index (0 or 1) of the shape in whose frame fdir1 is given."""
     slip: Vector3
-    """[m/s/N] along the first friction direction and across it, [rad/s/(N·m)] about the normal."""
+    """Slip compliance along the first friction direction and across it [m/s/N], and about the normal [rad/s/(N·m)]."""
     torsion: float
-    """[m] Largest torque about the normal over the normal force."""
+    """Torsional friction: largest torque about the normal over the normal force [m]."""
     patch: float
-    """[m²/N] The square of the same, for each newton of normal force: what is pressed harder has a larger patch.
-    0: `torsion` counts."""
+    """Square of the torsional friction per newton of normal force [m²/N], for a patch that grows with the load; 0:
+    `torsion` is used.
+    """
     kp: float
     """[N/m]"""
     kd: float
     """[N·s/m]"""
     min_depth: float
-    """[m] Up to which they stop each other, and do not push each other out."""
+    """Penetration without correction [m]."""
     restitution: float
     threshold: float
     """[m/s]"""
     has_force: bool
-    """Whether the two push each other, not only meet."""
+    """False if the contact is detected without a force."""
     points: int = 1
-    """How many of ODE's contact points one contact stands for."""
+    """Number of ODE contact points that one contact stands for."""
 
 
 def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: int = 1) -> ContactParams:
-    """The smaller friction wins, springs act in series, dampers and slips add up; the first's min_depth counts.
+    """Combine two surfaces: smaller friction, springs in series, dampers and slips added, the first's min_depth.
 
-    As Gazebo's `ODEPhysics::Collide` has it. The fdir1 of the second of two it works out and never uses; ODE's second
-    is the larger, which is what stands, as a rule. What slips, slips by as much for any number of contact points.
+    As Gazebo's `ODEPhysics::Collide`, which computes the fdir1 of the second surface and never uses it; ODE's second
+    geom is the larger, as a rule the fixed one. Slip does not depend on the number of contact points.
 
     Args:
-        a: of the first; where one of the two stands, that is the other.
-        b: of the second.
-        b_stands: whether nothing moves the second.
+        a: first surface; the moving one if the other is fixed.
+        b: second surface.
+        b_stands: True if the second is fixed.
         points: see `ContactParams`.
     """
     mu, mu2 = min(_friction(a.mu), _friction(b.mu)), min(_friction(a.mu2), _friction(b.mu2))
@@ -96,12 +97,12 @@ def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: 
 
 
 def bitmasks_match(a: Surface, b: Surface) -> bool:
-    """Whether their collide_bitmasks share a bit; as in Gazebo 11, the category_bitmasks do not count."""
+    """True if the collide_bitmasks share a bit; as in Gazebo 11, category_bitmasks are ignored."""
     return bool(a.collide_bitmask & b.collide_bitmask)
 
 
 def is_plain(surface: Surface) -> bool:
-    """Whether a shape can carry by itself all that its contacts need, as long as they are hard: friction, bitmasks."""
+    """True if a geom's own parameters can express the surface's hard contacts: friction and bitmasks only."""
     default = Surface()
     return all(getattr(surface, name) == getattr(default, name) for name in _OF_PAIRS)
 
@@ -115,9 +116,10 @@ def _bounded(slip: float) -> float:
 
 
 def _torsion(a: Surface, b: Surface, kp: float) -> tuple[float, float]:
-    """Torsion and patch of `ContactParams`: 3π/16 · coefficient · patch radius, by Hertz' pressure over a round patch.
+    """Return torsion and patch of `ContactParams`: 3π/16 · coefficient · patch radius, for Hertz pressure over a round
+    patch.
 
-    The radius is the one that is written, or √(curvature · depth), and load / kp is how deep a contact point is.
+    The patch radius is the one given, or √(radius of curvature · depth) with a contact depth of load / kp.
     """
     factor = 3 * math.pi / 16 * min(_friction(a.torsional_coefficient), _friction(b.torsional_coefficient))
     if a.use_patch_radius and b.use_patch_radius:
@@ -127,5 +129,5 @@ def _torsion(a: Surface, b: Surface, kp: float) -> tuple[float, float]:
 
 
 def friction_of(surface: Surface) -> float:
-    """A surface's own friction."""
+    """Return a surface's friction coefficient."""
     return _friction(surface.mu)

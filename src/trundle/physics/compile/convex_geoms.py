@@ -1,4 +1,4 @@
-"""Convex hulls as MuJoCo geoms, one or tens of thousands."""
+"""Convex hulls as MuJoCo geoms, from one to tens of thousands."""
 
 from collections.abc import Sequence
 
@@ -12,17 +12,18 @@ from .solver_settings import apply_settings
 
 _Points = NDArray[np.float64]
 MIN_THICKNESS = 1e-4
-"""[m] What a thickness of zero becomes: 0.1 mm."""
+"""Smallest thickness of a shape [m]."""
 _COARSEST = 2e-6
-"""Part of how far from its origin a mesh is that it must be thick: MuJoCo's corners have 24 bits."""
+"""Smallest thickness relative to the distance from the mesh origin: MuJoCo stores vertices with 24 bits."""
 _FEW = 64
 _MANY = 4000
-"""Each geom that is added to a specification takes time by the number of those there are: so many are put together
-apart from it, and added at once."""
+"""Most hulls per specification. The time to add a geom grows with their number, so large sets are built in separate
+specifications and attached.
+"""
 
 
 def add_hull(spec: mujoco.MjSpec, body: mujoco.MjsBody, pose: Pose, name: str, corners: _Points) -> mujoco.MjsGeom:
-    """Add the convex hull of some corners (N, 3) [m], which MuJoCo makes of a mesh without faces."""
+    """Add the convex hull of corners (N, 3) [m]; MuJoCo computes it from a mesh without faces."""
     spec.add_mesh(name=name, uservert=corners.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
     geom = body.add_geom(name=name, pos=pose.position, quat=pose.quaternion, group=3)
     geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, name
@@ -32,7 +33,7 @@ def add_hull(spec: mujoco.MjSpec, body: mujoco.MjsBody, pose: Pose, name: str, c
 def add_hulls(
     spec: mujoco.MjSpec, body: mujoco.MjsBody, pose: Pose, name: str, pieces: Sequence[_Points]
 ) -> list[mujoco.MjsGeom]:
-    """Add the hulls of some pieces, called `name#0`, `name#1` and so on."""
+    """Add the hulls of pieces, named `name#0`, `name#1`, …"""
     if len(pieces) <= _FEW:
         return [add_hull(spec, body, pose, f"{name}#{i}", corners) for i, corners in enumerate(pieces)]
     geoms: list[mujoco.MjsGeom] = []
@@ -40,7 +41,7 @@ def add_hulls(
         apart = mujoco.MjSpec()
         apply_settings(apart)
         frame = apart.worldbody.add_frame()
-        apart.default.name = f"{first}"  # it goes along, and a second one of its name could not be read from MJCF
+        apart.default.name = f"{first}"  # attached along; a second default of one name would make invalid MJCF
         for i, corners in enumerate(pieces[first : first + _MANY], start=first):
             geoms.append(add_hull(apart, apart.worldbody, pose, f"{i}", corners))
             geoms[-1].set_frame(frame)
@@ -49,7 +50,9 @@ def add_hulls(
 
 
 def thicken(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
-    """Pieces (N, 3) [m], with a second layer across what is flat or a line; and how thick at most, 0 where none is."""
+    """Return pieces (N, 3) [m] with flat ones and lines extruded to a minimum thickness, and the largest thickness
+    added [m], 0 if none.
+    """
     thick = list(pieces)
     thickest = 0.0
     by_size: dict[int, list[int]] = {}

@@ -1,4 +1,4 @@
-"""Makes mass properties such that an engine can use them, and says what it changed."""
+"""Mass properties that MuJoCo accepts; changes are reported."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,16 +8,15 @@ from trundle.model import Inertial, Link
 from trundle.spatial import Pose, quaternion_from_matrix
 
 SMALLEST_MASS = 1e-6
-"""[kg] What a mass of zero or less becomes."""
+"""Mass in place of zero or less [kg]."""
 SMALLEST_MOMENT = 1e-9
-"""[kg·m²]"""
+"""Smallest principal moment [kg·m²]."""
 
 
 def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tuple[float, float, float]]:
     """Return mass [kg], link_from_principal_axes and the three principal moments [kg·m²].
 
-    A moment larger than the sum of the two others belongs to no body; the two are raised by the least equal
-    amount that makes it one.
+    Moments that violate the triangle inequality are corrected: the two smaller are raised by the least equal amount.
     """
     inertial = link.inertial
     mass = inertial.mass
@@ -37,8 +36,8 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
     if excess > 1e-12 * moments[2]:
         report.warn(
             link.at,
-            f"link {link.name!r}: principal moments {moments[0]:g}, {moments[1]:g}, {moments[2]:g} kg·m² belong to no "
-            f"body (the largest exceeds the sum of the others); physics raises the two smaller by {excess / 2:g}",
+            f"link {link.name!r}: principal moments {moments[0]:g}, {moments[1]:g}, {moments[2]:g} kg·m² violate the "
+            f"triangle inequality; physics raises the two smaller by {excess / 2:g}",
         )
         moments = moments + np.array([excess / 2, excess / 2, 0.0]) * (1 + 1e-9)
     pose = inertial.link_from_com
@@ -50,3 +49,20 @@ def _tensor(inertial: Inertial) -> NDArray[np.float64]:
     ixx, iyy, izz = inertial.moments
     ixy, ixz, iyz = inertial.products
     return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+
+
+def _quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Return a rotation matrix as a quaternion (w, x, y, z), by the largest of Shepperd's four forms."""
+    m = rotation
+    trace = np.trace(m)
+    four = np.array(
+        [
+            [1 + trace, m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [m[2, 1] - m[1, 2], 1 + 2 * m[0, 0] - trace, m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 + 2 * m[1, 1] - trace, m[1, 2] + m[2, 1]],
+            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 + 2 * m[2, 2] - trace],
+        ]
+    )
+    best = four[int(np.argmax(np.diag(four)))]
+    w, x, y, z = (best / np.linalg.norm(best)).tolist()
+    return (w, x, y, z)

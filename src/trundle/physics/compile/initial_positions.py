@@ -1,4 +1,4 @@
-"""Where joints start: where their axes say, and in a saved world where its <state> has the links."""
+"""Initial joint positions, from the axes, or from the link poses of a saved <state>."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -27,19 +27,19 @@ _FREE, _BALL, _SLIDE = (
     int(t) for t in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL, mujoco.mjtJoint.mjJNT_SLIDE)
 )
 _OFF_M, _OFF_RAD = 0.01, 0.05
-"""A link saved further than this from where its joints can take it is named."""
+"""Position and rotation error from which a saved link pose counts as unreachable."""
 
 
 def initial_positions(
     model: mujoco.MjModel, tree: KinematicTree, axes: Mapping[str, Sequence[Axis]], report: Diagnostics
 ) -> NDArray[np.float64] | None:
-    """The engine's qpos at the start; None where everything starts as it is written.
+    """Return the initial qpos; None if everything starts as written.
 
     Args:
         model: compiled with every joint at zero.
-        tree: the links that its bodies are.
-        axes: the freedoms of its joints.
-        report: takes a note of each link that its joints cannot take to where it was saved.
+        tree: links of its bodies.
+        axes: axes of its joints.
+        report: takes a note for each link whose saved pose its joints cannot reach.
     """
     saved = {node.model for node in tree.links.values() if node.link.initial_pose is not None}
     moved = [
@@ -78,7 +78,7 @@ def _saved_pose(node: LinkNode) -> Pose:
 def _set_joint_positions(
     model: mujoco.MjModel, body: int, positions: NDArray[np.float64], at_zero: Pose, wanted: Pose
 ) -> None:
-    """Set the joints of a body so that they take it from where it is at zero to where it is wanted."""
+    """Set the joints of a body that move it from its zero pose to the wanted one."""
     first = int(model.body_jntadr[body])
     address = int(model.jnt_qposadr[first])
     moved = at_zero.inverse() @ wanted
@@ -108,13 +108,13 @@ def _set_joint_positions(
 
 
 def _angle_about(axis: Vector3, turn: Quaternion) -> float:
-    """How far a rotation turns about an axis [rad]."""
+    """Return the rotation angle about an axis [rad]."""
     w, x, y, z = turn
     return math.remainder(2 * math.atan2(x * axis[0] + y * axis[1] + z * axis[2], w), math.tau)
 
 
 def _first_axis_angle(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
-    """How far a joint's first axis has turned [rad], from where that took the second."""
+    """Return the angle of a joint's first axis [rad] from the direction to which it rotated the second."""
     there = rotate(turn, inner)
     across = cross(inner, there)
     along = dot(inner, there) - dot(axis, inner) * dot(axis, there)
@@ -122,7 +122,7 @@ def _first_axis_angle(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
 
 
 def _wrap_into_limits(model: mujoco.MjModel, joint: int, angle: float) -> float:
-    """The same angle, a full turn on or back where that is within the limits."""
+    """Return the angle, shifted by a full turn if that brings it within the limits."""
     lower, upper = (float(limit) for limit in model.jnt_range[joint])
     if not model.jnt_limited[joint] or lower <= angle <= upper:
         return angle
@@ -141,7 +141,7 @@ def _report_unreachable(
         wanted = _saved_pose(node)
         off = (there.inverse() @ wanted).quaternion
         if math.dist(there.position, wanted.position) > _OFF_M or 2 * math.hypot(*off[1:]) > _OFF_RAD:
-            what = f"link {node.link.name!r} was saved where its joints cannot take it; it starts as near as they can"
+            what = f"link {node.link.name!r}: its joints cannot reach the saved pose; it starts at the nearest"
             report.info(node.link.at, what)
 
 

@@ -1,7 +1,7 @@
-"""Joints as MuJoCo joints, and the constraints that tie them to one another.
+"""Joints as MuJoCo joints, with loop, mimic and gear constraints.
 
-A link that hangs from two parents is cut in two equal halves, one for each, welded together: so a joint that closes a
-loop has its limits, its motor and its position as any other.
+A link with two parents is split into two equal halves, one per parent, welded together, so that a joint that closes a
+loop has limits, motor and position like any other.
 """
 
 import math
@@ -19,9 +19,9 @@ from .kinematic_tree import JointEdge, KinematicTree, is_rigid
 from .solver_settings import SOLIMP, equality_solref, friction_solref, limit_solref
 
 _NO_EFFORT = 1e-9
-"""[N·m or N] What an effort limit of zero becomes: MuJoCo wants a range that is not empty."""
+"""Effort limit in place of zero [N·m or N]: MuJoCo's range must not be empty."""
 _HARD_STOP = 1e8
-"""[N/m or N·m/rad] SDF's own stiffness of a limit."""
+"""SDF's default stiffness of a limit [N/m or N·m/rad]."""
 _PARALLEL = 0.9999
 """Cosine of 0.8 degrees."""
 _PLANAR_SUFFIXES = ("::x", "::y")
@@ -29,28 +29,28 @@ _TWO_HINGES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2})
 
 
 class Axis(Struct, frozen=True):
-    """One freedom of a joint; a ball joint has one Axis that stands for three."""
+    """Axis of a joint; a ball joint has one Axis for its three degrees of freedom."""
 
     joint: str
     """`model::joint`"""
     engine_joint: str
     axis: JointAxis | None
-    """None: a ball."""
+    """None for a ball joint."""
     sign: float = 1.0
-    """−1 where the engine's position runs the other way."""
+    """−1 if MuJoCo's position has the opposite sign."""
 
 
 class JointBuilder:
-    """Adds joints to bodies."""
+    """Adds joints and constraints to a specification."""
 
     def __init__(self, spec: mujoco.MjSpec, report: Diagnostics) -> None:
         self._spec = spec
         self._report = report
         self.axes: dict[str, list[Axis]] = {}
-        """Joint → its freedoms, in the file's order."""
+        """Joint → its axes, in file order."""
 
     def add(self, body: mujoco.MjsBody, edge: JointEdge, world_from_child: Pose) -> None:
-        """Give a body the freedom that a joint leaves it; the body's frame is that of the link below."""
+        """Add a joint's axes to its child body, whose frame is the link's."""
         joint = edge.joint
         frame = world_from_child.inverse()
         anchor = frame.transform_point(edge.world_from_joint.position)
@@ -67,11 +67,11 @@ class JointBuilder:
         if joint.type in _TWO_HINGES:
             written = [(joint.axis, "::axis"), (joint.axis2, "::axis2")]
             if joint.axis is not None and joint.axis2 is not None and _are_parallel(joint.axis, joint.axis2):
-                what = "its two axes are parallel, which is one freedom; the second is left out"
+                what = "its two axes are parallel; the second is left out"
                 self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
                 written.pop()
         made: list[Axis] = []
-        # The first joint of a body is the outermost: turned round, the last axis comes first.
+        # The first joint of a body is the outermost: in a reversed joint the last axis comes first.
         for axis, suffix in reversed(written) if edge.is_reversed else written:
             if axis is None or (axis.is_rigid and axis.mimic is None):
                 continue
@@ -116,7 +116,7 @@ class JointBuilder:
                 self._report.warn(joint.at, what)
             hinge.range = [max(lower, -1e10), min(upper, 1e10)]
             if axis.stop_stiffness < _HARD_STOP:
-                what = "a limit's <stiffness> and <dissipation> mean nothing to Gazebo's ODE; the stop is hard"
+                what = "a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
                 self._report.info(joint.at, f"joint {joint.name!r}: {what}")
         if math.isfinite(axis.effort) and axis.effort >= 0:
             hinge.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
@@ -130,31 +130,31 @@ class JointBuilder:
         return 0.0
 
     def _add_screw(self, body: mujoco.MjsBody, edge: JointEdge, anchor: Vector3, direction: Vector3) -> None:
-        """A screw advances −angle / thread_pitch along its axis."""
+        """Add a screw: translation −angle / thread_pitch along its axis."""
         pitch, advance = edge.joint.thread_pitch, f"{edge.name}::advance"
         if pitch == 0 or not math.isfinite(pitch):
-            what = f"thread_pitch {pitch:g} is no screw; it turns without advancing"
+            what = f"thread_pitch {pitch:g} is not usable; the joint turns without advancing"
             self._report.warn(edge.joint.at, f"joint {edge.joint.name!r}: {what}")
             return
         body.add_joint(name=advance, type=mujoco.mjtJoint.mjJNT_SLIDE, pos=anchor, axis=direction)
         self._couple(advance, edge.name, ratio=-1.0 / pitch)
 
     def _couple(self, follower: str, leader: str, *, ratio: float, offset: float = 0.0) -> None:
-        """follower = offset + ratio · leader"""
+        """Constrain follower = offset + ratio · leader."""
         tie = self._spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=follower, name2=leader)
         tie.objtype = mujoco.mjtObj.mjOBJ_JOINT
         tie.data = [offset, ratio, *[0.0] * (len(tie.data) - 2)]
         tie.solref, tie.solimp = equality_solref(self._spec.option.timestep), SOLIMP
 
     def weld(self, half: str, other: str, *, as_one: bool) -> None:
-        """Hold two halves of a link together as they stand with every joint at zero, or one in the other."""
+        """Weld two halves of a link, in their pose with every joint at zero, or (`as_one`) at the identity."""
         weld = self._spec.add_equality(type=mujoco.mjtEq.mjEQ_WELD, name1=half, name2=other)
         weld.objtype = mujoco.mjtObj.mjOBJ_BODY
         weld.data = [0.0] * 6 + [float(as_one), 0.0, 0.0, 0.0, 1.0] + [0.0] * (len(weld.data) - 11)
         weld.solref, weld.solimp = equality_solref(self._spec.option.timestep), SOLIMP
 
     def couple_joints(self, tree: KinematicTree) -> None:
-        """Make mimics follow and gears mesh, once every joint is there."""
+        """Add mimic and gearbox constraints, after all joints."""
         for edge in tree.joints:
             prefix = edge.name.removesuffix(edge.joint.name)
             for axis in self.axes.get(edge.name, []):
@@ -166,14 +166,14 @@ class JointBuilder:
     def _mimic(self, follower: Axis, mimic: Mimic, prefix: str, joint: Joint) -> None:
         leaders = self.axes.get(f"{prefix}{mimic.joint}", [])
         if len(leaders) <= mimic.axis or leaders[mimic.axis].axis is None or leaders[mimic.axis] == follower:
-            what = f"mimics {mimic.joint!r}, which has no such freedom; it moves by itself"
+            what = f"mimics {mimic.joint!r}, which has no such axis; it moves freely"
             self._report.warn(joint.at, f"joint {joint.name!r} {what}")
             return
         offset = mimic.offset - mimic.multiplier * mimic.reference
         self._couple(follower.engine_joint, leaders[mimic.axis].engine_joint, ratio=mimic.multiplier, offset=offset)
 
     def _add_gearbox(self, edge: JointEdge, prefix: str, tree: KinematicTree) -> None:
-        """Child over reference turns −ratio times what parent over reference does."""
+        """Constrain (child over reference) = −ratio · (parent over reference)."""
         joint = edge.joint
         reference = f"{prefix}{joint.gearbox_reference_body}"
         wheels = [
@@ -182,7 +182,7 @@ class JointBuilder:
         ]
         driver, driven = wheels
         if driver is None or driven is None:
-            what = "gears mesh where parent and child each hang from the reference body by a revolute joint; left out"
+            what = "parent and child must each be connected to the reference body by a revolute joint; left out"
             self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
             return
         ratio = -joint.gearbox_ratio * driver[1] * driven[1]
@@ -191,7 +191,7 @@ class JointBuilder:
     def _hinge_between(
         self, link: str, reference: str, axis: JointAxis | None, gearbox: JointEdge, held: Mapping[str, JointEdge]
     ) -> tuple[str, float] | None:
-        """The engine's joint by which a link turns against the reference body, and which way round."""
+        """Return the joint between a link and the reference body, and the sign of its rotation."""
         for low, high, sign in ((link, reference, 1.0), (reference, link, -1.0)):
             edge = held.get(low)
             if edge is None or edge.parent != high or axis is None:
@@ -206,7 +206,7 @@ class JointBuilder:
 
 
 def _planar(axis: JointAxis | None) -> list[tuple[JointAxis | None, str]]:
-    """The three freedoms of a planar joint: two ways across its axis, and about it."""
+    """Return the three axes of a planar joint: two translations normal to its axis and the rotation about it."""
     if axis is None:
         return []
     plane = Pose(quaternion=rotation_from_z(axis.direction))

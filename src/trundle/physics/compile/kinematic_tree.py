@@ -1,7 +1,7 @@
-"""Which joint holds which link: trees for the engine, and the joints that close a loop in them.
+"""Kinematic trees of links and joints, and the joints that close loops in them.
 
-A file may name links and joints in any order, join links of different models, and let a link hang from two parents.
-The engine wants each link to hang from one; a joint that cannot be part of a tree as written may be turned round.
+Files name links and joints in any order, join links of different models, and give a link two parents. The engine needs
+one parent per link; a joint that does not fit a tree as written may be reversed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,22 +17,22 @@ WORLD = "world"
 
 
 class LinkNode(Struct, frozen=True, eq=False):
-    """A link and where it is."""
+    """Link and its pose."""
 
     name: str
     """`model::link`"""
     model: int
     link: Link
     fixed: bool
-    """As the file says: it is part of the world."""
+    """True if the file makes it part of the world."""
     world_from_link_at_zero: Pose
     """world_from_link with every joint at zero."""
     world_from_link: Pose
-    """world_from_link with each joint that has no freedom where its limits hold it."""
+    """world_from_link with each rigid joint at its limit."""
 
 
 class JointEdge(Struct, frozen=True, eq=False):
-    """A joint as the engine has it: `below` moves against `above`."""
+    """Joint between a parent and a child link of the tree."""
 
     name: str
     """`model::joint`"""
@@ -41,39 +41,41 @@ class JointEdge(Struct, frozen=True, eq=False):
     """`model::link` or `world`"""
     child: str
     world_from_joint: Pose
-    """With every joint at zero."""
+    """Joint frame with every joint at zero."""
     world_from_axes: Pose
-    """The frame that the joint's axes are written in."""
+    """Frame that the joint's axes are given in."""
     is_reversed: bool = False
-    """Above is the joint's child."""
+    """True if parent and child are swapped against the file."""
 
     @property
     def parent_from_child(self) -> Pose | None:
-        """Where a fixed joint holds `below`; None: as the two lie with every joint at zero."""
+        """Pose of the child in the parent's frame held by a fixed joint; None: the poses with every joint at zero."""
         held = self.joint.parent_from_child
         return held.inverse() if held is not None and self.is_reversed else held
 
     def direction(self, axis: JointAxis) -> Vector3:
-        """The way `below` moves as the joint's position grows, in the world with every joint at zero."""
+        """Return the axis along which the child moves for a growing joint position, in the world with every joint at
+        zero.
+        """
         x, y, z = self.world_from_axes.transform_vector(axis.direction)
         return (-x, -y, -z) if self.is_reversed else (x, y, z)
 
 
 class KinematicTree(Struct, frozen=True, eq=False):
-    """Every link and joint of a world, in file order: models first, then the joints between models."""
+    """Links and joints of a world in file order: models first, then joints between models."""
 
     links: Mapping[str, LinkNode]
     joints: tuple[JointEdge, ...]
     parent_joint: Mapping[str, JointEdge]
-    """Link → the joint it hangs from."""
+    """Link → its parent joint."""
     loops: tuple[JointEdge, ...]
-    """Joints between links that are held already."""
+    """Joints whose child already has a parent joint."""
     immobile: frozenset[str]
-    """Links that cannot move against the world."""
+    """Links that cannot move relative to the world."""
 
     @classmethod
     def from_world(cls, world: World, report: Diagnostics) -> "KinematicTree":
-        """Find out; what cannot be joined is named and left out.
+        """Build the trees of a world; joints with unknown links are dropped with a warning.
 
         Raises:
             DescriptionError: two models, or two links or joints of one, share a name.
@@ -87,13 +89,13 @@ class KinematicTree(Struct, frozen=True, eq=False):
         joints += [_joint_between_models(joint, places) for joint in world.joints if _has_known_links(joint, places)]
         for joint in world.joints:
             if not _has_known_links(joint, places):
-                report.warn(joint.at, f"joint {joint.name!r} joins links that are not there; it is left out")
+                report.warn(joint.at, f"joint {joint.name!r} connects links that do not exist; it is left out")
         held, loops = _spanning_tree(joints, places)
         return cls(places, tuple(joints), held, loops, _immobile_links(places, held))
 
 
 def is_rigid(joint: Joint) -> bool:
-    """Whether a joint leaves no freedom; one that follows another moves, whatever its limits say."""
+    """True if a joint has no freedom; a mimic joint moves even with lower == upper."""
     if joint.type is JointType.FIXED:
         return True
     return joint.axis2 is None and joint.axis is not None and joint.axis.is_rigid and joint.axis.mimic is None

@@ -1,6 +1,6 @@
-"""The tables by which a compiled model says what contact laws it has, for the C++ beside it.
+"""Tables of contact laws in a compiled model, read by the C++ laws.
 
-They are custom numbers of the model, so that every copy of it has them; `cpp/law_tables.h` reads them row by row.
+They are custom numerics of the model, so every copy of it carries them; `cpp/law_tables.h` reads them row by row.
 """
 
 import math
@@ -29,27 +29,29 @@ _WIDTHS = {
     "dead_zones": 2,
     "geoms": 1,
 }
-"""Numbers in a row of each table; the first is a single row: a magic number, on (1), off (0) or friction alone (-1),
-whether surfaces move, the equality that motors take after, how many rows of the tables of chains and springs are in
-use, how many groups of contacts slip or grow, where the data is that an engine steps, and the speed at which `thin`
-counts."""
+"""Columns of each table.
+
+"laws" is a single row: magic number; on (1), off (0) or friction only (-1); flag of moving surfaces; equality whose
+parameters the motors use; used rows of "chains" and of "springs"; number of contact groups with slip or load-dependent
+friction; address of the stepping data; speed at which `tunnelling` applies.
+"""
 _GROUP_WIDTH = 5
-"""Numbers of a group of contacts in userdata: its load, a force in the world, a torque."""
+"""Numbers of a contact group in userdata: load, force in the world frame, torque."""
 _MAGIC = 7.2751
 _SLOWEST = 3.0
-"""Steps' worth of falling: what comes slower than that is at rest, and does not bounce."""
+"""Speed in steps of free fall below which a contact rests and does not bounce."""
 _SLOW = 0.25
-"""(ω h)² up to which a spring is taken at the middle of a step, unstable from 4 on; stiffer ones MuJoCo damps."""
+"""Largest (ω h)² of a spring that is integrated by the midpoint rule, unstable from 4 on; MuJoCo damps stiffer ones."""
 _EQUALITY = "trundle::motor"
 _MOTOR_SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-"""As stiff as MuJoCo lets a constraint be."""
+"""Stiffest impedance that MuJoCo allows."""
 _Table: TypeAlias = NDArray[np.float64]
 _Pair: TypeAlias = tuple[int, int, ContactParams]
 Touches: TypeAlias = Mapping[tuple[str, str], ContactParams]
 
 
 def reserve_tables(spec: mujoco.MjSpec, pair_params: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
-    """Give a model room for its tables before it is compiled."""
+    """Reserve the tables in a specification before it is compiled."""
     rows = {
         "laws": 1,
         "restitution": sum(map(_bounces, pair_params.values())),
@@ -63,20 +65,20 @@ def reserve_tables(spec: mujoco.MjSpec, pair_params: Touches, shapes: Sequence[S
         "geoms": len(spec.geoms),
     }
     for name, width in _WIDTHS.items():
-        # MuJoCo takes no custom number of size zero; less than a row is none.
+        # MuJoCo takes no empty numeric; less than a row counts as none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
-    # The speed that each motor wants; then how contacts push that slip or grow with their load, in groups.
+    # userdata: the target speed of each motor, then the sums of each contact group.
     groups = len(spec.bodies) + len(set(_groups(pair_params, shapes).values()))
     spec.nuserdata = len(spec.actuators) + _GROUP_WIDTH * groups
     _reserve_motors(spec)
-    # What brings MuJoCo to call mjcb_sensor; see `set_needstage`.
+    # Sensor that makes MuJoCo call mjcb_sensor; see `set_needstage`.
     stage = mujoco.mjtStage.mjSTAGE_POS
     spec.add_sensor(name="trundle::laws", type=mujoco.mjtSensor.mjSENS_USER, dim=1, needstage=stage)
 
 
 def _reserve_motors(spec: mujoco.MjSpec) -> None:
-    """Add a tendon for each motor, whose friction is the motor, and an equality that never acts."""
+    """Add a tendon per motor, whose frictionloss is the motor's torque limit, and an inactive equality."""
     for motor in spec.actuators:
         tendon = spec.add_tendon(name=motor.name)
         tendon.wrap_joint(motor.target, 1.0)
@@ -88,7 +90,7 @@ def _reserve_motors(spec: mujoco.MjSpec) -> None:
 
 
 def find_table(model: mujoco.MjModel, name: str) -> _Table:
-    """(rows, width) A table of a compiled model, to read and write."""
+    """Return a (rows, width) table of a compiled model, as a writable view."""
     number = list(_WIDTHS).index(name)
     first, size, width = int(model.numeric_adr[number]), int(model.numeric_size[number]), _WIDTHS[name]
     return model.numeric_data[first : first + size // width * width].reshape(-1, width)
@@ -100,10 +102,10 @@ def fill_tables(
     """Write the tables of a compiled model.
 
     Args:
-        model: to be written.
-        pair_params: how two shapes touch, by their names.
-        shapes: all of them.
-        bodies: number of each link's body, in the order of the world's links.
+        model: compiled model.
+        pair_params: contact parameters by shape names.
+        shapes: all shapes.
+        bodies: body id of each link, in the order of the world's links.
         world: without nested models.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
@@ -125,17 +127,17 @@ def fill_tables(
         model, "dead_zones", ((_key(model, a, b), params.min_depth) for a, b, params in pairs if params.min_depth > 0)
     )
     geoms = find_table(model, "geoms")
-    for shape in shapes:  # what stands may be a shape of the world's body
+    for shape in shapes:  # fixed shapes may belong to the world body
         geoms[model.geom(shape.name).id] = model.body(shape.link).id
 
 
 def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
-    """Have MuJoCo call mjcb_sensor when the constraints are solved, which costs a pass over all bodies, or not."""
+    """Set the stage at which MuJoCo calls mjcb_sensor; after the solver it costs an extra pass over all bodies."""
     model.sensor_needstage[0] = mujoco.mjtStage.mjSTAGE_ACC if solved else mujoco.mjtStage.mjSTAGE_POS
 
 
 def _center(model: mujoco.MjModel) -> None:
-    """List the chains of links, and take soft springs out of MuJoCo's hands."""
+    """List the jointed trees, and move soft springs from MuJoCo to the midpoint rule."""
     head, chains, springs = (find_table(model, name) for name in ("laws", "chains", "springs"))
     chained = [tree for tree in range(model.ntree) if not _is_lone(model, tree)]
     chains[: len(chained), 0] = chained
@@ -148,25 +150,25 @@ def _center(model: mujoco.MjModel) -> None:
 
 
 def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
-    """Whether a tree is a single free body, whose gyroscopic forces MuJoCo takes implicitly by itself."""
+    """True if a tree is a single free body, whose gyroscopic forces MuJoCo integrates implicitly."""
     first = int(model.tree_dofadr[tree])
     is_free = model.jnt_type[model.dof_jntid[first]] == mujoco.mjtJoint.mjJNT_FREE
     return bool(is_free and model.tree_dofnum[tree] == 6)
 
 
 def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
-    """Whether a joint has a spring that steps which keep its energy can follow."""
+    """True if a joint has a spring soft enough for the midpoint rule."""
     inverse_inertia = float(model.dof_invweight0[model.jnt_dofadr[joint]])
     return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _SLOW
 
 
 def disable_laws(model: mujoco.MjModel) -> None:
-    """Have a copy of a model go without its laws."""
+    """Disable the laws in a copy of a model."""
     find_table(model, "laws")[0, 1] = 0.0
 
 
 def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
-    """Have a copy that evaluates states go with the laws of friction alone, as another model has them now."""
+    """Give a copy that evaluates states the friction laws only, with another model's current tables."""
     model.numeric_data[:] = other.numeric_data
     find_table(model, "laws")[0, 1] = -1.0
     model.flg_surfacevel = other.flg_surfacevel
@@ -191,12 +193,14 @@ def _has_friction(params: ContactParams) -> bool:
 
 
 def _gives(params: ContactParams) -> bool:
-    """Whether something of it slips or grows with the load."""
+    """True if the pair slips or its friction depends on the load."""
     return params.mu + params.mu2 > 0 and (any(params.slip) or params.patch > 0)
 
 
 def _groups(pair_params: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
-    """By two shapes' names, the number of the two collisions that they are of, where contacts slip or grow."""
+    """Return the contact group of each pair of shapes that slips or depends on the load; one group per pair of
+    collisions.
+    """
     of = {shape.name: shape.collision for shape in shapes}
     numbers: dict[tuple[str, str], int] = {}
     giving = [pair for pair, params in pair_params.items() if _gives(params)]
@@ -231,7 +235,7 @@ def _friction(model: mujoco.MjModel, pairs: Sequence[_Pair], groups: Mapping[int
 
 
 def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:
-    """Rows of the world's body, which never moves, where a link has no freedom to lose speed in."""
+    """Yield damping rows; a link without degrees of freedom refers to the world body, which never moves."""
     for body, link in zip(bodies, _links(world), strict=True):
         if _has_velocity_decay(link):
             parts = (min(max(part, 0.0), 1.0) for part in (link.linear_decay, link.angular_decay))

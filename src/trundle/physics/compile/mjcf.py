@@ -1,4 +1,4 @@
-"""A world as MuJoCo's own XML: what is simulated, and what is seen."""
+"""Export of a world as MJCF, with physics and visuals."""
 
 import hashlib
 from collections.abc import Callable, Mapping
@@ -20,23 +20,23 @@ if TYPE_CHECKING:  # an engine that steps needs no renderer
     from trundle.render import Scene, SceneLight, Shape
 
 _VISUAL = 2
-"""The geom group of what is seen and never touched, as MuJoCo's own robots have it."""
+"""Geom group of visuals, as in MuJoCo's own robots."""
 _THINNEST = 1e-4
-"""[m] What a thickness of zero becomes."""
+"""Smallest thickness of a visual [m]."""
 _FEWEST_VERTICES = 4
-"""MuJoCo takes no mesh of fewer."""
+"""Fewest vertices of a MuJoCo mesh."""
 PictureOf: TypeAlias = Callable[[Texture], str | None]
-"""Where the MJCF finds an image, relative to itself, as PNG; None: nowhere."""
+"""Returns the path of a texture as PNG, relative to the MJCF; None: not available."""
 
 
 def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_of: PictureOf = lambda _: None) -> str:
-    """A world as MuJoCo's own XML, shapes of meshes inside, every number in full.
+    """Return a world as MJCF, with inline meshes and full precision.
 
     Args:
         world: as read.
-        scene: how the flattened world looks.
-        report: takes what physics has to mend.
-        picture_of: says where the images of meshes are.
+        scene: visuals of the flattened world.
+        report: takes the warnings of the compile.
+        picture_of: finds the textures of meshes.
 
     Raises:
         DescriptionError: as `compile_world`.
@@ -51,11 +51,11 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
 
 
 def _with_pictures(xml: str, pictures: Mapping[str, str]) -> str:
-    """Name the images of materials; MuJoCo would open them before they are there.
+    """Add textures to materials; MuJoCo would open the files before they exist.
 
     Args:
-        xml: without.
-        pictures: material → where its image is.
+        xml: MJCF without textures.
+        pictures: material → image file.
     """
     if not pictures:
         return xml
@@ -72,7 +72,7 @@ def _with_pictures(xml: str, pictures: Mapping[str, str]) -> str:
 
 
 class _VisualWriter:
-    """Adds visuals and lights to what is simulated."""
+    """Adds visuals and lights to a specification."""
 
     def __init__(self, compiler: Compiler, scene: "Scene", report: Diagnostics, picture_of: PictureOf) -> None:
         self._spec = compiler.spec
@@ -80,14 +80,14 @@ class _VisualWriter:
         self._bodies = [compiler.bodies[name] for name in self._scene.bodies]
         self._at, self._report = compiler.world.at, report
         self._meshes: dict[bytes, str] = {}
-        """By what the mesh is made of; one may be seen many times."""
+        """Mesh data digest → name, so that equal meshes are written once."""
         self._materials: dict[tuple[Rgba, float, float, float, str | None], str] = {}
         self._picture_of = picture_of
         self.pictures: dict[str, str] = {}
-        """Material → where its image is."""
+        """Material → image file."""
 
     def add(self) -> None:
-        """Add everything that is seen."""
+        """Add all visuals and lights."""
         if any(shape.texture is not None and self._picture(shape) is None for shape in self._scene.shapes):
             self._report.warn(
                 self._at,
@@ -146,7 +146,7 @@ class _VisualWriter:
 
     def _mesh(self, mesh: Mesh, name: str, *, is_painted: bool) -> str:
         uv = mesh.uv if is_painted else None
-        if uv is not None:  # a corner of its own for each corner of each face
+        if uv is not None:  # a vertex per face corner
             corners = np.arange(mesh.faces.size, dtype=np.int32).reshape(mesh.faces.shape)
             mesh = Mesh(mesh.vertices[mesh.faces].reshape(-1, 3), corners)
         key = hashlib.sha256(mesh.vertices.tobytes() + mesh.faces.tobytes()).digest()
@@ -161,7 +161,7 @@ class _VisualWriter:
                 name=self._meshes[key],
                 uservert=vertices.reshape(-1),
                 userface=mesh.faces.reshape(-1),
-                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,  # what is seen may be flat
+                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,  # visuals may be flat
             )
             if uv is not None:
                 down = uv.reshape(-1, 2) * np.array([1, -1], np.float32) + np.array(

@@ -1,4 +1,4 @@
-"""MuJoCo writes six digits of every number; here are the others."""
+"""Full precision for MJCF that MuJoCo saved with six digits."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 _CLOSE = 1e-5
-"""What six digits leave open."""
+"""Rounding error of six digits."""
 _NAMES: Mapping[str, Mapping[str, str]] = {
     "inertial": {"pos": "ipos", "quat": "iquat", "diaginertia": "inertia"},
     "mesh": {"vertex": "uservert"},
@@ -22,11 +22,11 @@ _NAMES: Mapping[str, Mapping[str, str]] = {
     "equality": {"polycoef": "data", "anchor": "data"},
     "hfield": {"elevation": "userdata"},
 }
-"""Element → attribute → what the specification calls it, where that differs."""
+"""Element → attribute → field of the specification, where the names differ."""
 
 
 def with_full_precision(xml: str, spec: mujoco.MjSpec) -> str:
-    """The XML that a specification wrote, its numbers as exact as the specification has them."""
+    """Return the XML saved from a specification, with the specification's exact numbers."""
     root = Xml.fromstring(xml)
     for element in root.iter("option"):
         _restore(element, spec.option, {})
@@ -44,7 +44,7 @@ def with_full_precision(xml: str, spec: mujoco.MjSpec) -> str:
                 _restore(element, found, _NAMES.get(tag, {}))
     for section, objects in (("equality", spec.equalities), ("actuator", spec.actuators)):
         elements = [child for home in root.iter(section) for child in home]
-        for element, each in zip(elements, objects, strict=False):  # in the order they were added; some have no name
+        for element, each in zip(elements, objects, strict=False):  # in order of addition; some have no name
             _restore(element, each, _NAMES.get(section, {}))
     bodies = {body.name: body for body in spec.bodies}
     for element in root.iter("body"):
@@ -69,7 +69,7 @@ def _restore(element: Xml.Element, source: Any, names: Mapping[str, str]) -> Non
         try:
             written = np.array(text.split(), dtype=np.float64)
             values = np.ravel(np.asarray(exact, dtype=np.float64))[: len(written)]
-        except (TypeError, ValueError):  # a word
+        except (TypeError, ValueError):  # not a number
             continue
         if values.shape == written.shape and np.allclose(values, written, rtol=0.0, atol=_CLOSE * np.abs(values).max()):
             element.set(attribute, " ".join(map(_format, values.tolist())))

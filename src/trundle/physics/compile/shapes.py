@@ -36,21 +36,21 @@ if TYPE_CHECKING:
 
 _CONE_SIDES = 32
 _MAX_CORNERS = 1000
-"""Of a polyline: cutting it up takes time by their cube."""
+"""Most corners of a polyline; triangulation time grows with their cube."""
 
 
 class CollidesWith(Flag):
-    """What a shape can touch."""
+    """Kinds of shapes that a shape can collide with."""
 
     PLANES = auto()
     STANDING = auto()
-    """What else stands."""
+    """Fixed shapes other than planes."""
     MOVING = auto()
     ALL = PLANES | STANDING | MOVING
 
 
 class ShapeEntry(Struct, frozen=True):
-    """One geom that can touch others."""
+    """Geom that takes part in collisions."""
 
     geom: mujoco.MjsGeom
     name: str
@@ -60,15 +60,15 @@ class ShapeEntry(Struct, frozen=True):
     link: str
     """`model::link`"""
     fixed: bool
-    """Part of the world: nothing moves it."""
+    """True if the shape cannot move."""
     surface: Surface
     collides_with: CollidesWith = CollidesWith.ALL
     points: int = 1
-    """How many of ODE's contact points each of its contacts stands for."""
+    """Number of ODE contact points that each of its contacts stands for."""
 
     @property
     def kind(self) -> CollidesWith:
-        """As what it is met."""
+        """Kind of the shape in the other's `collides_with`."""
         if not self.fixed:
             return CollidesWith.MOVING
         return CollidesWith.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else CollidesWith.STANDING
@@ -84,16 +84,16 @@ def add_shape(
     fixed: bool,
     decomposition: "WorldDecomposition | None",
 ) -> list[tuple[mujoco.MjsGeom, CollidesWith]]:
-    """Add a collision to a body, in pieces where it takes several; none after a warning where it cannot be one.
+    """Add a collision to a body as one or several geoms; an unsupported one is dropped with a warning.
 
     Args:
-        spec: of the world.
-        body: that has it.
+        spec: the world's specification.
+        body: owner of the geoms.
         collision: as written.
-        name: of the geom, or of each piece up to a number.
-        report: takes what is not as written.
-        fixed: it never moves.
-        decomposition: cuts meshes; None: each is its convex hull.
+        name: of the geom, or prefix of the pieces.
+        report: takes deviations from the file.
+        fixed: True if the body never moves.
+        decomposition: convex pieces of meshes; None: each mesh is its convex hull.
     """
     geometry = _repaired(collision, report)
     pose = collision.link_from_collision
@@ -148,7 +148,7 @@ def _add_prisms(
     outlines: tuple[tuple[tuple[float, float], ...], ...],
     height: float,
 ) -> list[mujoco.MjsGeom]:
-    """A polyline as one prism for each triangle of its ground plan."""
+    """Add a polyline as one prism per triangle of its outline."""
     if sum(map(len, outlines)) > _MAX_CORNERS or not height > 0:
         what = f"a polyline of more than {_MAX_CORNERS} corners, or without height; it is left out"
         report.warn(collision.at, f"collision {collision.name!r}: {what}")
@@ -160,7 +160,7 @@ def _add_prisms(
 def thick_pieces(
     pieces: Sequence[NDArray[np.float64]], collision: Collision, report: Diagnostics
 ) -> list[NDArray[np.float64]]:
-    """Pieces (N, 3) [m] that a hull can be made of."""
+    """Return pieces (N, 3) [m] thick enough for a hull, with a warning about flat ones."""
     thick, thickest = thicken(pieces)
     if thickest:
         what = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"

@@ -9,7 +9,7 @@ from trundle.model import Collision, Heightmap
 from trundle.spatial import Pose
 
 _GROUND = 1.0
-"""[m] Of earth below the lowest place, for what comes fast."""
+"""Thickness of ground below the lowest point [m], which stops fast bodies."""
 
 
 def add_terrain(
@@ -20,9 +20,9 @@ def add_terrain(
     name: str,
     report: Diagnostics,
 ) -> list[mujoco.MjsGeom]:
-    """Add a heightmap to a body; none after a warning where it has no image or no size.
+    """Add a heightmap to a body; one without image or size is dropped with a warning.
 
-    Black is the bottom, at the heightmap's position; white is as high as its size says. The image's upper edge is +y.
+    Black is the bottom, at the heightmap's position; white is at the height of its size. The image's upper edge is +y.
     """
     if terrain.path is None:
         return []
@@ -34,11 +34,11 @@ def add_terrain(
     x, y, z = terrain.size
     if not (x > 0 and y > 0 and z > 0):
         what = f"heightmap of size {x:g} {y:g} {z:g}"
-        report.warn(collision.at, f"collision {collision.name!r}: {what} is nothing; it is left out")
+        report.warn(collision.at, f"collision {collision.name!r}: {what} is empty; it is left out")
         return []
     top = float(heights.max())
     field = spec.add_hfield(name=name, nrow=heights.shape[0], ncol=heights.shape[1])
-    # MuJoCo stretches what it is given to 0 … 1, its rows from −y on.
+    # MuJoCo scales the data to 0 … 1; its rows begin at −y.
     bottom = float(heights.min())
     field.userdata = np.ascontiguousarray(heights[::-1]).reshape(-1)
     field.size = [x / 2, y / 2, max(z * (top - bottom), 1e-6), _GROUND]

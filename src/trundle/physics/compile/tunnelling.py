@@ -1,10 +1,9 @@
-"""Small things over thin floors, which they would fall through.
+"""Tunnelling of small bodies through thin obstacles.
 
-An impact at v goes 1.8 steps' worth of way deep, whatever is hit. Where that is past the middle of a small body and of
-what it hits, they are pushed apart on the far side. MuJoCo can look ahead for what meets within a step, which takes a
-robot 3 % of its speed, ten of them 14 % and a furnished house 25 %: only worlds that need it pay for it, and only
-while something is half as fast as it would have to be (`cpp/look_ahead.cc`): so a step's acceleration, or two that move
-against one another, are not too much.
+An impact at speed v penetrates 1.8 v h, whatever is hit. Beyond the middle of a small body and of the obstacle, the
+contact pushes it out on the far side. MuJoCo's speculative contacts prevent that, but cost a robot 3 % of its speed,
+ten of them 14 % and a furnished house 25 %: only worlds that need them pay, and only while a body has at least half the
+critical speed (`cpp/look_ahead.cc`), which leaves room for the acceleration of a step and for two moving bodies.
 """
 
 from collections.abc import Iterable
@@ -15,15 +14,15 @@ from .law_tables import find_table
 from .shapes import CollidesWith, ShapeEntry
 
 _FASTEST = 15.0
-"""[m/s] What fell from 11 m: bodies too large to go through at this speed are not looked after at a higher one."""
+"""Speed after a fall of 11 m [m/s]; bodies that cannot tunnel at it are not checked at higher ones."""
 _SLOWEST = 1e-9
-"""[m/s] What has no thickness at all lets everything through that moves."""
+"""Threshold speed [m/s] for shapes without thickness, which let every moving body through."""
 _DEEP = 1.8
-"""Steps in whose way a body stops: 17.6 mm at 10 m/s and 1 ms."""
+"""Stopping distance of an impact in steps of its speed: 17.6 mm at 10 m/s and 1 ms."""
 
 
 def enable_ccd(model: mujoco.MjModel, shapes: Iterable[ShapeEntry]) -> None:
-    """Look ahead in a world where something small may go through something thin that stands."""
+    """Enable speculative contacts in a world where a small body may tunnel through a thin fixed one."""
     halves = model.geom_aabb[:, 3:].min(axis=1)
     standing: list[float] = []
     moving: list[float] = []

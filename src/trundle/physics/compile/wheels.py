@@ -1,8 +1,8 @@
-"""Wheels that steer: geometry alone, so that `check` can say which there are without the engine.
+"""Wheels as treads: pure geometry, so `check` can report them without the engine.
 
-A cylinder touches a floor along a line, which has no stable turning: by rigid Coulomb friction two driven wheels that
-should turn a robot by 5.0 rad turn it by 4.5. A wheel therefore rolls on a tread, the ellipsoid inscribed in its
-cylinder, which touches in the middle of its width; the cylinder, a tenth of a millimetre smaller, keeps it upright.
+A cylinder touches a floor along a line, whose rotation has no stable solution: with rigid Coulomb friction two driven
+wheels that should turn a robot by 5.0 rad turn it by 4.5. A wheel therefore rolls on a tread, the ellipsoid inscribed
+in its cylinder, which touches in the middle of its width; the cylinder, 0.1 mm smaller, keeps it upright.
 """
 
 from msgspec.structs import replace
@@ -13,15 +13,15 @@ from trundle.model import Collision, Cylinder, Ellipsoid, JointType, World
 from .kinematic_tree import JointEdge, KinematicTree, LinkNode
 
 TREAD = 1e-4
-"""[m] How far the tread stands out of the cylinder."""
+"""Difference of radius between tread and cylinder [m]."""
 TREAD_POINTS = 2
-"""In ODE a cylinder touches in both of its edges."""
+"""ODE contact points of a cylinder: its two edges."""
 _SMALLEST = 1e-3
-"""[m] Radius under which a cylinder is left as it is."""
+"""Smallest radius of a wheel [m]."""
 
 
 def tread_of(collision: Collision, node: LinkNode, tree: KinematicTree) -> Ellipsoid | None:
-    """What a cylinder that turns about its own axis rolls on; None of all else."""
+    """Return the tread of a cylinder that spins about its own axis; None for other shapes."""
     geometry, edge = collision.geometry, tree.parent_joint.get(node.name)
     if edge is None or not isinstance(geometry, Cylinder) or geometry.radius < _SMALLEST:
         return None
@@ -42,17 +42,17 @@ def _spins_about_own_axis(edge: JointEdge, node: LinkNode, collision: Collision)
 
 
 def without_tread(collision: Collision) -> Collision:
-    """What is left for the cylinder itself."""
+    """Return the wheel's cylinder, reduced by the tread."""
     assert isinstance(collision.geometry, Cylinder)
     return replace(collision, geometry=replace(collision.geometry, radius=collision.geometry.radius - TREAD))
 
 
 def report_wheels(world: World, report: Diagnostics) -> None:
-    """Report every wheel, and how far its surface is from the cylinder that the file has.
+    """Report every wheel and the deviation of its tread from the cylinder in the file.
 
     Args:
         world: without nested models.
-        report: takes a note for each.
+        report: takes a note per wheel.
 
     Raises:
         DescriptionError: two models, or two links or joints of one, share a name.

@@ -1,1 +1,1 @@
-"""Meshes as convex pieces, which is all that MuJoCo's contacts know."""
+"""Convex decomposition of meshes: MuJoCo's contacts support convex shapes only."""

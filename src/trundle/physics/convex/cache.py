@@ -1,4 +1,4 @@
-"""Convex pieces of hollow parts, kept on disk."""
+"""Disk cache of convex pieces."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from .pieces import ConvexPieces, HullError
 
 
 def save_pieces(key: str, pieces: ConvexPieces) -> None:
-    """Keep pieces under a key, at once and whole."""
+    """Save pieces under a key, atomically."""
     none = np.zeros((0, 3), dtype=np.int64)
     errors = [
         (np.nan if m.volume_ratio is None else m.volume_ratio, m.distance, float(m.is_filled)) for m in pieces.errors
@@ -19,7 +19,7 @@ def save_pieces(key: str, pieces: ConvexPieces) -> None:
 
 
 def load_pieces(key: str) -> ConvexPieces | None:
-    """Find what was kept under a key; None where nothing is, or it makes no sense."""
+    """Load the pieces of a key; None if missing or invalid."""
     parts = load_parts(_name(key))
     if not parts or any(part.vertices.ndim != 2 or part.vertices.shape[1] != 3 for part in parts):
         return None

@@ -1,7 +1,7 @@
-"""Hollow bodies that move, as a few convex pieces: sheets along the surface, or V-HACD's.
+"""Convex decomposition of moving concave meshes, by sheets along the surface or by V-HACD.
 
-K. Mamou: Volumetric Hierarchical Approximate Convex Decomposition. Game Engine Gems 3, 2016. One thread and no limit of
-time, so that the same mesh has the same pieces everywhere; a few tenths of a second each.
+K. Mamou: Volumetric Hierarchical Approximate Convex Decomposition. Game Engine Gems 3, 2016. Single-threaded and
+without a time limit, so that a mesh has the same pieces on every machine; a few tenths of a second each.
 """
 
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from .shell_decomposition import shell_pieces
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MAX_FACES = 100_000
-"""Faces of the largest mesh that is cut."""
+"""Most faces of a mesh that is decomposed."""
 _FULL: Mapping[str, object] = {
     "maxConvexHulls": 16,
     "resolution": 20_000,
@@ -30,29 +30,29 @@ _FULL: Mapping[str, object] = {
 }
 _COARSE: Mapping[str, object] = {**_FULL, "maxConvexHulls": 8, "resolution": 5_000, "maxRecursionDepth": 3}
 _NEAR = 0.01
-"""Part of the mesh's size: pieces nearer to it than this are good."""
+"""Accepted surface error relative to the mesh size."""
 _FEW = 96
-"""Faces of a thin surface that sheets are tried on first: they take a hundredth of a second."""
+"""Most faces of a thin mesh that is first tried with sheets, which take a hundredth of a second."""
 MAX_SHEETED = 20_000
-"""Faces."""
+"""Most faces of a mesh that is tried with sheets."""
 _THIN = 0.03
-"""Part of its size that half a wall's thickness is at most where sheets may do better than voxels."""
+"""Largest half wall thickness, relative to the mesh size, at which sheets may beat voxels."""
 _SWEEPS = 4
 
 
 def decompose(
     points: _Points, faces: _Faces, hull: Hull, *, closed: bool, coarse: bool = False
 ) -> list[_Points] | None:
-    """Cut a mesh into convex pieces, whose corners come back; None where that makes nothing better.
+    """Decompose a mesh into convex pieces; return the corners of each, or None if that is no better than the hull.
 
-    The pieces together have every corner of the mesh's hull, and nothing outside: it stands as the mesh would.
+    The pieces together contain every corner of the mesh's hull and nothing outside it, so the mesh stands as before.
 
     Args:
         points: (N, 3) [m].
-        faces: (M, 3) indices into them.
-        hull: around all of it.
-        closed: whether the surface has an inside; what has none becomes a wall of a few hundredths of its size.
-        coarse: into fewer pieces, which takes a fraction of the time.
+        faces: (M, 3) indices into points.
+        hull: hull of the points.
+        closed: True if the surface is closed; an open one becomes a wall of a few hundredths of its size.
+        coarse: fewer pieces, in a fraction of the time.
     """
     if len(faces) > MAX_FACES:
         return None
@@ -60,7 +60,9 @@ def decompose(
 
 
 def _candidates(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool) -> list[_Points]:
-    """Whichever is nearer to the mesh; voxels, which leave no hollow in a wall, unless sheets are so by far."""
+    """Return the pieces with the smaller surface error; voxels, which leave no cavity in a wall, unless sheets are far
+    better.
+    """
     size = float(np.ptp(points, axis=0).max())
     triangles = points[faces]
     is_shell = not closed or is_thin(triangles, size)
@@ -78,19 +80,19 @@ def _candidates(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse
 
 
 def is_thin(triangles: _Points, size: float) -> bool:
-    """Whether a closed surface (F, 3, 3) of some size [m] is a wall around something hollow."""
+    """True if a closed surface (F, 3, 3) of some size [m] is a thin wall around a cavity."""
     return volume_of(triangles) < _THIN * size * area_of(triangles)
 
 
 def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool, coarse: bool) -> list[_Points]:
     from vhacdx import compute_vhacd  # few worlds need it
 
-    # Its grid is made for bodies about as large as one.
+    # V-HACD's grid suits bodies of about unit size.
     middle = points.mean(axis=0)
     numbered = np.column_stack([np.full(len(faces), 3), faces]).astype(np.uint32)
     settings = _COARSE if coarse else _FULL
     with native_output_hidden():
-        # A wall without thickness must not be shrunk onto its surface: nothing would be left of it.
+        # An open wall must not be shrink-wrapped onto its surface: nothing would remain.
         found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **settings)
     return [corners * size + middle for corners, _ in found]
 
@@ -100,7 +102,7 @@ def _solids(pieces: list[_Points], hull: Hull) -> list[Hull]:
 
 
 def _clip_to_hull(hull: Hull, corners: _Points) -> _Points:
-    """Corners of a piece, those that stick out of the hull moved back onto it."""
+    """Return a piece's corners, with those outside the hull projected onto it."""
     for _ in range(_SWEEPS):
         out = np.flatnonzero((corners @ hull.normals.T - hull.offsets).max(axis=0) > 0.0)
         for normal, offset in zip(hull.normals[out], hull.offsets[out], strict=True):
@@ -109,6 +111,6 @@ def _clip_to_hull(hull: Hull, corners: _Points) -> _Points:
 
 
 def _with_hull_corners(hull: Hull, solids: list[Hull]) -> list[_Points]:
-    """Each piece with the corners of the hull that are nearest to it."""
+    """Return each piece with the hull corners nearest to it."""
     nearest = np.argmin([solid.signed_distances(hull.corners) for solid in solids], axis=0)
     return [np.concatenate([solid.corners, hull.corners[nearest == i]]) for i, solid in enumerate(solids)]

@@ -1,4 +1,4 @@
-"""Slabs behind the faces of what stands: a hollow mesh, exactly."""
+"""Slabs behind the faces of fixed meshes: concave surfaces without error."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,21 +10,21 @@ from .patches import convex_patches
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 _THICKEST = 2.5e-3
-"""[m] Of a slab, so that it ends within all but sheet metal; what is small and fast is looked ahead for, see `thin`."""
+"""Largest slab thickness [m], less than any wall but sheet metal; see `tunnelling` for small fast bodies."""
 _THINNEST = 1e-4
-"""[m] What is thinner is flat."""
+"""Thickness below which a mesh is flat [m]."""
 _FILLS = 1.001
-"""Area of a convex polygon over that of faces which fill it, at most."""
+"""Largest ratio of a convex polygon's area to that of the faces that fill it."""
 
 
 def is_layer(own: _Points) -> bool:
-    """Whether points (N, 3) are flat."""
+    """True if points (N, 3) are flat."""
     centred = own - own.mean(axis=0)
     return bool(np.ptp(centred @ np.linalg.eigh(centred.T @ centred)[1][:, 0]) < _THINNEST)
 
 
 def is_convex_layer(points: _Points, faces: _Faces, own: _Points) -> bool:
-    """Whether faces are flat, and fill the polygon around them; those that are there both ways count once."""
+    """True if faces are flat and fill their convex polygon; faces present in both orientations count once."""
     if not is_layer(own):
         return False
     a, b, c = (points[np.unique(np.sort(faces, axis=1), axis=0)[:, i]] for i in range(3))
@@ -35,12 +35,12 @@ def is_convex_layer(points: _Points, faces: _Faces, own: _Points) -> bool:
 
 
 def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
-    """Corners (N, 3) of slabs behind all faces [m]; faces that make one convex polygon, or a bulge, share one.
+    """Return corners (N, 3) of slabs behind all faces [m]; faces that form a convex polygon or bulge share one.
 
     Args:
         points: (N, 3) [m].
-        faces: (M, 3) indices into them, none without area.
-        own: those of the points that faces use.
+        faces: (M, 3) indices into points, none without area.
+        own: points used by the faces.
     """
     sides = np.ptp(own, axis=0)
     thickness = float(np.clip(sides[sides > WELD].min(initial=np.inf) / 4, 1e-3, _THICKEST))
@@ -66,10 +66,10 @@ def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
 
 
 def _polygons(faces: _Faces, normals: _Points, offsets: _Points) -> list[_Faces]:
-    """Numbers of the faces of each plane that hang together in it, where these are several."""
+    """Return the indices of connected coplanar faces, for groups of several."""
     keys = np.round(np.column_stack([normals, offsets]), 4)
     planes = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
-    # A corner is another one in each plane: what hangs together over an edge between planes does not count.
+    # Corners are numbered per plane, so that faces of different planes are not connected over an edge.
     corners, numbered = np.unique(faces + planes[:, None] * (int(faces.max()) + 1), return_inverse=True)
     numbered = numbered.reshape(faces.shape)
     labels = connected_components(len(corners), numbered)[numbered[:, 0]]

@@ -1,4 +1,4 @@
-"""Convex hulls as MuJoCo makes them, and how far they are from what they stand for."""
+"""Convex hulls as MuJoCo computes them, and distances between surfaces."""
 
 import mujoco
 import numpy as np
@@ -10,35 +10,35 @@ from .native_output import native_output_hidden
 _Points = NDArray[np.float64]
 _Numbers = NDArray[np.intp]
 _SAMPLES = 4000
-"""Points that stand for a surface: a few hundredths of its size apart."""
+"""Points sampled on a surface, a few hundredths of its size apart."""
 _PROBES = 250
 _SURVEY = 1000
 _TOUCH = 1e-9
-"""[m]"""
+"""Tolerance of overlaps [m]."""
 _FLAT = 1e-7
-"""Part of its size, or of how far out it is, that something flat is thick: MuJoCo's corners have 24 bits."""
+"""Thickness of a flat set, relative to its size or distance from the origin: MuJoCo stores vertices with 24 bits."""
 _FEW = 48
-"""Triangles that are all looked at closely."""
+"""Most triangles that are all tested exactly."""
 _NEAREST = 8
-"""Points of a surface whose triangles are looked at closely."""
+"""Nearest samples whose triangles are tested exactly."""
 
 
 class Hull(Struct, frozen=True):
-    """The smallest convex body around some points."""
+    """Convex hull of points."""
 
     corners: _Points
-    """(C, 3) those of the points that are corners of it [m]."""
+    """(C, 3) vertices of the hull [m]."""
     triangles: _Points
-    """(F, 3, 3) its surface [m], counter-clockwise from outside."""
+    """(F, 3, 3) faces [m], counter-clockwise from outside."""
     normals: _Points
-    """(F, 3) out of it; unit."""
+    """(F, 3) outward unit normals."""
     offsets: _Points
-    """(F,) of each face from the origin, along its normal [m]."""
+    """(F,) distances of the faces from the origin along their normals [m]."""
     volume: float
     """[m³]"""
 
     def signed_distances(self, points: _Points) -> _Points:
-        """(N,) how far above the highest face that they are above points (N, 3) are; below zero: inside [m]."""
+        """Return (N,) the largest signed distance of points (N, 3) to the face planes [m]; below zero: inside."""
         highest = np.full(len(points), -np.inf)
         for normal, offset in zip(self.normals, self.offsets, strict=True):
             np.maximum(highest, points @ normal - offset, out=highest)
@@ -46,9 +46,9 @@ class Hull(Struct, frozen=True):
 
 
 def hull_of(points: _Points) -> Hull | None:
-    """The hull of points (N, 3) [m]; None where they are flat, or as good as that."""
+    """Return the hull of points (N, 3) [m]; None if they are flat."""
     if is_flat(points):
-        return None  # of which Qhull would make an error
+        return None  # Qhull fails on it
     spec = mujoco.MjSpec()
     spec.add_mesh(name="hull", uservert=points.reshape(-1), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
     geom = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, contype=1)
@@ -71,7 +71,7 @@ def hull_of(points: _Points) -> Hull | None:
 
 
 def is_flat(points: _Points) -> bool:
-    """Whether points (N, 3) [m] are in a plane, on a line, or one; or not all finite."""
+    """True if points (N, 3) [m] are coplanar, collinear, coincident or not finite."""
     if len(points) < 4 or not np.isfinite(points).all():
         return True
     thickness = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1]
@@ -79,13 +79,13 @@ def is_flat(points: _Points) -> bool:
 
 
 def volume_of(triangles: _Points) -> float:
-    """[m³] Enclosed by a closed surface (F, 3, 3), counter-clockwise from outside."""
+    """Return the volume of a closed surface (F, 3, 3), counter-clockwise from outside [m³]."""
     a, b, c = np.moveaxis(triangles - triangles.reshape(-1, 3).mean(axis=0), 1, 0)
     return float(np.einsum("ij,ij->", np.cross(a, b), c)) / 6
 
 
 def area_of(triangles: _Points) -> float:
-    """[m²] Of a surface (F, 3, 3)."""
+    """Return the area of a surface (F, 3, 3) [m²]."""
     edges = triangles[:, 1:] - triangles[:, :1]
     return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()) / 2
 
@@ -93,20 +93,20 @@ def area_of(triangles: _Points) -> float:
 def hausdorff_distance(
     from_triangles: _Points, to_triangles: _Points, *, probes: int = _PROBES, samples: int = _SAMPLES
 ) -> float:
-    """[m] From the point of one surface (F, 3, 3) that is farthest from another (G, 3, 3), to that; about so.
+    """Return the approximate one-sided Hausdorff distance from one surface (F, 3, 3) to another (G, 3, 3) [m].
 
     Args:
-        from_triangles: that are looked at.
-        to_triangles: that are near or far.
-        probes: points of the first that are tried.
-        samples: points that stand for the second.
+        from_triangles: first surface.
+        to_triangles: second surface.
+        probes: sample points on the first.
+        samples: sample points on the second.
     """
     points, _ = sample_surface(from_triangles, probes)
     return float(_distances_to(points, to_triangles, samples).max())
 
 
 def _distances_to(probes: _Points, triangles: _Points, count: int = _SAMPLES) -> _Points:
-    """(N,) [m] from points (N, 3) to a surface; about so."""
+    """Return (N,) approximate distances from points (N, 3) to a surface [m]."""
     if len(triangles) <= _FEW:
         return _distances(probes[:, None], triangles[None]).min(axis=1)
     samples, owners = sample_surface(triangles, count)
@@ -116,14 +116,16 @@ def _distances_to(probes: _Points, triangles: _Points, count: int = _SAMPLES) ->
 
 
 def surface_error(triangles: _Points, solids: list[Hull], *, closed: bool) -> float:
-    """[m] How far what solids together look like is from a surface (F, 3, 3) at most, either way; about so."""
+    """Return the approximate Hausdorff distance between a surface (F, 3, 3) and the outside of the solids'
+    union [m].
+    """
     if not solids:
         return np.inf
     samples, _ = sample_surface(triangles, _SURVEY)
     missing = float(_signed_distances(solids, samples).max())
     probes, owners = sample_surface(np.concatenate([solid.triangles for solid in solids]), _SURVEY)
     owner = np.repeat(np.arange(len(solids)), [len(solid.triangles) for solid in solids])[owners]
-    # Where one piece goes on as another, and what is inside the surface, is not to be seen.
+    # Parts of a piece inside another, or inside the surface, are not visible.
     hidden = np.zeros(len(probes), dtype=bool)
     for i, solid in enumerate(solids):
         hidden |= (owner != i) & (solid.signed_distances(probes) < _TOUCH)
@@ -136,7 +138,7 @@ def surface_error(triangles: _Points, solids: list[Hull], *, closed: bool) -> fl
 
 
 def _signed_distances(solids: list[Hull], points: _Points) -> _Points:
-    """(N,) how far points (N, 3) are outside all of some solids; below zero: in one of them [m]."""
+    """Return (N,) signed distances of points (N, 3) to the union of solids [m]; below zero: inside one."""
     heights = np.full(len(points), np.inf)
     for solid in solids:
         np.minimum(heights, solid.signed_distances(points), out=heights)
@@ -144,7 +146,7 @@ def _signed_distances(solids: list[Hull], points: _Points) -> _Points:
 
 
 def _is_inside(point: _Points, triangles: _Points) -> bool:
-    """Whether a surface (F, 3, 3) goes around a point (3,): by the sum of solid angles (van Oosterom)."""
+    """True if a closed surface (F, 3, 3) contains a point (3,), by the sum of solid angles (van Oosterom)."""
     a, b, c = np.moveaxis(triangles - point, 1, 0)
     la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
     ab, bc, ca = ((u * v).sum(axis=1) for u, v in ((a, b), (b, c), (c, a)))
@@ -153,21 +155,21 @@ def _is_inside(point: _Points, triangles: _Points) -> bool:
 
 
 def sample_surface(triangles: _Points, count: int) -> tuple[_Points, _Numbers]:
-    """About `count` points evenly on a surface (F, 3, 3), the same every time, and which triangle each is on."""
+    """Return about `count` points evenly on a surface (F, 3, 3), deterministically, and the triangle index of each."""
     edges = triangles[:, 1:] - triangles[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
     wanted = np.cumsum(areas) * (count / max(float(areas.sum()), np.finfo(float).tiny))
     numbers = np.diff(np.round(wanted).astype(np.intp), prepend=0)
     owners = np.repeat(np.arange(len(triangles)), numbers)
     turn = np.arange(len(owners)) - np.repeat(np.cumsum(numbers) - numbers, numbers) + 0.5
-    # Roberts' sequence over the unit square, which fills it evenly however many there are; folded into the triangle.
+    # Roberts' sequence, even over the unit square for any number of points, folded into the triangle.
     u, v = (turn * 0.7548776662466927) % 1, (turn * 0.5698402909980532) % 1
     u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
     return triangles[owners, 0] + u[:, None] * edges[owners, 0] + v[:, None] * edges[owners, 1], owners
 
 
 def _distances(points: _Points, triangles: _Points) -> _Points:
-    """(…) from points (…, 3) to triangles (…, 3, 3) [m]."""
+    """Return (…) distances from points (…, 3) to triangles (…, 3, 3) [m]."""
     ends = np.roll(triangles, -1, axis=-2) - triangles
     arms = points[..., None, :] - triangles
     lengths = np.maximum((ends * ends).sum(axis=-1), np.finfo(float).tiny)
@@ -180,7 +182,9 @@ def _distances(points: _Points, triangles: _Points) -> _Points:
 
 
 def convex_hull_area(corners: _Points, normal: _Points) -> float:
-    """[m²] Of the convex polygon around points (N, 3), seen along a normal: Andrew's monotone chain."""
+    """Return the area of the convex polygon around points (N, 3) projected along a normal [m²], by Andrew's monotone
+    chain.
+    """
     across = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
     across /= np.linalg.norm(across)
     flat = np.column_stack([corners @ across, corners @ np.cross(normal, across)])

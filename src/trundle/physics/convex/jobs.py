@@ -1,4 +1,4 @@
-"""Hollow parts cut at the same time, in processes that Ctrl-C and the end of this one end at once."""
+"""Parallel decomposition in worker processes, which end with Ctrl-C or with this process."""
 
 import os
 import sys
@@ -14,20 +14,20 @@ from .process import DecompositionProcess
 from .progress import DecompositionProgress
 
 SHORT_S = 1.5
-"""[s] Work that is done here: V-HACD holds Python's lock for a third of a second at a time."""
+"""Work that is done in this process [s]: V-HACD holds the GIL for a third of a second at a time."""
 _WORKER_S = 0.5
-"""[s] Work that is worth a process of its own."""
+"""Work that justifies one more process [s]."""
 _TICK_S = 0.2
 _Answer: TypeAlias = tuple[ConcavePart, ConvexPieces | None] | None
-"""None: Ctrl-C has ended a process."""
+"""None: Ctrl-C ended a worker."""
 
 
 def decompose_parts(parts: Sequence[ConcavePart]) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
-    """Cut parts and yield each as it is done; None where it cannot be cut.
+    """Decompose parts and yield each when done, with None for a failed one.
 
     Raises:
-        KeyboardInterrupt: Ctrl-C.
-        UsageError: the same, on another thread than the main one.
+        KeyboardInterrupt: Ctrl-C in the main thread.
+        UsageError: Ctrl-C in another thread.
     """
     seconds = [part.seconds for part in parts]
     count = min(_processors(), int(sum(seconds) / _WORKER_S), len(parts))
@@ -52,14 +52,14 @@ def _processors() -> int:
 def _decompose_in_process(part: ConcavePart) -> ConvexPieces | None:
     try:
         return decompose_part(part)
-    except Exception:  # whatever a mesh may be, its hull stands for it
+    except Exception:  # any failure falls back to the hull
         return None
 
 
 def _decompose_in_workers(
     parts: Sequence[ConcavePart], count: int, progress: DecompositionProgress
 ) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
-    # The longest first: at the end no processor waits for one of them.
+    # Longest first, so that no processor waits for a late one.
     todo: SimpleQueue[ConcavePart] = SimpleQueue()
     for part in sorted(parts, key=lambda part: -part.seconds):
         todo.put(part)
@@ -77,7 +77,7 @@ def _decompose_in_workers(
 
 
 def _work(worker: DecompositionProcess, todo: SimpleQueue[ConcavePart], done: SimpleQueue[_Answer]) -> None:
-    """Have a process cut what is left, until nothing is."""
+    """Process queued parts until the queue is empty."""
     while True:
         try:
             part = todo.get_nowait()
@@ -101,4 +101,4 @@ def _next(done: SimpleQueue[_Answer], progress: DecompositionProgress) -> tuple[
             return answer
         if threading.current_thread() is threading.main_thread():
             raise KeyboardInterrupt
-        raise UsageError("stopped while meshes were cut")
+        raise UsageError("stopped during convex decomposition")

@@ -1,4 +1,4 @@
-"""Surfaces of triangles: what hangs together in one, and whether that is closed or convex."""
+"""Connected components of triangle meshes, and tests for closed and convex ones."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,13 +6,13 @@ from numpy.typing import NDArray
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 WELD = 1e-6
-"""[m] Corners nearer than this are one."""
+"""Distance below which vertices are merged [m]."""
 _DENT = 2e-3
-"""Part of its size by which a piece may be hollow and still count as convex."""
+"""Depth of a dent, relative to the size, up to which a component counts as convex."""
 
 
 def welded(vertices: _Points, faces: _Faces) -> tuple[_Points, _Faces]:
-    """Corners that are one made one, faces without area left out."""
+    """Return points with duplicates merged, and faces without degenerate ones."""
     _, first, number = np.unique(np.round(vertices / WELD), axis=0, return_index=True, return_inverse=True)
     points, faces = vertices[first], number.reshape(-1)[faces]
     a, b, c = (points[faces[:, i]] for i in range(3))
@@ -21,7 +21,7 @@ def welded(vertices: _Points, faces: _Faces) -> tuple[_Points, _Faces]:
 
 
 def connected_components(count: int, faces: _Faces) -> _Faces:
-    """For each corner the smallest number of a corner that it hangs together with."""
+    """Return for each vertex the smallest vertex index of its component."""
     labels = np.arange(count)
     while True:
         smallest = labels[faces].min(axis=1)
@@ -34,9 +34,9 @@ def connected_components(count: int, faces: _Faces) -> _Faces:
 
 
 def is_convex(points: _Points, faces: _Faces, own: _Points) -> bool:
-    """Whether the faces close a body, and every corner is on one side of each of them.
+    """True if the faces form a closed convex body.
 
-    Some faces may be turned, as in many a published mesh; where all are, it is a room seen from inside.
+    Single faces may be flipped, as in many published meshes; with all of them flipped it is a room seen from inside.
     """
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     if np.any(np.unique(edges, axis=0, return_counts=True)[1] != 2):
@@ -57,12 +57,12 @@ def is_convex(points: _Points, faces: _Faces, own: _Points) -> bool:
 
 
 def is_closed(faces: _Faces) -> bool:
-    """Whether each edge is there once each way."""
+    """True if every edge occurs once in each direction."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     once = len(np.unique(edges, axis=0)) == len(edges)
     return once and len(np.unique(np.concatenate([edges, edges[:, ::-1]]), axis=0)) == len(edges)
 
 
 def renumbered(faces: _Faces) -> _Faces:
-    """Faces of the corners that they use, in their order."""
+    """Return faces with indices compacted to the used vertices, in order."""
     return np.unique(faces, return_inverse=True)[1].reshape(faces.shape)

@@ -1,7 +1,7 @@
-"""Hollow meshes of a world, cut up ahead of its compile: equal parts once, each kept on disk as it is done.
+"""Decomposition of a world's meshes before the compile: equal parts once, each cached on disk.
 
-How closely a part is cut depends on what comes before it in the file, by an estimate of the time that takes, and never
-on a clock or on what is kept: runs repeat to the byte on a slow machine and on a fast one.
+The level of detail of a part depends on an estimate of the time for it and for the parts before it in the file, never
+on a clock or on the cache: results repeat to the byte on slow and fast machines.
 """
 
 import hashlib
@@ -34,18 +34,18 @@ _Faces = NDArray[np.intp]
 _K = TypeVar("_K")
 _V = TypeVar("_V")
 MeshRequest: TypeAlias = tuple[_Points, _Faces, bool]
-"""Vertices (N, 3) [m], faces (M, 3) counter-clockwise from outside, and whether it never moves."""
+"""Vertices (N, 3) [m], faces (M, 3) counter-clockwise from outside, and True if the mesh is fixed."""
 FULL = "TRUNDLE_FULL_DECOMPOSITION"
-"""Environment variable that lets cutting take as long as it takes."""
+"""Environment variable that lifts the time budget."""
 MAX_SECONDS = 120.0
-"""[s] That one processor cuts for a world; what comes then is cut coarsely."""
+"""Time budget of a world on one processor [s]; beyond, parts are decomposed coarsely."""
 MAX_SECONDS_A_MESH = 40.0
 _MAX_KNOWN = 1024
 
 _splits: dict[bytes, MeshSplit] = {}
-"""By mesh; the longest unused first."""
+"""Mesh digest → split; least recently used first."""
 _known: dict[str, ConvexPieces] = {}
-"""By part, likewise."""
+"""Part key → pieces; least recently used first."""
 
 
 class DecomposedMesh(Struct, frozen=True):
@@ -53,24 +53,24 @@ class DecomposedMesh(Struct, frozen=True):
 
     pieces: ConvexPieces
     is_coarse: bool
-    """There are fewer than could be, to save time."""
+    """True if the time budget reduced the number of pieces."""
     is_failed: bool
-    """Some part is filled, for it could not be cut."""
+    """True if a part failed and is its hull."""
 
 
 class WorldDecomposition:
-    """How the meshes of one world are cut."""
+    """Decomposition of all meshes of one world."""
 
     def __init__(self) -> None:
         self._plans: dict[bytes, tuple[MeshSplit, list[ConcavePart]]] = {}
         self._chosen: dict[str, ConcavePart] = {}
-        """How a part is cut, by how it would be if there were time."""
+        """Part key at full detail → part at the chosen detail."""
         self._seconds = 0.0
         self._slabs = 0
         self._failed: dict[str, ConvexPieces] = {}
 
     def decompose_all(self, meshes: Iterable[MeshRequest]) -> None:
-        """Cut meshes, in the order of the file, in several processes where it takes long."""
+        """Decompose meshes in file order, in several processes if it takes long."""
         wanted: dict[str, ConcavePart] = {}
         for vertices, faces, fixed in meshes:
             _, parts = self._plan(vertices, faces, fixed=fixed)
@@ -86,7 +86,7 @@ class WorldDecomposition:
                     save_pieces(part.key, pieces)
 
     def pieces_of(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> DecomposedMesh:
-        """Find the convex pieces of a mesh; what was not cut ahead is cut now."""
+        """Return the convex pieces of a mesh, decomposing it if needed."""
         whole, parts = self._plan(vertices, faces, fixed=fixed)
         pieces = ConvexPieces(list(whole.corners), [])
         for (lowest, _), part in zip(whole.concave, parts, strict=True):
@@ -99,7 +99,7 @@ class WorldDecomposition:
         return DecomposedMesh(pieces, is_coarse, any(part.key in self._failed for part in parts))
 
     def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[MeshSplit, list[ConcavePart]]:
-        """Find what a mesh consists of, and how its hollow parts are cut."""
+        """Split a mesh, and choose the detail of its concave parts."""
         digest = hashlib.sha256(b"%d %d " % (fixed, len(vertices)) + vertices.tobytes() + faces.tobytes()).digest()
         if digest not in self._plans:
             whole = _splits.get(digest) or split_mesh(vertices, faces, fixed=fixed)
@@ -111,7 +111,7 @@ class WorldDecomposition:
         return self._plans[digest]
 
     def _chosen_parts(self, parts: Iterable[ConcavePart]) -> list[ConcavePart]:
-        """Choose how the parts of a mesh are cut, while there is time."""
+        """Choose the detail of a mesh's parts within the time budget."""
         before_s = self._seconds
         chosen: list[ConcavePart] = []
         for part in parts:
@@ -135,7 +135,7 @@ class WorldDecomposition:
 
 
 def clear_cache() -> None:
-    """Let go of what is known in memory."""
+    """Clear the in-memory caches."""
     _splits.clear()
     _known.clear()
 
@@ -148,5 +148,5 @@ def _cache(memory: dict[_K, _V], key: _K, value: _V) -> None:
 
 
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> ConvexPieces:
-    """Cut one mesh up, or find how it was."""
+    """Decompose one mesh, or return the cached pieces."""
     return WorldDecomposition().pieces_of(vertices, faces, fixed=fixed).pieces

@@ -1,4 +1,4 @@
-"""Words that Qhull and V-HACD print from C, kept off the screen."""
+"""Suppression of output that Qhull and V-HACD print from C."""
 
 import os
 import tempfile
@@ -12,7 +12,7 @@ _swap = threading.Lock()
 
 @contextmanager
 def native_output_hidden() -> Generator[None]:
-    """Hold back what is printed, and print afterwards what another thread wrote meanwhile."""
+    """Redirect stdout and stderr; output of other threads is written afterwards."""
     with _swap, ExitStack() as streams:
         for number in (1, 2):
             streams.enter_context(_redirected(number))
@@ -23,7 +23,7 @@ def native_output_hidden() -> Generator[None]:
 def _redirected(number: int) -> Generator[None]:
     try:
         screen = os.dup(number)
-    except OSError:  # it was closed: `trundle … 2>&-`
+    except OSError:  # closed, as by `trundle … 2>&-`
         yield
         return
     with tempfile.TemporaryFile() as caught:

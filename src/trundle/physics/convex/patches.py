@@ -1,4 +1,4 @@
-"""Neighbouring faces joined to convex patches: where a surface bulges, one convex body has all of them exactly."""
+"""Merging of neighbouring faces to convex patches, each represented exactly by one convex body."""
 
 import numpy as np
 from msgspec import Struct
@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 _Points = NDArray[np.float64]
 _Numbers = NDArray[np.intp]
 _TOLERANCE = 1e-4
-"""[m] By which a patch's hull may be off its faces."""
+"""Largest deviation of a patch's hull from its faces [m]."""
 _STRAIGHT = 1e-4
-"""Sine of the angle by which an outline may turn the wrong way."""
+"""Largest sine of a concave angle in an outline."""
 _MAX_CORNERS = 12
 _MAX_FACES = 16
 _ROUNDS = 6
@@ -19,24 +19,24 @@ class Patches(Struct, frozen=True):
     """Convex patches of a surface."""
 
     loops: _Numbers
-    """(P, K) corners of each in order, counter-clockwise from outside; behind its last one anything."""
+    """(P, K) vertex indices of each outline, counter-clockwise from outside; entries beyond its size are undefined."""
     sizes: _Numbers
-    """(P,) how many corners each has."""
+    """(P,) number of corners."""
     normals: _Points
-    """(P, 3) sum of its faces' normals, each as long as twice its area."""
+    """(P, 3) sum of the faces' normals, each of twice its area in length."""
     planes: _Points
-    """(P, M, 4) unit normal and offset of each of its faces; the first one again behind the last."""
+    """(P, M, 4) unit normal and offset of each face; beyond the count the first is repeated."""
     counts: _Numbers
-    """(P,) how many faces each has."""
+    """(P,) number of faces."""
 
 
 def convex_patches(points: _Points, faces: _Numbers, *, depth: float) -> Patches:
-    """Join faces two by two, those joined once more, and so on.
+    """Merge faces pairwise, in several rounds.
 
     Args:
         points: (N, 3) [m].
-        faces: (M, 3) indices into them, none without area.
-        depth: how far behind the plane of one of its faces a patch may go at most [m].
+        faces: (M, 3) indices into points, none without area.
+        depth: largest distance of a patch's vertices behind the plane of one of its faces [m].
     """
     a, b, c = (points[faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
@@ -53,7 +53,7 @@ def convex_patches(points: _Points, faces: _Numbers, *, depth: float) -> Patches
 
 
 def _joinable(points: _Points, patches: Patches, depth: float) -> tuple[_Numbers, _Points]:
-    """(E, 4) patch, number of the edge, other patch and its edge; and (E,) how much is won by joining them."""
+    """Return (E, 4) mergeable pairs: patch, edge, other patch, its edge; and (E,) the gain of each."""
     pairs = _neighbours(patches)
     first, edge, second, other = pairs.T
     pairs = pairs[
@@ -78,7 +78,7 @@ def _joinable(points: _Points, patches: Patches, depth: float) -> tuple[_Numbers
 
 
 def _neighbours(patches: Patches) -> _Numbers:
-    """(E, 4) patch, number of the edge, other patch and its edge: what two patches have in common, once each."""
+    """Return (E, 4) pairs of patches with a common edge, once each: patch, edge, other patch, its edge."""
     width = patches.loops.shape[1]
     owner = np.repeat(np.arange(len(patches.sizes)), width)
     number = np.tile(np.arange(width), len(patches.sizes))
@@ -101,7 +101,7 @@ def _corner(patches: Patches, patch: _Numbers, number: _Numbers) -> _Numbers:
 
 
 def _turn(points: _Points, corners: tuple[_Numbers, _Numbers, _Numbers], normals: _Points) -> _Points:
-    """(E,) sine of the angle by which an outline turns left at the second of three corners."""
+    """Return (E,) sine of the left turn of an outline at the second of three corners."""
     p, u, t = (points[corner] for corner in corners)
     one, two = u - p, t - u
     lengths = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
@@ -109,7 +109,7 @@ def _turn(points: _Points, corners: tuple[_Numbers, _Numbers, _Numbers], normals
 
 
 def _heights(points: _Points, patches: Patches, of: _Numbers, above: _Numbers) -> tuple[_Points, _Points]:
-    """(E,) the highest and the lowest corner of some patches above the faces of others [m]."""
+    """Return (E,) the highest and the lowest vertex of patches `of` above the faces of patches `above` [m]."""
     width = patches.loops.shape[1]
     numbers = np.minimum(np.arange(width), patches.sizes[of][:, None] - 1)
     corners = points[patches.loops[of[:, None], numbers]]
@@ -119,7 +119,7 @@ def _heights(points: _Points, patches: Patches, of: _Numbers, above: _Numbers) -
 
 
 def _matched(pairs: _Numbers, gain: _Points, count: int) -> _Numbers:
-    """Those pairs that are joined, each patch in one at most: again and again, those that are best for both."""
+    """Return the pairs to merge, each patch in one at most: repeatedly those that are best for both."""
     order = np.argsort(-gain, kind="stable")
     pairs = pairs[order]
     chosen: list[_Numbers] = []
@@ -141,7 +141,7 @@ def _joined(patches: Patches, pairs: _Numbers) -> Patches:
     one, two = patches.sizes[first], patches.sizes[second]
     sizes, counts = one + two - 2, patches.counts[first] + patches.counts[second]
     step = np.arange(max(int(sizes.max()), patches.loops.shape[1]))
-    # From v on around the first to before u, from u on around the second to before v.
+    # From v around the first to before u, then from u around the second to before v.
     in_first = patches.loops[first[:, None], (edge[:, None] + 1 + step) % one[:, None]]
     in_second = patches.loops[second[:, None], (other[:, None] + 2 + step - one[:, None]) % two[:, None]]
     loops = np.where(step < one[:, None] - 1, in_first, in_second)

@@ -1,8 +1,8 @@
-"""Concave meshes as convex pieces, which is all that MuJoCo can touch.
+"""Convex pieces of concave meshes, because MuJoCo's contacts are convex.
 
-What hangs together in a mesh is one piece if it is convex. If it is not, and never moves, each flat face of it becomes
-a slab as thick as a wall may be: so a room can be entered, and a ramp driven up. What moves is cut into a few nearly
-convex pieces if it is truly hollow; else, and where that makes nothing better, it is filled.
+A convex component of a mesh is one piece. Each flat face of a fixed concave one becomes a thin slab, so that rooms can
+be entered and ramps driven up. A moving one is decomposed into a few nearly convex pieces if it is truly concave;
+otherwise, or where that is no better, it is its hull.
 """
 
 import hashlib
@@ -22,71 +22,71 @@ from .shell_decomposition import shell_pieces
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MAX_PIECES = 1000
-"""Beyond so many, a mesh that moves is one convex hull."""
+"""Most pieces of a moving mesh; beyond, it is one hull."""
 MAX_SLABS = 50_000
-"""Slabs of all that stands in a world; a later mesh of more than 1000 is one hull."""
+"""Most slabs of all fixed meshes of a world; beyond, a mesh of more than 1000 is one hull."""
 _CLOSE = 0.02
-"""[m] Where its hull is nearer, what stands and takes over 1000 slabs is its hull."""
+"""Distance of the hull [m] within which a fixed mesh of over 1000 slabs is its hull."""
 _VERSION = 4
-"""Raised where the same mesh becomes other pieces."""
+"""Version of the cache keys; raised when a mesh gets different pieces."""
 _HOLLOW = 0.05
-"""Part of its size by which the hull of something hollow may be away from it, and it is filled all the same."""
+"""Surface error of the hull, relative to the size, up to which it replaces a concave mesh."""
 _FULL = 1.1
-"""Times its volume that a hull may have, and it is filled all the same."""
+"""Ratio of the hull's volume to the mesh's up to which it replaces a concave mesh."""
 _MAX_CUT = 8
-"""Parts of a mesh that are cut up, the largest first."""
+"""Most parts of a mesh that are decomposed, largest first."""
 _MAX_FLAT = 2000
-"""Faces of something flat that is cut up."""
+"""Most faces of a flat mesh that is decomposed."""
 
 
 class Detail(Enum):
-    """How closely pieces follow a hollow part."""
+    """Level of detail of a concave part's pieces."""
 
     FULL = "full"
     COARSE = "coarse"
     """Fewer pieces, in a fraction of the time."""
     HULL = "hull"
-    """It is filled."""
+    """One convex hull."""
 
 
 class HullError(Struct, frozen=True):
-    """How what is simulated differs from a mesh that is hollow."""
+    """Deviation of the simulated shape from a concave mesh."""
 
     volume_ratio: float | None
-    """Its volume over the mesh's; None where the mesh is open and has none."""
+    """Volume of the pieces over that of the mesh; None for an open mesh."""
     distance: float
-    """[m] How far the two surfaces are from one another at most."""
+    """Largest distance between the two surfaces [m]."""
     is_filled: bool
-    """Whether something hollow was made solid."""
+    """True if a cavity was filled."""
 
 
 class ConvexPieces(Struct, frozen=True):
     """Convex pieces of a mesh."""
 
     corners: list[_Points]
-    """(N, 3) of each; its hull is the piece."""
+    """(N, 3) corners of each; the piece is their hull."""
     errors: list[HullError]
-    """One for each part that is not what it is in the mesh."""
+    """Deviation of each part that is not exact."""
 
 
 class ConcavePart(Struct, frozen=True, eq=False):
-    """A connected, non-convex part of a mesh that moves; placed from its lowest corner: copies compare equal."""
+    """Connected concave part of a moving mesh, relative to its lowest corner, so that copies compare equal."""
 
     points: _Points
     """(N, 3) [m]"""
     faces: _Faces
-    """(M, 3) indices into them."""
+    """(M, 3) indices into points."""
     detail: Detail
 
     @property
     def key(self) -> str:
-        """The same for the same pieces."""
+        """Cache key; equal for equal pieces."""
         settings = f"{_VERSION} {self.detail.value} {len(self.points)} ".encode()
         return hashlib.sha256(settings + self.points.tobytes() + self.faces.astype(np.int64).tobytes()).hexdigest()
 
     @property
     def seconds(self) -> float:
-        """[s] About how long it takes one processor to cut, at most; by its size, so that it is the same everywhere."""
+        """Upper estimate of the decomposition time on one processor [s], from the size only."""
         count = len(self.faces)
         if self.detail is Detail.HULL or count > MAX_FACES:
             return 0.05
@@ -98,21 +98,21 @@ class ConcavePart(Struct, frozen=True, eq=False):
 
 
 class MeshSplit(Struct, frozen=True):
-    """A mesh before its hollow parts are cut."""
+    """Mesh split into convex pieces and concave parts."""
 
     corners: list[_Points]
     """(N, 3) of each convex piece [m]."""
     concave: list[tuple[_Points, ConcavePart]]
-    """Each with where its lowest corner is (3,) [m]; the largest first."""
+    """(3,) lowest corner [m] and part, largest first."""
 
 
 def split_mesh(vertices: _Points, faces: _Faces, *, fixed: bool) -> MeshSplit:
-    """Find the convex pieces of a mesh, and what is hollow.
+    """Split a mesh into convex pieces and concave parts.
 
     Args:
         vertices: (N, 3) [m].
-        faces: (M, 3) indices into them, counter-clockwise from outside.
-        fixed: it never moves.
+        faces: (M, 3) indices into vertices, counter-clockwise from outside.
+        fixed: True if the mesh never moves.
     """
     points, faces = welded(vertices, faces)
     if not len(faces):
@@ -142,7 +142,7 @@ def split_mesh(vertices: _Points, faces: _Faces, *, fixed: bool) -> MeshSplit:
 
 
 def as_single_hull(vertices: _Points, faces: _Faces) -> MeshSplit:
-    """Leave a mesh whole, which fills it."""
+    """Return a mesh as a single part that is its hull."""
     points, faces = welded(vertices, faces)
     return MeshSplit([], [_concave_part(points, faces, Detail.HULL)])
 
@@ -159,7 +159,7 @@ def _concave_part(points: _Points, faces: _Faces, detail: Detail) -> tuple[_Poin
 
 
 def decompose_part(part: ConcavePart) -> ConvexPieces:
-    """Find what stands for a hollow part: pieces, or its hull."""
+    """Return the pieces of a concave part, or its hull."""
     points, faces = part.points, part.faces
     hull = hull_of(points)
     triangles, closed = points[faces], is_closed(faces)
@@ -179,12 +179,12 @@ def decompose_part(part: ConcavePart) -> ConvexPieces:
 
 
 def hull_of_part(part: ConcavePart) -> ConvexPieces:
-    """The hull of a part; how far it is off, where it has one."""
+    """Return the hull of a part and its deviation."""
     return decompose_part(replace(part, detail=Detail.HULL))
 
 
 def _flat(points: _Points, faces: _Faces, triangles: _Points) -> ConvexPieces:
-    """One layer of it, or thin walls where it is not convex."""
+    """Return a flat part as one layer, or as thin walls if it is not convex."""
     walls = shell_pieces(points, faces, closed=False) if len(faces) <= _MAX_FLAT else []
     if len(walls) < 2:
         return ConvexPieces([points], [])

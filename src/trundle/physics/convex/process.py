@@ -1,4 +1,4 @@
-"""One process that cuts hollow parts, from the side of the one that started it."""
+"""Client side of a decomposition process."""
 
 import atexit
 import os
@@ -11,22 +11,22 @@ from contextlib import suppress
 from .pieces import ConcavePart, ConvexPieces
 
 _INTERRUPTED = (-signal.SIGINT, 0xC000013A)
-"""Exit codes of what Ctrl-C ends, also on Windows."""
+"""Exit codes after Ctrl-C, also on Windows."""
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""There are as many processes as processors."""
+"""Single-threaded: there is one process per processor."""
 
 
 class DecompositionProcess:
-    """`decomposition_worker`, started again where a mesh ends it."""
+    """Process that runs `worker`, restarted when a mesh crashes it."""
 
     def __init__(self) -> None:
-        """Start it; it is ready some time later."""
+        """Start the process without waiting for it."""
         self._is_closed = False
         self._start()
 
     def _start(self) -> None:
         self._is_ready: bool | None = None
-        # Not `multiprocessing`, which runs the user's own script once more where it spawns.
+        # No `multiprocessing`: its spawn runs the user's own script again.
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-m", "trundle.physics.convex.worker"],
             stdin=subprocess.PIPE,
@@ -38,7 +38,7 @@ class DecompositionProcess:
 
     @property
     def has_started(self) -> bool:
-        """Whether it could be started, once it is clear."""
+        """True if the process started; waits for it."""
         if self._is_ready is None:
             assert self._process.stdout is not None
             try:
@@ -50,10 +50,10 @@ class DecompositionProcess:
         return self._is_ready
 
     def decompose(self, part: ConcavePart) -> ConvexPieces | None:
-        """Have a part cut; None where it cannot be.
+        """Decompose a part; None on failure.
 
         Raises:
-            InterruptedError: Ctrl-C has ended the process, or it was closed.
+            InterruptedError: Ctrl-C ended the process, or it was closed.
         """
         assert self._process.stdin is not None
         assert self._process.stdout is not None
@@ -68,7 +68,7 @@ class DecompositionProcess:
             return None
 
     def close(self) -> None:
-        """End it, whatever it does."""
+        """Kill the process."""
         self._is_closed = True
         self._end()
 
@@ -81,6 +81,6 @@ class DecompositionProcess:
         self._process.wait()
         atexit.unregister(self._process.kill)
         for pipe in (self._process.stdin, self._process.stdout):
-            with suppress(OSError):  # what it was to read is lost
+            with suppress(OSError):  # unread data is lost
                 assert pipe is not None
                 pipe.close()

@@ -1,24 +1,24 @@
-"""How far the cutting of meshes is: a line on the terminal, or two in a log."""
+"""Progress of the decomposition: one line on a terminal, two in a log."""
 
 import sys
 import time
 from collections.abc import Sequence
 
 _QUICK_S = 2.0
-"""[s] Less is not worth a word on a terminal, and"""
+"""Shortest work shown on a terminal [s]."""
 _LONG_S = 5.0
-"""[s] in a log."""
+"""Shortest work shown in a log [s]."""
 
 
 class DecompositionProgress:
-    """Tells on stderr how many meshes are cut, and how long it takes still."""
+    """Prints the number of decomposed meshes and the time left to stderr."""
 
     def __init__(self, seconds: Sequence[float], processes: int) -> None:
-        """Begin.
+        """Start the display.
 
         Args:
-            seconds: that each is thought to take [s].
-            processes: that share them.
+            seconds: estimated time of each part [s].
+            processes: number of workers.
         """
         self._count, self._finished = len(seconds), 0
         self._work, self._worked = sum(seconds), 0.0
@@ -30,18 +30,18 @@ class DecompositionProgress:
         self._in_log = self._stream is not None and not self._on_terminal and self._expected_s > _LONG_S
         if self._in_log:
             what = f"cutting {self._count} hollow meshes into convex pieces, about {_format_duration(self._expected_s)}"
-            self._log(f"{what}; that is done once")
+            self._log(f"{what}; cached for later runs")
         self.show()
 
     def done(self, seconds: float) -> None:
-        """Count one that was thought to take so long [s]."""
+        """Count one part of an estimated time [s]."""
         self._finished += 1
         self._worked += seconds
         self.show()
 
     @property
     def left_s(self) -> float:
-        """[s] About; by how long what is done took, once anything is."""
+        """Estimated time left [s], from the speed so far."""
         passed = time.monotonic() - self._started_s
         if not self._finished:
             return max(self._expected_s - passed, 0.0)
@@ -56,7 +56,7 @@ class DecompositionProgress:
             self._width = len(text)
 
     def close(self) -> None:
-        """Leave the terminal as it was; a log has a line for the end."""
+        """Clear the line on a terminal; print the result to a log."""
         if self._width:
             self._stream.write(f"\r{'':<{self._width}}\r")
             self._stream.flush()

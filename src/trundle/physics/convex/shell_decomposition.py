@@ -1,6 +1,6 @@
-"""Surfaces as thin walls: convex sheets, each along a part of a mesh that is nearly flat.
+"""Thin-wall decomposition: convex sheets along nearly flat parts of a surface.
 
-For what is hollow and thin, as trays, buckets and tubes are, of which a grid of voxels keeps little.
+For thin hollow meshes such as trays, buckets and tubes, which a voxel grid resolves badly.
 """
 
 from collections.abc import Iterator
@@ -15,30 +15,29 @@ _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 _MOST = 64
 _BENDS = (0.002, 0.005, 0.01, 0.02, 0.04)
-"""Parts of the mesh's size by which a sheet may be bent: the first that makes few enough of them."""
+"""Flatness tolerances of a sheet, relative to the mesh size; the first with few enough sheets is used."""
 _STEEPEST = 0.7
-"""Cosine between the normals of a sheet's faces and its own."""
+"""Smallest cosine between the normals of a sheet's faces and its own."""
 _WASTE = 1.02
-"""Times its faces' area that the polygon around them may have without a closer look."""
+"""Ratio of a convex polygon's area to its faces' up to which a sheet needs no exact test."""
 _PROBES, _SAMPLES = 64, 1000
-"""Points by which walls are tried; what comes of them is measured with more."""
+"""Sample points for testing walls; the result is measured with more."""
 _THICK = 0.01
-"""Part of its size that what has no thickness is thick, and"""
+"""Wall thickness of an open surface relative to its size."""
 _THINNEST, _THICKEST = 1e-3, 0.01
-"""[m] at least and at most."""
+"""Smallest and largest wall thickness of an open surface [m]."""
 
 
 def shell_pieces(points: _Points, faces: _Faces, *, closed: bool) -> list[_Points]:
-    """Corners (N, 3) of each sheet [m]; none where it would take too many.
+    """Return corners (N, 3) of each sheet [m]; empty if there would be too many.
 
     Args:
         points: (N, 3) [m].
-        faces: (M, 3) indices into them, none without area.
-        closed: the surface has an inside, where its walls go, half as thick as it is between its two sides; those of
-            an open one have it in their middle.
+        faces: (M, 3) indices into points, none without area.
+        closed: True: walls lie inside the surface, half as thick as the body; False: centred on the open surface.
     """
     if not closed:
-        # What is seen from both sides may be there twice.
+        # A surface visible from both sides may contain its faces twice.
         faces = faces[np.unique(np.sort(faces, axis=1), axis=0, return_index=True)[1]]
     size = float(np.ptp(points, axis=0).max())
     thickness = min(max(_THICK * size, _THINNEST), _THICKEST)
@@ -54,7 +53,7 @@ def shell_pieces(points: _Points, faces: _Faces, *, closed: bool) -> list[_Point
 
 
 class _Surface:
-    """Faces, and which are beside which."""
+    """Faces with normals, areas and neighbours."""
 
     def __init__(self, points: _Points, faces: _Faces, thickness: float, *, closed: bool) -> None:
         self._points = points
@@ -77,7 +76,7 @@ class _Surface:
                 others.append(i)
 
     def sheets(self, bend: float) -> Iterator[_Points]:
-        """Walls along all of it, each bent by so much at most [m]."""
+        """Yield walls along the whole surface, flat within `bend` [m]."""
         free = np.ones(len(self._faces), dtype=bool)
         for seed in np.argsort(-self._areas, kind="stable").tolist():
             if not free[seed]:
@@ -91,7 +90,7 @@ class _Surface:
             yield from self._walls(patch, normal, bend)
 
     def _connected(self, seed: int, wanted: NDArray[np.bool_]) -> _Faces:
-        """The wanted faces that hang together with one of them."""
+        """Return the wanted faces connected to `seed`."""
         found, todo = {seed}, [seed]
         while todo:
             for face in self._beside[todo.pop()]:
@@ -101,7 +100,7 @@ class _Surface:
         return np.array(sorted(found), dtype=np.intp)
 
     def _walls(self, patch: _Faces, normal: _Points, bend: float) -> Iterator[_Points]:
-        """A wall along a patch, which is halved as long as its hull covers what is not there."""
+        """Yield a wall along a patch, halved until its hull covers nothing else."""
         corners, inward = self._points[np.unique(self._faces[patch])], normal * self._thickness
         layers = (corners, corners - inward) if self._closed else (corners - inward / 2, corners + inward / 2)
         wall = np.concatenate(layers)

@@ -1,6 +1,6 @@
-"""A process that cuts hollow parts for another, one after another, until that closes the pipe or dies.
+"""Worker process that decomposes parts until its pipe closes or its parent dies.
 
-It starts in a quarter of a second: of Trundle it loads what cuts and nothing else.
+It starts in a quarter of a second because it imports only what it needs.
 """
 
 import os
@@ -13,15 +13,15 @@ _DIE_WITH_PARENT = 1
 
 
 def main() -> None:
-    """Read parts from stdin, write their pieces to stdout."""
+    """Read parts from stdin and write their pieces to stdout."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)  # V-HACD lets Python hear of nothing before it is done
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # V-HACD does not return to Python before it is done
     if sys.platform == "linux":
         import ctypes
 
         ctypes.CDLL(None).prctl(_DIE_WITH_PARENT, signal.SIGKILL)
     parts, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where V-HACD may print
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for output of V-HACD
     from .pieces import decompose_part
 
     pickle.dump(os.getpid(), answers)
@@ -33,7 +33,7 @@ def main() -> None:
             return
         try:
             answer = decompose_part(part)
-        except Exception:  # whatever a mesh may be, its hull stands for it
+        except Exception:  # any failure falls back to the hull
             answer = None
         pickle.dump(answer, answers)
         answers.flush()

@@ -1,1 +1,1 @@
-"""Steps a compiled world, reads and writes its state."""
+"""Stepping of a compiled world, and access to its state."""

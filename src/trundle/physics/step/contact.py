@@ -1,4 +1,4 @@
-"""What touches what at the moment."""
+"""Contacts of the last step."""
 
 import mujoco
 import numpy as np
@@ -11,24 +11,24 @@ from ..compile.compiled_world import CompiledWorld
 
 
 class Contact(Struct, frozen=True, kw_only=True):
-    """One point where two collisions meet, as the last step found it."""
+    """Contact point of two collisions."""
 
     collisions: tuple[str, str]
-    """`model::link::collision` of the two."""
+    """`model::link::collision` of both."""
     position: Vector3
-    """In the world [m]."""
+    """Position in the world [m]."""
     normal: Vector3
-    """Out of the first, into the second; unit, world axes."""
+    """Unit normal from the first into the second, world axes."""
     depth: float
-    """How far they are in one another [m]."""
+    """Penetration depth [m]."""
     force: Wrench
-    """What the first does to the second at this point, world axes."""
+    """Wrench of the first on the second at this point, world axes."""
 
 
 def contacts_of(
     compiled: CompiledWorld, model: mujoco.MjModel, data: mujoco.MjData, chosen: NDArray[np.intp]
 ) -> list[Contact]:
-    """The contacts of these numbers."""
+    """Return the contacts of the given indices."""
     if not len(chosen):
         return []
     held = data.contact

@@ -1,7 +1,7 @@
-"""Contact laws that MuJoCo does not have, in C++: installed in the MuJoCo that Python has loaded.
+"""Contact laws missing in MuJoCo, implemented in C++ and installed in the MuJoCo library that Python loaded.
 
-Bounces, friction with a direction of its own, moving and slipping surfaces, and velocities that decay. The tables of
-`law_tables` say which of them a model has; they act within `mj_step`, whoever calls it.
+Restitution, anisotropic friction, moving and slipping surfaces, velocity decay. The tables of `law_tables` select them
+per model; they act within `mj_step` for every caller.
 """
 
 import ctypes
@@ -27,10 +27,10 @@ _LIBRARIES = {"win32": "mujoco.dll", "darwin": "libmujoco.*.dylib"}
 
 
 def bind() -> None:
-    """Find MuJoCo's functions in its loaded library.
+    """Bind MuJoCo's functions from its loaded library.
 
     Raises:
-        TrundleError: it is another release than the one whose structures the C++ knows, or that is of other sources.
+        TrundleError: MuJoCo has another version than the C++ was built for, or the C++ is out of date.
     """
     refuse_stale(_contact_laws)
     found = mujoco.mj_version()
@@ -48,7 +48,7 @@ bind()
 
 
 class ContactLaws:
-    """The laws of one model in motion."""
+    """Contact laws of one simulated model."""
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
         self._model = compiled.model
@@ -62,25 +62,27 @@ class ContactLaws:
 
     @property
     def is_active(self) -> bool:
-        """Whether any law has anything to do."""
+        """True if any law is in use."""
         return self._always or self.prevents_sleep
 
     @property
     def prevents_sleep(self) -> bool:
-        """Whether nothing may sleep, for surfaces move."""
+        """True if moving surfaces forbid sleeping."""
         return bool(self._head[2])
 
     def install(self) -> None:
-        """See that MuJoCo calls the laws, whatever callback somebody else has set since."""
+        """Install the callbacks, in case another caller replaced them."""
         _contact_laws.install()
 
     def look_ahead(self) -> None:
-        """Have whoever steps next look ahead where the model needs it: the laws switch that while the engine steps."""
+        """Enable speculative contacts for the next step where the model needs them; the laws switch them while
+        stepping.
+        """
         if self._head[8] > 0.0:
             self._model.opt.enableflags |= _SPECULATIVE
 
     def set_surface_motions(self, motions: "Mapping[int, LinkGrip]") -> None:
-        """Have the surfaces of bodies, by number, move and slip like this; all others are ordinary."""
+        """Set the surface motion of bodies by id; all others are ordinary."""
         self._motions[:] = 0.0
         for body, motion in motions.items():
             self._motions[body] = motion.row

@@ -1,4 +1,4 @@
-"""What touches what now, of all collisions or of some, awake or asleep."""
+"""Contacts of all or some collisions, awake or asleep."""
 
 from collections.abc import Callable
 
@@ -15,7 +15,7 @@ _AWAKE = int(mujoco.mjtSleepState.mjS_AWAKE)
 
 
 class ContactQuery:
-    """Reads contacts; MuJoCo keeps none of what sleeps, so these are found beside it, once for as long as it sleeps."""
+    """Contact lookup; MuJoCo keeps no contacts of sleeping bodies, so these are computed separately and cached."""
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData, scratch: ScratchEngine) -> None:
         self._compiled = compiled
@@ -23,16 +23,16 @@ class ContactQuery:
         self._scratch = scratch
         self._bodies = compiled.model.geom_bodyid
         self._geom_masks: dict[frozenset[str], _Mask] = {}
-        """Which geoms are of collisions of these names; those that were asked for."""
+        """Names of collisions → mask of their geoms."""
         self._sleeping_contacts: tuple[bytes, list[Contact]] = (b"", [])
-        """Who slept where at the last look, and what touched among them."""
+        """Key of the sleeping bodies' state, and their contacts."""
 
     def contacts(self, among: frozenset[str] | None, asleep: Callable[[], NDArray[np.float64]] | None) -> list[Contact]:
-        """Every contact.
+        """Return every contact.
 
         Args:
-            among: names of collisions that something touches; None: all.
-            asleep: the engine's state, where anything sleeps.
+            among: names of collisions, one of which takes part; None: all.
+            asleep: returns the engine's state, if anything sleeps.
         """
         marks = None if among is None else self._geom_mask(among)
         if asleep is None:
@@ -42,7 +42,7 @@ class ContactQuery:
         return found + [c for c in self._sleeping(awake, asleep) if among is None or among & set(c.collisions)]
 
     def contacts_of_state(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> list[Contact]:
-        """Every contact of the engine's state, where its data holds none; as `contacts`."""
+        """Return the contacts of a state, for data without contacts; see `contacts`."""
         found = self._scratch.contacts(state, np.zeros(len(self._bodies), dtype=bool))
         return [c for c in found if among is None or among & set(c.collisions)]
 
@@ -52,7 +52,7 @@ class ContactQuery:
         return self._geom_masks[collisions]
 
     def _contact_indices(self, marks: _Mask | None, awake: _Mask | None) -> NDArray[np.intp]:
-        """The numbers of the contacts with a marked geom and one that is awake."""
+        """Return indices of contacts with a marked geom and an awake one."""
         geoms = self._data.contact.geom
         chosen = np.ones(len(geoms), dtype=bool)
         for each in (marks, awake):

@@ -1,6 +1,6 @@
-"""Steps a compiled world in C, and reads and writes its state.
+"""Engine: steps a compiled world in C, and reads and writes its state.
 
-Nothing here runs in Python at every step: `step(n)` is one call, and the state is read when somebody asks.
+No Python runs per step: `step(n)` is one call, and the state is read on demand.
 """
 
 import copy
@@ -29,16 +29,16 @@ from .state_reader import StateReader
 from .state_transfer import transfer_state
 from .state_writer import StateWriter
 
-if TYPE_CHECKING:  # a world without belts starts without them
+if TYPE_CHECKING:  # a world without belts does not load them
     from .surface_motion import LinkGrip
 
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 MAX_SPEED = 1e6
-"""[m/s or rad/s] Nothing that a file means moves faster; MuJoCo itself takes offence at 1e10."""
+"""Speed [m/s or rad/s] from which on the physics is unstable; MuJoCo's own limit is 1e10."""
 
 
 class SimulationUnstableError(TrundleError):
-    """The physics blew up; the engine holds the last good state."""
+    """Unstable physics; the engine holds the last good state."""
 
     def __init__(self, divergence: Divergence) -> None:
         super().__init__(
@@ -49,11 +49,11 @@ class SimulationUnstableError(TrundleError):
 
 
 class EngineState(Struct, frozen=True, eq=False):
-    """Everything that decides how the world goes on."""
+    """Saved state of the engine, sufficient to continue from."""
 
     compiled: CompiledWorld
     data: mujoco.MjData
-    """A copy: who sleeps is in no vector of numbers."""
+    """Copy of the data: no state vector holds which trees sleep."""
     steps: int
     sleeps: bool
     has_state_only: bool
@@ -62,7 +62,7 @@ class EngineState(Struct, frozen=True, eq=False):
 
 
 class Engine:
-    """A compiled world in motion."""
+    """Compiled world in motion."""
 
     def __init__(self, compiled: CompiledWorld) -> None:
         silence_log()
@@ -81,11 +81,17 @@ class Engine:
         self._warnings = [self._data.warning[kind] for kind in _BAD]
         self._last_state = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._steps = 0
-        """Steps, from which follows when to decide who may sleep."""
+        """Number of steps, which decides when sleeping is updated."""
+        self._was_teleported = True
+        """True if anything was teleported, and may penetrate something."""
+        self._tree_has_shapes = np.isin(
+            np.arange(self._model.ntree), self._model.body_treeid[self._model.geom_bodyid]
+        ).tolist()
+        """Per tree, True if it has shapes."""
         self.reset()
 
     def reset(self) -> None:
-        """Go back to where the world starts, at rest, with every motor off."""
+        """Return to the initial state, at rest, with every motor off."""
         self._sleep_policy.set_flags(False)
         mujoco.mj_resetData(self._model, self._data)
         if self.compiled.initial_qpos is not None:
@@ -96,10 +102,10 @@ class Engine:
         self.reader.invalidate()
 
     def step(self, count: int) -> None:
-        """Advance so many time steps; other threads run meanwhile.
+        """Advance `count` time steps, with the GIL released.
 
         Raises:
-            SimulationUnstableError: naming the link that ran away; the state is the one before this call.
+            SimulationUnstableError: names the diverging link; the state is the one before this call.
         """
         mujoco.mj_getState(self._model, self._data, self._last_state, STATE)
         if self.writer.was_teleported:
@@ -117,7 +123,7 @@ class Engine:
             raise SimulationUnstableError(divergence)
 
     def _advance(self, count: int) -> None:
-        """In C, up to each step at which it is decided who may sleep."""
+        """Step in C, up to each update of the sleep policy."""
         while count > 0 and not self._is_unstable():
             some = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
             self._sleep_policy.step(some)
@@ -132,7 +138,7 @@ class Engine:
             if warning.number > 0:
                 return True
         speeds = self._data.qvel
-        # One sum says of most worlds that no speed is too large, in a tenth of the time.
+        # For most worlds the sum of squares decides, in a tenth of the time.
         return not speeds.dot(speeds) < MAX_SPEED**2 and not bool((np.abs(speeds) < MAX_SPEED).all())
 
     def _separate(self) -> None:
@@ -142,7 +148,7 @@ class Engine:
             self._data.qpos[:] = apart
 
     def _update_laws(self) -> None:
-        """Wake everybody while a law acts on what might sleep."""
+        """Disable sleeping while a law forbids it."""
         self.motors.always_enabled = self._laws.is_active
         if self._laws.prevents_sleep:
             self._sleep_policy.disable()
@@ -153,7 +159,7 @@ class Engine:
         self.reader.invalidate()
 
     def _find_divergence(self, count: int) -> Divergence:
-        """Take the same steps again, one by one, up to the bad one; afterwards nothing is to be seen."""
+        """Repeat the steps one by one up to the bad one; afterwards the state is restored."""
         time_s, speeds = self._data.time, np.abs(self._data.qvel)
         for _ in range(count):
             time_s, speeds = self._data.time, np.abs(self._data.qvel)
@@ -165,46 +171,102 @@ class Engine:
     # -- writing
 
     def set_time(self, time_s: float) -> None:
-        """Say what time it is; nothing but messages depends on it."""
+        """Set the time, on which nothing but messages depends."""
         self._data.time = time_s
 
     def set_wrench(self, link: int, wrench: Wrench) -> None:
-        """Hold a force [N] at the link's centre of mass and a torque [N·m], world axes, until set anew."""
+        """Apply a force [N] at the link's centre of mass and a torque [N·m], world axes, until the next call."""
         self._data.xfrc_applied[self.compiled.link_bodies[link]] = [*wrench.force, *wrench.torque]
 
     def wrench(self, link: int) -> Wrench:
-        """What `set_wrench` holds."""
+        """Return the wrench of `set_wrench`."""
         fx, fy, fz, tx, ty, tz = self._data.xfrc_applied[self.compiled.link_bodies[link]].tolist()
         return Wrench((fx, fy, fz), (tx, ty, tz))
 
     def set_surface_motions(self, motions: "Mapping[int, LinkGrip]") -> None:
-        """Have the surfaces of these links, by index, move and slip from now on; all others are ordinary."""
+        """Set the surface motion of links by index; all others are ordinary."""
         self._laws.set_surface_motions(
             {int(self.compiled.link_bodies[link]): motion for link, motion in motions.items()}
         )
         self._update_laws()
 
+    def set_axis_position(self, axis: int, position: float) -> None:
+        """Set the position of an axis [rad or m], at rest."""
+        self._data.qpos[self.compiled.axis_qpos[axis]] = position
+        self._data.qvel[self.compiled.axis_dof[axis]] = 0.0
+        self._sleep_policy.wake(int(self.compiled.axis_dof[axis]))
+        self.reader.invalidate()
+
+    def set_axis_velocity(self, axis: int, velocity: float) -> None:
+        """Set the speed of an axis [rad/s or m/s] once."""
+        self._data.qvel[self.compiled.axis_dof[axis]] = velocity
+        self.reader.invalidate()
+
+    def set_tree_pose(self, link: int, pose: Pose) -> None:
+        """Teleport a free link with its tree; velocities stay in world axes.
+
+        Raises:
+            UsageError: the link has a parent joint or is fixed.
+        """
+        joint = self._free_joint(link)
+        first = int(self._model.jnt_qposadr[joint])
+        dof = int(self._model.jnt_dofadr[joint])
+        turned = pose.quaternion
+        spin = np.empty(3)
+        mujoco.mju_rotVecQuat(spin, self._data.qvel[dof + 3 : dof + 6], self._data.qpos[first + 3 : first + 7])
+        self._data.qpos[first : first + 7] = (*pose.position, *turned)
+        wx, wy, wz = spin.tolist()
+        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().transform_vector((wx, wy, wz))
+        self._was_teleported |= self._tree_has_shapes[self._model.dof_treeid[dof]]
+        self._sleep_policy.wake(dof)
+        self.reader.invalidate()
+
+    def set_tree_twist(self, link: int, twist: Twist) -> None:
+        """Set the velocity of a free link's origin and its angular velocity, world axes.
+
+        Raises:
+            UsageError: the link has a parent joint or is fixed.
+        """
+        joint = self._free_joint(link)
+        first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
+        w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
+        self._data.qvel[dof : dof + 3] = twist.linear
+        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().transform_vector(twist.angular)
+        self._sleep_policy.wake(dof)
+        self.reader.invalidate()
+
+    def is_free(self, link: int) -> bool:
+        """True if a link has no parent joint and is not fixed."""
+        first = int(self._model.body_jntadr[self.compiled.link_bodies[link]])
+        return first >= 0 and self._model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE
+
+    def _free_joint(self, link: int) -> int:
+        if not self.is_free(link):
+            name = self.compiled.link_names[link]
+            raise UsageError(f"link {name!r} cannot be moved: it has a parent joint or is fixed to the world")
+        return int(self._model.body_jntadr[self.compiled.link_bodies[link]])
+
     def snapshot(self) -> EngineSnapshot:
-        """The state as it is now, for good."""
+        """Return an immutable snapshot of the state."""
         return EngineSnapshot(self._scratch, self.reader)
 
     @property
     def asleep(self) -> int:
-        """How many groups of links that hang together are at rest and left out of the steps."""
+        """Number of sleeping trees."""
         return self._sleep_policy.asleep
 
     def contacts(self, among: frozenset[str] | None = None) -> list[Contact]:
-        """What touches what.
+        """Return the current contacts.
 
         Args:
-            among: names of collisions that something touches; None: of all.
+            among: names of collisions, one of which takes part; None: all.
         """
         if self._sleep_policy.has_state_only and self._steps:
             return self._contact_query.contacts_of_state(among, self._state())
         return self._contact_query.contacts(among, self._state if self.asleep else None)
 
     def reactions(self) -> NDArray[np.float64]:
-        """(links, 6) force [N] and torque [N·m] on each link by what it hangs from; see `ScratchEngine.reactions`."""
+        """Return (links, 6) force [N] and torque [N·m] on each link by its parent; see `ScratchEngine.reactions`."""
         return self._scratch.reactions(self._state())
 
     def _state(self) -> NDArray[np.float64]:
@@ -215,11 +277,11 @@ class Engine:
     # -- keeping
 
     def transfer_from(self, old: "Engine", *, renamed: Mapping[str, str] | None = None) -> None:
-        """Go on from where another engine is, with what is in both by the same name.
+        """Continue from another engine's state, for everything with the same name in both.
 
         Args:
-            old: the other.
-            renamed: models that were called otherwise there, old name to new one.
+            old: the other engine.
+            renamed: renamed models, old name → new name.
         """
         transfer_state((old._model, old._data), (self._model, self._data), renamed or {})
         self._steps = old._steps
@@ -228,7 +290,7 @@ class Engine:
         self.reader.invalidate()
 
     def save(self) -> EngineState:
-        """Everything that decides how the world goes on."""
+        """Return the complete state."""
         return EngineState(
             self.compiled,
             copy.copy(self._data),
@@ -240,13 +302,13 @@ class Engine:
         )
 
     def restore(self, state: EngineState) -> None:
-        """Go back to a saved state, exactly.
+        """Restore a saved state exactly.
 
         Raises:
-            UsageError: the state is of another set of models.
+            UsageError: the state belongs to another set of models.
         """
         if state.compiled is not self.compiled:
-            raise UsageError("models came or went since this state was saved; it cannot be restored")
+            raise UsageError("models were spawned or deleted since this state was saved; it cannot be restored")
         self._sleep_policy.set_flags(state.sleeps)
         mujoco.mj_copyData(self._data, self._model, state.data)
         self._steps, self._sleep_policy.has_state_only = state.steps, state.has_state_only

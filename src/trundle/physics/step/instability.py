@@ -1,4 +1,4 @@
-"""Finds out what blew up, at the step at which it did."""
+"""Diagnosis of unstable physics: the link that diverged first."""
 
 import mujoco
 import numpy as np
@@ -8,40 +8,40 @@ from numpy.typing import NDArray
 from ..compile.compiled_world import CompiledWorld
 
 _HUGE = 1e10
-"""MuJoCo's mjMAXVAL: what is larger, it calls unstable."""
+"""MuJoCo's mjMAXVAL, beyond which it reports instability."""
 
 
 class Divergence(Struct, frozen=True, kw_only=True):
-    """What ran away, and what it may have to do with."""
+    """Diverged link, its joint and its contacts."""
 
     time_s: float
-    """Simulation time of the last step that was sound."""
+    """Simulation time of the last good step."""
     link: str
     """`model::link`"""
     joint: str | None
-    """`model::joint`, where the link hangs from one that moves."""
+    """`model::joint` of a link with a moving parent joint."""
     touching: tuple[str, ...]
-    """`model::link::collision` of what it touched, deepest first."""
+    """`model::link::collision` of its contacts, deepest first."""
 
     def __str__(self) -> str:
         on = "" if self.joint is None else f" on joint {self.joint!r}"
         among = "" if not self.touching else f", touching {', '.join(map(repr, self.touching))}"
-        return f"after {self.time_s:.3f} s: {self.link!r} ran away{on}{among}"
+        return f"after {self.time_s:.3f} s: {self.link!r} diverged{on}{among}"
 
 
 def find_divergence(
     compiled: CompiledWorld, data: mujoco.MjData, speeds: NDArray[np.float64], time_s: float
 ) -> Divergence:
-    """Look at the state right after the bad step.
+    """Find the diverged link right after the bad step.
 
-    The solver spreads one link's NaN over the world. So it is the link that is pushed by no number, or whose
-    accelerations are huge before the solver sees them, or that was the fastest before the step.
+    The solver spreads one link's NaN over the world. The culprit is the link with a non-finite applied force, or with
+    huge accelerations before the solver, or the fastest before the step.
 
     Args:
         compiled: the world.
         data: after the step.
-        speeds: (nv,) before it.
-        time_s: before it.
+        speeds: (nv,) before the step.
+        time_s: before the step.
     """
     model = compiled.model
     pushed = np.flatnonzero(~np.isfinite(data.xfrc_applied).all(axis=1))
@@ -62,7 +62,7 @@ def _axes(compiled: CompiledWorld) -> list[tuple[str, range]]:
 
 
 def _touching(compiled: CompiledWorld, data: mujoco.MjData, body: int, most: int = 3) -> tuple[str, ...]:
-    """Whatever is in contact with a body's geoms."""
+    """Return the collisions in contact with a body, deepest first."""
     depths: dict[str, float] = {}
     for contact in data.contact:
         bodies = [int(compiled.model.geom_bodyid[geom]) for geom in contact.geom]

@@ -1,6 +1,6 @@
-"""Drives joints: efforts, speeds and positions, within their limits.
+"""Joint motors: effort, velocity and position commands within limits.
 
-A motor is a constraint that keeps a speed with a force up to a limit, as ODE's; `cpp/velocity_motor.cc` has how.
+A motor is a velocity constraint with bounded force, as in ODE; see `cpp/velocity_motor.cc`.
 """
 
 import math
@@ -16,47 +16,49 @@ from ..compile.compiled_world import CompiledWorld
 from ..compile.law_tables import find_table
 
 HOLD_RATE = 3.0
-"""[1/s] How fast a held joint closes in: a first-order lag of a third of a second, as its motor's torque allows."""
+"""Rate at which a held joint approaches its target [1/s]: a first-order lag of a third of a second, within the motor's
+effort.
+"""
 _KINEMATIC = -1.0
-"""In place of such a rate."""
+"""Value of the rate that marks a kinematic drive."""
 _KEEPS_UP = 0.05, 0.01
-"""Part of its speed, and [rad/s or m/s], that a kinematic axis may be off, to be given another at once."""
+"""Relative and absolute [rad/s or m/s] speed error below which a kinematic axis takes a new speed at once."""
 _HUGE = 1e10
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
 class MotorCommands(Struct, frozen=True, eq=False):
-    """Orders of a model's motors, without the speeds and positions, which are in its data."""
+    """Effort limits and rates of a model's motors; their targets are in the data."""
 
     max_efforts: NDArray[np.float64]
     rates: NDArray[np.float64]
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel) -> "MotorCommands":
-        """Those of a model now."""
+        """Read the commands of a model."""
         return cls(model.tendon_frictionloss.copy(), find_table(model, "motors")[:, 1].copy())
 
     def apply(self, model: mujoco.MjModel) -> None:
-        """Tell them a model."""
+        """Write the commands to a model."""
         model.tendon_frictionloss[:] = self.max_efforts
         find_table(model, "motors")[:, 1] = self.rates
 
 
 class Motors:
-    """One motor for each axis of a hinge or slide; each does nothing until told to."""
+    """One motor per hinge or slide axis, inactive until commanded."""
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData, wake: Callable[[int], None]) -> None:
-        """Take the engine's arrays.
+        """Bind the engine's arrays.
 
         Args:
             compiled: the world.
             data: its state.
-            wake: called with a degree of freedom that is told something new.
+            wake: called with the degree of freedom of a new command.
         """
         self._model = compiled.model
         self._data = data
         self._wake = wake
-        # Lists: one number of an array costs four times as much, and controllers give orders at every step.
+        # Lists, because a single array element costs four times as much, and controllers write at every step.
         self._dofs: list[int] = compiled.axis_dof.tolist()
         self._actuators: list[int] = compiled.axis_actuator.tolist()
         self._max_efforts: list[float] = compiled.axis_effort.tolist()
@@ -66,29 +68,29 @@ class Motors:
         self._always_enabled = False
         self._update_actuation_flag()
 
-    def command_effort(self, axis: int, effort: float) -> None:
-        """Hold an effort [N·m or N] on an axis, as far as its limits let it, and switch its motor off.
+    def set_effort(self, axis: int, effort: float) -> None:
+        """Apply an effort [N·m or N] to an axis within its limits, and switch its motor off.
 
-        As in Gazebo, an axis that is faster than its limit is not pushed on: with such a limit the effort is a
-        motor's, which wants that speed and pulls one way only.
+        As in Gazebo, an axis beyond its velocity limit is not accelerated further: with such a limit the effort comes
+        from a motor with that target speed, which acts in one direction only.
         """
         largest, fastest = self._max_efforts[axis], self._max_velocities[axis]
         effort = min(max(effort, -largest), largest)
         if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
             self._command(axis, command=0.0, most=0.0, effort=effort)
             return
-        # Half of the effort, and a motor of the other half: together from nothing to all of it.
+        # Half of the effort is constant, half a motor's: together from zero to the full effort.
         self._command(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
 
-    def command_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
-        """Have a motor keep a speed [rad/s or m/s] with at most so much effort."""
+    def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
+        """Drive an axis at a speed [rad/s or m/s] with limited effort."""
         self._drive(axis, velocity, max_effort, rate=0.0)
 
     def drive_kinematically(self, axis: int, velocity: float) -> None:
-        """Have an axis keep a speed [rad/s or m/s] that it takes at once; only what hangs from it feels that.
+        """Drive an axis at a speed [rad/s or m/s] that it takes at once; only its child links feel a reaction.
 
-        Its effort limit holds for what is in its way; its own weight does not count, and none or zero is no limit.
-        What is held up by something is pushed on by the motor alone.
+        Its effort limit applies to obstacles, not to its own weight; no limit or zero is unlimited. An axis held back
+        by an obstacle is accelerated by the motor alone.
         """
         dof, actuator = self._dofs[axis], self._actuators[axis]
         last = self._commands.get(actuator)
@@ -98,8 +100,8 @@ class Motors:
         if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
             self._data.qvel[dof] = velocity
 
-    def command_position(self, axis: int, position: float, max_effort: float) -> None:
-        """Have a motor go to a position [rad or m] and stay there."""
+    def hold(self, axis: int, position: float, max_effort: float) -> None:
+        """Drive an axis to a position [rad or m] and hold it."""
         self._drive(axis, position, max_effort, rate=HOLD_RATE)
 
     def _drive(self, axis: int, command: float, max_effort: float, *, rate: float) -> None:
@@ -107,13 +109,13 @@ class Motors:
         self._command(axis, command=command, most=max(most, 0.0), rate=rate)
 
     def _command(self, axis: int, *, command: float, most: float, rate: float = 0.0, effort: float = 0.0) -> None:
-        """Have the motor keep a command with an effort up to `most`, beside an effort that lasts."""
+        """Set the motor's target with an effort up to `most`, beside a constant effort."""
         dof, actuator = self._dofs[axis], self._actuators[axis]
         self._data.qfrc_applied[dof] = effort
         if actuator < 0:
             return
         order = (command, most, rate)
-        # The same order again, as controllers give it at every turn, wakes nobody.
+        # A repeated command, as controllers send at every cycle, wakes nothing.
         last = self._commands.get(actuator)
         if last == order:
             return
@@ -126,13 +128,13 @@ class Motors:
         self._wake(dof)
 
     def write_efforts(self) -> None:
-        """Write what the motors exert where efforts are read, after a step."""
+        """Write the motors' efforts to qfrc_actuator after a step."""
         if not self._model.opt.disableflags & _NO_MOTORS:
             _contact_laws.report_efforts(self._model._address, self._data._address)
 
     @property
     def always_enabled(self) -> bool:
-        """Whether the engine has to work the motors though none does anything: with them go its contact laws."""
+        """True if actuation stays enabled without active motors, because the contact laws depend on it."""
         return self._always_enabled
 
     @always_enabled.setter
@@ -142,17 +144,17 @@ class Motors:
             self._update_actuation_flag()
 
     def invalidate(self) -> None:
-        """The arrays were changed by somebody else: the next order is a new one."""
+        """Forget the last commands after another writer changed the arrays."""
         self._commands.clear()
         self._update_actuation_flag()
 
     def switch_off(self) -> None:
-        """Every motor."""
+        """Switch every motor off."""
         self._model.tendon_frictionloss[:] = 0
         self.invalidate()
 
     def _update_actuation_flag(self) -> None:
-        """Spare the engine the motors while none does anything: a seventh of a step of what is at rest."""
+        """Disable actuation while all motors are inactive, which saves a seventh of a step at rest."""
         model = self._model
         is_on = self._always_enabled or bool(model.tendon_frictionloss.any())
         flags = model.opt.disableflags

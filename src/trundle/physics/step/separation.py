@@ -1,8 +1,8 @@
-"""Separation of what begins inside something else: put beside it, at once, without a push.
+"""Depenetration of initial overlaps, at once and without velocity.
 
-Gazebo's ODE corrects depth apart from speed: a body that begins 5 cm deep is out after 10 ms, at rest. MuJoCo's
-contacts would shoot it out. So after a reset, a spawn or a leap, bodies are moved until none is deep, as little as
-their masses and joints let them; their speeds stay.
+Gazebo's ODE corrects depth apart from velocity: a body that begins 5 cm deep is out after 10 ms, at rest. MuJoCo's
+contacts would eject it. So after a reset, a spawn or a teleport, bodies are displaced until none is deep, as little as
+their masses and joints allow; their velocities stay.
 """
 
 import copy
@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from ..compile.law_tables import find_table
 
 DEEP = 3e-4
-"""[m] From here on a contact would give what comes out of it more than 1 cm/s, at steps of 1 ms."""
+"""Depth [m] from which a contact would give a body more than 1 cm/s on its way out, at steps of 1 ms."""
 _ENOUGH = DEEP / 10
 _HEAVY = 3.0
-"""A contact that gives is deep where all that it may carry would not press it in by a third of it."""
+"""Factor on the supported weight: a soft contact is deep beyond three times its static depth."""
 _PASSES = 100
 _EAGER = (0.2, 1.6)
-"""[h, 1] A solref that takes most of a depth away in one step from rest."""
+"""solref [h, 1] that removes most of a depth in one step from rest."""
 _NEVER = (-1e-9, -1e-9)
-"""A solref that does nothing."""
+"""solref without effect."""
 _OFF = (
     mujoco.mjtDisableBit.mjDSBL_GRAVITY,
     mujoco.mjtDisableBit.mjDSBL_ACTUATION,
@@ -36,12 +36,12 @@ _OFF = (
 
 
 def find_deep(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.bool_]:
-    """(contacts,) which are deeper than what rests there would be."""
+    """Return (contacts,) mask of those deeper than their static depth."""
     return (data.contact.efc_address >= 0) & (_depths(data) > DEEP + _rest_depths(model, data))
 
 
 def separate(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """Positions (nq,) in which nothing is deep any more, as far as that goes, from data with contacts that are."""
+    """Return qpos (nq,) with deep contacts resolved as far as possible, from data that has some."""
     deep = find_deep(model, data)
     geoms = np.sort(data.contact.geom[deep].astype(np.int64), axis=1)
     still = _without_forces(model, {(a, b) for a, b in geoms.tolist()})
@@ -53,7 +53,7 @@ def separate(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
         if not np.isfinite(moved.qpos).all():
             return data.qpos.copy()
         acting = (moved.contact.efc_address >= 0) & (moved.contact.solref[:, 0] > 0.0)
-        if float(_depths(moved)[acting].max(initial=0.0)) < _ENOUGH:  # as it was before that step
+        if float(_depths(moved)[acting].max(initial=0.0)) < _ENOUGH:  # contacts from before that step
             break
     return moved.qpos.copy()
 
@@ -62,9 +62,11 @@ def _depths(data: mujoco.MjData) -> NDArray[np.float64]:
     return data.contact.includemargin - data.contact.dist
 
 
-@np.errstate(over="ignore")  # masses and a gravity out of all bounds press infinitely deep
+@np.errstate(over="ignore")  # extreme masses and gravity overflow to an infinite depth
 def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """(contacts,) how deep all that hangs together presses what gives [m]; 0 where it is hard. See `compliance`."""
+    """Return (contacts,) static depth of soft contacts under the whole tree's weight [m]; 0 for hard ones. See
+    `compliance`.
+    """
     contacts = data.contact
     bodies = model.geom_bodyid[contacts.geom]
     fixed = model.body_weldid[bodies] == 0
@@ -78,13 +80,13 @@ def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
 
 
 def _min_depths(model: mujoco.MjModel) -> dict[tuple[int, int], float]:
-    """[m] Of the pairs of geoms that have one."""
+    """Return the min_depth of pairs of geoms that have one [m]."""
     rows = find_table(model, "dead_zones").tolist()
     return {(int(key) // model.ngeom, int(key) % model.ngeom): depth for key, depth in rows}
 
 
 def _without_forces(model: mujoco.MjModel, deep: set[tuple[int, int]]) -> mujoco.MjModel:
-    """The same bodies, on which nothing acts but what they cannot go through."""
+    """Return a copy of the model without forces other than contacts."""
     still = copy.copy(model)
     still.opt.gravity[:] = 0.0
     still.opt.enableflags = 0

@@ -1,9 +1,8 @@
-"""Lets what is at rest sleep, where that is faster.
+"""Sleeping of resting trees, where it is faster.
 
-MuJoCo leaves trees of bodies out that have not moved for ten steps, and wakes them when something touches or pushes
-them. It has to find the islands of what touches what for that, which costs an awake world a tenth to a third of its
-speed. So whether trees may sleep is decided anew every now and then, at steps that depend on nothing but their number.
-A world that sleeps as a whole is not stepped at all.
+MuJoCo skips trees that have not moved for ten steps and wakes them on contact or force. For that it computes contact
+islands, which costs an awake world a tenth to a third of its speed. So sleeping is enabled or disabled periodically, at
+steps that depend on their count only. A world that sleeps as a whole is not stepped.
 """
 
 import mujoco
@@ -13,18 +12,20 @@ from numpy.typing import NDArray
 from ..compile.compiled_world import CompiledWorld
 
 DECISION_PERIOD = 512
-"""Steps from one decision to the next."""
+"""Steps between two decisions."""
 TOLERANCE = 1e-6
-"""[m/s or rad/s] What moves slower is at rest. With MuJoCo's own 1e-3 what just begins to slide would freeze."""
+"""Speed [m/s or rad/s] below which a tree is at rest; MuJoCo's default 1e-3 would freeze a body that begins
+to slide.
+"""
 _WAKING_SPEED = 1e-200
-"""[m/s or rad/s] A speed that wakes a tree and moves nothing."""
+"""Speed [m/s or rad/s] that wakes a tree without moving it."""
 STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _SLEEP = int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 _NO_ISLANDS = int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
 
 
 class SleepPolicy:
-    """Decides whether trees may sleep, and wakes them."""
+    """Enables sleeping and wakes trees."""
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
         self._model = compiled.model
@@ -32,13 +33,13 @@ class SleepPolicy:
         model = compiled.model
         self._trees = model.dof_treeid.copy()
         self.has_state_only = True
-        """Whether the data holds a state alone, and nothing that a step worked out, such as contacts."""
+        """True if the data holds only a state, without results of a step such as contacts."""
         model.opt.sleep_tolerance = TOLERANCE
-        # MuJoCo multiplies an angular speed by the size of the shapes it moves, which of a bare link is nothing at all.
+        # MuJoCo scales angular speeds by the size of the moved shapes, which is zero for a link without any.
         model.dof_length[:] = 1.0
         allowed, never = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED), int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
         model.tree_sleep_policy[:] = allowed
-        # Of several links in one tree, the one that must not sleep decides.
+        # One link that must not sleep keeps its whole tree awake.
         allows = [each.allow_auto_disable for each in compiled.world.models for _ in each.links]
         for body, allow in zip(compiled.link_bodies, allows, strict=True):
             tree = int(model.body_treeid[body])
@@ -47,24 +48,24 @@ class SleepPolicy:
 
     @property
     def is_on(self) -> bool:
-        """Whether trees may sleep now."""
+        """True if sleeping is enabled."""
         return bool(self._model.opt.enableflags & _SLEEP)
 
     @property
     def asleep(self) -> int:
-        """How many trees sleep at the moment."""
+        """Number of sleeping trees."""
         return int(np.count_nonzero(self._data.tree_asleep >= 0)) if self.is_on else 0
 
     def step(self, count: int) -> None:
-        """Take so many steps; as long as everybody sleeps, one is like the other, and only the clock goes on."""
+        """Step `count` times; while all trees sleep only the clock advances."""
         model, data = self._model, self._data
         self.has_state_only = False
         if count > 1 and self._all_sleep():
-            mujoco.mj_step(model, data)  # who was told something since the last one wakes
+            mujoco.mj_step(model, data)  # trees with new commands wake
             count -= 1
             if self._all_sleep():
                 time_s, h = data.time, model.opt.timestep
-                for _ in range(count):  # one by one, as MuJoCo adds them: to the same bits
+                for _ in range(count):  # one by one, as MuJoCo: equal to the bit
                     time_s += h
                 data.time = time_s
                 return
@@ -74,7 +75,7 @@ class SleepPolicy:
         return self.is_on and int(self._data.tree_asleep.min()) >= 0
 
     def update(self) -> None:
-        """Let trees sleep if at least half of what can move hangs from what is wholly at rest."""
+        """Enable sleeping if trees wholly at rest have at least half of the degrees of freedom."""
         moving = np.zeros(self._model.ntree, dtype=bool)
         moving[self._trees[np.abs(self._data.qvel) >= TOLERANCE]] = True
         still = np.count_nonzero(~moving[self._trees])
@@ -83,7 +84,7 @@ class SleepPolicy:
             self._switch(wanted)
 
     def disable(self) -> None:
-        """Wake everybody: from now on every step is watched."""
+        """Wake all trees and disable sleeping."""
         if self.is_on:
             self._switch(False)
 
@@ -94,19 +95,19 @@ class SleepPolicy:
         self.set_state(state, self._data.qfrc_actuator.copy())
 
     def set_state(self, state: NDArray[np.float64], efforts: NDArray[np.float64]) -> None:
-        """Set the engine's state, everybody awake: who sleeps is forgotten by a reset alone."""
+        """Set the engine's state with all trees awake; only a reset clears which ones sleep."""
         mujoco.mj_resetData(self._model, self._data)
         mujoco.mj_setState(self._model, self._data, state, STATE)
         self._data.qfrc_actuator[:] = efforts
         self.has_state_only = True
 
     def set_flags(self, sleep: bool) -> None:
-        """Set the engine's flags; the data has to be reset or replaced with them."""
+        """Set the engine's flags; the data must be reset or replaced with them."""
         option = self._model.opt
         option.enableflags = option.enableflags | _SLEEP if sleep else option.enableflags & ~_SLEEP
         option.disableflags = option.disableflags & ~_NO_ISLANDS if sleep else option.disableflags | _NO_ISLANDS
 
     def wake(self, dof: int) -> None:
-        """Wake the tree of a degree of freedom, which has been told something."""
+        """Wake the tree of a degree of freedom after a command."""
         if self.is_on and self._data.tree_asleep[self._model.dof_treeid[dof]] >= 0 and self._data.qvel[dof] == 0.0:
             self._data.qvel[dof] = _WAKING_SPEED

@@ -1,4 +1,4 @@
-"""Reads the state of a world out of the engine's arrays: poses, velocities, what drives the joints."""
+"""Poses, velocities and efforts of links and joints, read from MuJoCo's arrays."""
 
 import mujoco
 import numpy as np
@@ -10,7 +10,7 @@ from ..compile.compiled_world import CompiledWorld
 
 
 class StateReader:
-    """Reads one `MjData`; whoever changes it says so by `changed`."""
+    """Reader of one `MjData`; call `invalidate` after each change of it."""
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
         self._compiled = compiled
@@ -24,26 +24,27 @@ class StateReader:
         self._signs: list[float] = compiled.axis_sign.tolist()
         self._poses: NDArray[np.float64] | None = None
         self._twists: NDArray[np.float64] | None = None
-        """Values of the state that the reader holds, from the first time they are asked for."""
+        """Cached results for the current state."""
 
     def set_state(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
-        """Put another state before the reader; time and forces stay."""
+        """Set positions and velocities; time and forces stay."""
         self._data.qpos[:], self._data.qvel[:] = qpos, qvel
         self.invalidate()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """What `show` takes."""
+        """Return copies of qpos and qvel, as `set_state` takes them."""
         return self._data.qpos.copy(), self._data.qvel.copy()
 
     def invalidate(self) -> None:
-        """The state is another now."""
+        """Clear the cache after a change of the state."""
         self._poses = self._twists = None
 
     def link_poses(self) -> NDArray[np.float64]:
-        """(links, 7) x y z qw qx qy qz of the link frames in the world [m]; the same array while nothing changes.
+        """Return (links, 7) x y z qw qx qy qz of the link frames in the world [m]; the same array until the state
+        changes.
 
-        What a step computes belongs to where it started, so they are brought up to the state. Nothing that decides
-        the next step is touched: looking never changes the outcome.
+        MuJoCo's kinematics belong to the start of a step, so they are updated to the state. Nothing that affects the
+        next step is written: reading never changes the simulation.
         """
         if self._poses is None:
             mujoco.mj_kinematics(self._model, self._data)
@@ -52,8 +53,9 @@ class StateReader:
         return self._poses
 
     def link_twists(self) -> NDArray[np.float64]:
-        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes; the same array
-        while nothing changes."""
+        """Return (links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes; the
+        same array until the state changes.
+        """
         if self._twists is None:
             self.link_poses()
             mujoco.mj_comPos(self._model, self._data)
@@ -65,7 +67,7 @@ class StateReader:
         bodies = self._compiled.link_bodies
         cvel = self._data.cvel[bodies]
         wx, wy, wz = cvel[:, 0], cvel[:, 1], cvel[:, 2]
-        # cvel is taken at the tree's centre of mass. The cross product is written out: np.cross costs five times more.
+        # cvel refers to the tree's centre of mass. The cross product is written out: np.cross costs five times more.
         x, y, z = (self._data.xpos[bodies] - self._data.subtree_com[self._roots]).T
         twists = np.empty_like(cvel)
         twists[:, 0] = cvel[:, 3] + wy * z - wz * y
@@ -75,22 +77,22 @@ class StateReader:
         return twists
 
     def efforts(self) -> NDArray[np.float64]:
-        """(degrees of freedom,) what motors and applied efforts exert [N·m or N]."""
+        """Return (nv,) efforts of motors and commands [N·m or N]."""
         return self._data.qfrc_applied + self._data.qfrc_actuator
 
     def axis_positions(self, qpos: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(axes,) [rad or m] in a state; a ball joint's three are its rotation vector."""
+        """Return (axes,) positions [rad or m] of a state; a ball joint's three are its rotation vector."""
         positions = qpos[self._compiled.axis_qpos]
         for span, first in self._balls:
             positions[span.start : span.stop] = _rotation_vector(qpos, first)
         return positions * self._compiled.axis_sign
 
     def by_axis(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(axes,) velocities or efforts of the axes, from those of all degrees of freedom."""
+        """Return (axes,) velocities or efforts, from those of all degrees of freedom."""
         return values[self._compiled.axis_dof] * self._compiled.axis_sign
 
     def positions_of(self, axes: range) -> list[float]:
-        """[rad or m] Of a joint's axes: one number costs a twentieth of all."""
+        """Return the positions of a joint's axes [rad or m], in a twentieth of the time of all."""
         qpos, addresses, signs = self._data.qpos, self._qpos_addresses, self._signs
         if axes.start in self._ball_starts:
             return (_rotation_vector(qpos, addresses[axes.start]) * signs[axes.start]).tolist()
@@ -101,24 +103,24 @@ class StateReader:
         return self.axis_positions(self._data.qpos)[axes.start : axes.stop].tolist()
 
     def velocities_of(self, axes: range) -> list[float]:
-        """[rad/s or m/s] Of a joint's axes."""
+        """Return the velocities of a joint's axes [rad/s or m/s]."""
         qvel, dofs, signs = self._data.qvel, self._dofs, self._signs
         return [qvel.item(dofs[axis]) * signs[axis] for axis in axes]
 
     def efforts_of(self, axes: range) -> list[float]:
-        """[N·m or N] What motors and applied efforts exert on a joint's axes."""
+        """Return the efforts of motors and commands on a joint's axes [N·m or N]."""
         applied, driven, dofs, signs = self._data.qfrc_applied, self._data.qfrc_actuator, self._dofs, self._signs
         return [(applied.item(dofs[axis]) + driven.item(dofs[axis])) * signs[axis] for axis in axes]
 
     def center_of_mass(self, link: int) -> Vector3:
-        """Where a link's centre of mass is in the world [m]."""
+        """Return a link's centre of mass in the world [m]."""
         self.link_poses()
         x, y, z = self._data.xipos[self._compiled.link_bodies[link]].tolist()
         return (x, y, z)
 
 
 def _rotation_vector(qpos: NDArray[np.float64], first: int) -> NDArray[np.float64]:
-    """(3,) [rad] Of the ball joint whose quaternion begins there."""
+    """Return the (3,) rotation vector of the quaternion at an address [rad]."""
     rotation = np.empty(3)
     mujoco.mju_quat2Vel(rotation, qpos[first : first + 4], 1.0)
     return rotation

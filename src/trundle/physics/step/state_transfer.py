@@ -1,4 +1,4 @@
-"""Carries the state of one compiled world over to another, for whatever is in both by the same name."""
+"""Transfer of state between two compiled worlds, matched by name."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Protocol
@@ -15,12 +15,12 @@ _SPEEDS = {int(mujoco.mjtJoint.mjJNT_FREE): 6, int(mujoco.mjtJoint.mjJNT_BALL): 
 def transfer_state(
     old: tuple[mujoco.MjModel, mujoco.MjData], new: tuple[mujoco.MjModel, mujoco.MjData], renamed: Mapping[str, str]
 ) -> None:
-    """Copy positions, speeds, efforts, motors and wrenches to the bit; time goes on.
+    """Copy positions, velocities, efforts, motors and wrenches exactly; the time continues.
 
     Args:
-        old: from where.
-        new: to where.
-        renamed: models called otherwise in the old one, old name to new one.
+        old: source.
+        new: target.
+        renamed: renamed models, old name → new name.
     """
     (old_model, old_data), (new_model, new_data) = old, new
     new_data.time = old_data.time
@@ -50,7 +50,7 @@ class _Named(Protocol):
 
 
 def _names(count: int, view: Callable[[int], _Named], renamed: Mapping[str, str] | None = None) -> list[str]:
-    """Names are `model::part`, or `model::part on model::joint` of the parts of links that close a loop."""
+    """Return names `model::part`, or `model::part on model::joint` for the parts of links that close a loop."""
     names = [view(i).name for i in range(count)]
     for old, new in (renamed or {}).items():
         parts = [name.split(_ON) for name in names]
@@ -63,7 +63,7 @@ def _renamed(name: str, old: str, new: str) -> str:
 
 
 def _matches(old: list[str], new: list[str]) -> Iterator[tuple[int, int]]:
-    """The numbers of what has the same name in both."""
+    """Yield index pairs of equal names."""
     numbers = {name: i for i, name in enumerate(old)}
     for i, name in enumerate(new):
         if name in numbers:
