@@ -86,7 +86,7 @@ def test_what_cannot_be_joined_or_let_go_is_said(sim: Simulation) -> None:
     for wrong, words in (
         (joint(JointType.FIXED, "world", "a::l"), "there is a joint 'tie' already"),
         (Joint(name="x", type=JointType.FIXED, parent="a", child="b::l", at=Source("t")), "no link 'a'"),
-        (Joint(name="x", type=JointType.FIXED, parent="a::l", child="world", at=Source("t")), "has to be a link"),
+        (Joint(name="x", type=JointType.FIXED, parent="a::l", child="world", at=Source("t")), "must be a link"),
     ):
         with pytest.raises(UsageError, match=words):
             sim.attach(wrong)

@@ -59,5 +59,5 @@ def test_anything_else_is_no_log(tmp_path_factory: pytest.TempPathFactory, conte
     path = tmp_path_factory.mktemp("log") / "x"
     path.write_bytes(content)
 
-    with pytest.raises(DescriptionError, match="no state log"):
+    with pytest.raises(DescriptionError, match="not a state log"):
         read_state_log(path)

@@ -54,7 +54,7 @@ def test_what_is_no_recording_is_refused_in_a_sentence(trundle, tmp_path) -> Non
     done = trundle("play", str(file))
 
     assert done.returncode == 1
-    assert done.stderr.strip().endswith("error: no state log: it does not begin with 'trundle state log 1'")
+    assert done.stderr.strip().endswith("error: not a state log: the file does not begin with 'trundle state log 1'")
 
 
 def test_a_run_whose_recording_is_removed_fails(start, until, tmp_path) -> None:

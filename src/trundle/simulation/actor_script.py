@@ -1,4 +1,4 @@
-"""Where an actor is, by its script: trajectories one after the other, each a spline through its waypoints."""
+"""Scripted actor motion: trajectories in sequence, each a spline through waypoints."""
 
 import math
 from bisect import bisect_right
@@ -8,18 +8,18 @@ from trundle.model import Actor, AnimationState, Trajectory
 from trundle.spatial import Pose, Twist, Vector3, conjugate, normalized, quaternion_product, slerp
 
 _PIECES, _MAX_PIECES = 32, 100_000
-"""From one waypoint to the next, and in all: a way's length is that of so many straight pieces."""
+"""Straight segments per waypoint interval, and their maximum, for the length of a path."""
 
 
 class ActorScript:
-    """The way of one actor over time; without waypoints there is none."""
+    """Pose and animation of one actor over time; empty without waypoints."""
 
     def __init__(self, actor: Actor) -> None:
         self._delay = max(actor.delay_start_s, 0.0)
         self._loop = actor.loop
         self._first = actor.trajectories[0].type if actor.trajectories else ""
         self._paths: list[tuple[float, _WaypointPath]] = []
-        """The time each begins [s], and what it is."""
+        """Start time [s] and path of each trajectory."""
         self.length_s = 0.0
         for trajectory in actor.trajectories:
             if trajectory.waypoints:
@@ -27,23 +27,23 @@ class ActorScript:
                 self.length_s += max(trajectory.waypoints[-1].time_s, 0.0)
 
     def __bool__(self) -> bool:
-        """Whether there is anywhere to go."""
+        """True if the actor has waypoints."""
         return bool(self._paths)
 
     def pose_at(self, time_s: float) -> Pose:
-        """World pose at a time since the actor began; it waits before each round where it goes round."""
+        """Return the world pose at a time since the actor's start, with the delay before each round."""
         since, way = self._path_at(time_s)
         return way.pose_at(since)
 
     def animation_state_at(self, time_s: float) -> AnimationState:
-        """What the bones are at; without waypoints the first animation goes on and on."""
+        """Return the animation state; without waypoints the first animation plays in a loop."""
         if not self._paths:
             return AnimationState(animation=self._first, time_s=max(time_s - self._delay, 0.0))
         since, way = self._path_at(time_s)
         return AnimationState(animation=way.type, time_s=since, distance_m=way.distance_at(since))
 
     def _path_at(self, time_s: float) -> "tuple[float, _WaypointPath]":
-        """Which way it is on at a time, and for how long [s]."""
+        """Return the time since the start of the current path [s], and the path."""
         round_s = self._delay + self.length_s
         if self._loop and round_s > 0.0:
             time_s = math.fmod(time_s, round_s)
@@ -52,7 +52,7 @@ class ActorScript:
         return since - begins, way
 
     def twist_at(self, time_s: float, dt: float) -> Twist:
-        """What brings it to where it is dt [s] later; it leaps back to where it began without."""
+        """Return the twist that leads to the pose dt [s] later; zero at the jump back to the start."""
         round_s = self._delay + self.length_s
         if self._loop and round_s > 0.0 and math.fmod(time_s, round_s) + dt >= round_s:
             return Twist()
@@ -68,7 +68,9 @@ class ActorScript:
 
 
 class _WaypointPath:
-    """One trajectory: positions by a cardinal spline, as Gazebo's; turns along great arcs, where Gazebo has splines."""
+    """Trajectory with positions on a cardinal spline, as in Gazebo, and slerp of orientations, where Gazebo uses
+    splines.
+    """
 
     def __init__(self, trajectory: Trajectory) -> None:
         points = trajectory.waypoints
@@ -80,7 +82,7 @@ class _WaypointPath:
         self._slopes = _slopes(self._positions, (1.0 - trajectory.tension) / 2)
 
     def pose_at(self, time_s: float) -> Pose:
-        """Before the first waypoint it waits there, after the last one it stays there."""
+        """Return the pose; constant before the first waypoint and after the last."""
         i = bisect_right(self._times, time_s) - 1
         if i < 0:
             return Pose(self._positions[0], self._orientations[0])
@@ -97,7 +99,7 @@ class _WaypointPath:
         return Pose((along(0), along(1), along(2)), slerp(self._orientations[i], self._orientations[i + 1], u))
 
     def distance_at(self, time_s: float) -> float:
-        """The length of the way up to a time [m], from straight pieces."""
+        """Return the path length up to a time [m], from straight segments."""
         first, last = self._times[0], self._times[-1]
         if not first < time_s or not first < last:
             return 0.0
@@ -111,7 +113,7 @@ class _WaypointPath:
 
 
 def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
-    """Of a cardinal spline at each place; one that ends where it began goes on there."""
+    """Return the cardinal spline's tangents; a path that ends at its start is closed."""
     last = len(places) - 1
     closed = last > 1 and places[0] == places[last]
 
@@ -122,3 +124,20 @@ def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
         return (x, y, z)
 
     return [slope(i) for i in range(len(places))]
+
+
+def _slerp(a: Quaternion, b: Quaternion, u: float) -> Quaternion:
+    """Return the spherical linear interpolation at u in [0, 1] along the shorter arc."""
+    cosine = sum(p * q for p, q in zip(a, b, strict=True))
+    if cosine < 0.0:
+        b, cosine = (-b[0], -b[1], -b[2], -b[3]), -cosine
+    angle = math.acos(min(cosine, 1.0))
+    if angle < 1e-6:
+        return a
+    of_a, of_b = math.sin((1 - u) * angle) / math.sin(angle), math.sin(u * angle) / math.sin(angle)
+    w, x, y, z = (of_a * p + of_b * q for p, q in zip(a, b, strict=True))
+    return (w, x, y, z)
+
+
+def _conjugate(q: Quaternion) -> Quaternion:
+    return (q[0], -q[1], -q[2], -q[3])

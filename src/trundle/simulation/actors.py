@@ -1,6 +1,6 @@
-"""Actors as bodies that nothing pushes, moved by their scripts.
+"""Actors as kinematic bodies that follow their scripts.
 
-A box as large as its skin, on the feet, stands for what has no bones; what has is drawn as they move.
+An actor without a usable skeleton is a box of its skin's size; the others are drawn with animated skins.
 """
 
 from collections.abc import Sequence
@@ -20,23 +20,23 @@ if TYPE_CHECKING:  # a world without actors starts without their modules
     from .simulation import Simulation
 
 _PERSON: Vector3 = (0.3, 0.5, 1.8)
-"""[m] Of a skin that cannot be read."""
+"""Size of a skin that cannot be read [m]."""
 _ACTOR_PLUGIN = "libActorPlugin.so"
-"""It has skins lie on their backs, whose own up is y, with the hips at 1.2138 m, and takes no notice of scripts."""
+"""Plugin that lays skins on their backs, whose up axis is y, with the hips at 1.2138 m, and ignores scripts."""
 _HIPS = 1.2138
 _WALKING = "walking"
-"""The animation that it plays."""
+"""Animation that the plugin plays."""
 
 
 def with_actors(world: World, report: Diagnostics) -> World:
-    """The world with a model for each actor that is seen, after all others; one that has its model already keeps it."""
+    """Return the world with a model added for each visible actor that has none yet."""
     there = {model.name for model in world.models}
     added = [_model(actor, report) for actor in world.actors if actor.name not in there]
     return replace(world, models=(*world.models, *(model for model in added if model.links)))
 
 
 class ActorPlayer:
-    """A hook that keeps an actor where its script says; between two calls it glides."""
+    """Hook that moves an actor along its script; between two calls it has a constant twist."""
 
     period_ns = 20_000_000
 
@@ -49,14 +49,14 @@ class ActorPlayer:
         self._starts = actor.auto_start
         self.taken_over = False
         self.animation_s = 0.0
-        """How far the animation is of an actor that somebody else moves."""
+        """Animation time of an actor that a plugin moves [s]."""
 
     def stop(self) -> None:
-        """Leave the actor to somebody else, whose pose of it is that of its bones, too."""
+        """Stop the script and leave pose and animation to a plugin."""
         self.is_on, self.taken_over = False, True
 
     def animation_state(self, time_ns: int) -> "AnimationState":
-        """What its bones are at."""
+        """Return the actor's animation state."""
         from trundle.model import AnimationState
 
         if self.taken_over:
@@ -64,11 +64,11 @@ class ActorPlayer:
         return self._script.animation_state_at(time_ns / 1e9 if self._starts else 0.0)
 
     def enabled(self, models: Sequence[ModelHandle]) -> bool:
-        """Whether the actor is there, and on its way."""
+        """True if the actor exists and its script runs."""
         return self.is_on and any(model is self._handle for model in models)
 
     def before_step(self, sim: "Simulation") -> None:
-        """Put it there."""
+        """Set the actor's pose and twist."""
         time_s, dt = sim.time_ns / 1e9, self.period_ns / 1e9
         self._handle.set_pose(self._script.pose_at(time_s))
         self._handle.set_twist(self._script.twist_at(time_s, dt))
@@ -115,7 +115,7 @@ def _has_actor_plugin(actor: "Actor") -> bool:
 
 
 def _size(skin: "Skin") -> Vector3:
-    """Lengths of the box, the largest upwards."""
+    """Return the size of the box [m], the largest side upwards."""
     if skin.path is None:
         return _PERSON
     from trundle.meshes import MeshError, load_mesh

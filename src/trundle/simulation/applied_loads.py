@@ -1,4 +1,4 @@
-"""What pushes links and joints for a while, and how links grip what they touch."""
+"""Timed wrenches and efforts, and surface motions of links."""
 
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
@@ -16,54 +16,54 @@ if TYPE_CHECKING:  # a world without belts starts without them
 
 
 class Expiries(Struct, frozen=True):
-    """When what lasts a while is over, by step."""
+    """Steps at which wrenches and efforts end."""
 
     wrenches: dict[int, int] = field(default_factory=dict[int, int])
-    """By link."""
+    """Link index → step."""
     efforts: dict[tuple[JointHandle, int], int] = field(default_factory=dict[tuple[JointHandle, int], int])
-    """By joint and axis."""
+    """Joint and axis → step."""
 
     def copy(self) -> "Expiries":
-        """Its own from now on."""
+        """Return an independent copy."""
         return Expiries(dict(self.wrenches), dict(self.efforts))
 
 
 class AppliedLoads:
-    """Wrenches, efforts and grips of one simulation."""
+    """Wrenches, efforts and surface motions of one simulation."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self.expiries = Expiries()
         self._lasting: dict[int, Wrench] = {}
-        """Link → its lasting wrench, below what was added for the coming step."""
+        """Link → its persistent wrench, without the part added for the coming step."""
         self._surface_motions: dict[int, LinkGrip] = {}
 
     def clear(self) -> None:
-        """Nothing pushes any more; grips stay."""
+        """Clear all loads except surface motions."""
         self.expiries = Expiries()
         self._lasting.clear()
 
     def restore(self, ends: Expiries) -> None:
-        """Go on as it was when these were kept."""
+        """Restore saved expiries."""
         self.expiries = ends.copy()
         self._lasting.clear()
 
     def shift(self, steps: int) -> None:
-        """Let everything end so many steps later: time was set."""
+        """Shift all expiries by a number of steps, after the time was set."""
         self.expiries = Expiries(
             {link: end + steps for link, end in self.expiries.wrenches.items()},
             {axis: end + steps for axis, end in self.expiries.efforts.items()},
         )
 
     def retime(self, before: StepClock, after: StepClock) -> None:
-        """Let everything end when it would have, at other steps."""
+        """Convert all expiries to another step length."""
         self.expiries = Expiries(
             {link: after.step_at(before.time_ns(end)) for link, end in self.expiries.wrenches.items()},
             {axis: after.step_at(before.time_ns(end)) for axis, end in self.expiries.efforts.items()},
         )
 
     def set_wrench(self, link: int, wrench: Wrench, *, until: int | None) -> None:
-        """Hold a wrench up to a step, or for good."""
+        """Apply a wrench until a step, or permanently (None)."""
         self._lasting.pop(link, None)
         self._engine.set_wrench(link, wrench)
         self.expiries.wrenches.pop(link, None)
@@ -71,19 +71,19 @@ class AppliedLoads:
             self.expiries.wrenches[link] = until
 
     def add_wrench(self, link: int, wrench: Wrench) -> None:
-        """Add to what pushes, for the coming step."""
+        """Add a wrench for the coming step."""
         now = self._engine.wrench(link)
         self._lasting.setdefault(link, now)
         self._engine.set_wrench(link, now + wrench)
 
     def set_effort_expiry(self, joint: JointHandle, axis: int, *, until: int | None) -> None:
-        """Have an effort that was set end at a step, or never."""
+        """Set the step at which an effort ends; None: never."""
         self.expiries.efforts.pop((joint, axis), None)
         if until is not None:
             self.expiries.efforts[joint, axis] = until
 
     def set_surface_motion(self, link: int, motion: "LinkGrip | None") -> None:
-        """Have a link's surface move and slip, or hold on as any other."""
+        """Set a link's surface motion; None restores ordinary contacts."""
         if self._surface_motions.get(link) == motion:
             return
         if motion is None:
@@ -93,12 +93,12 @@ class AppliedLoads:
         self._engine.set_surface_motions(self._surface_motions)
 
     def expiry_steps(self) -> Iterator[int]:
-        """The steps at which something ends."""
+        """Yield the steps at which a load ends."""
         yield from self.expiries.wrenches.values()
         yield from self.expiries.efforts.values()
 
     def expire(self, step: int) -> None:
-        """Take away what is over at a step, and what was added for it."""
+        """Remove the loads that end at a step, and those added for it."""
         for link, lasting in self._lasting.items():
             self._engine.set_wrench(link, lasting)
         self._lasting.clear()
@@ -112,11 +112,11 @@ class AppliedLoads:
                 del self.expiries.efforts[joint, axis]
 
     def transfer_to(self, links: Mapping[int, int], engine: Engine) -> None:
-        """Go on in another engine.
+        """Continue in another engine.
 
         Args:
-            links: where each link went; those that went nowhere are missing.
-            engine: the other.
+            links: old → new index of the links that still exist.
+            engine: the new engine.
         """
         self._engine = engine
         wrenches = {links[link]: end for link, end in self.expiries.wrenches.items() if link in links}

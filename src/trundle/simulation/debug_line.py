@@ -1,4 +1,4 @@
-"""Lines in the world that somebody draws while it runs; viewers show them, and they can be read."""
+"""Lines drawn by plugins while the world runs, for viewers and callers."""
 
 from msgspec import Struct, field
 
@@ -6,9 +6,9 @@ from trundle.spatial import Vector3
 
 
 class DebugLine(Struct):
-    """A line strip that grows."""
+    """Line strip."""
 
     rgb: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """0 to 1."""
     points: list[Vector3] = field(default_factory=list[Vector3])
-    """In the world [m], oldest first."""
+    """Points in the world [m], oldest first."""

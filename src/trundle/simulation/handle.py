@@ -1,4 +1,4 @@
-"""What links and joints of a running simulation have in common: a number, as long as their model is there."""
+"""Base of link and joint handles: an index that is valid while the model exists."""
 
 import math
 from typing import TYPE_CHECKING, ClassVar
@@ -10,10 +10,10 @@ if TYPE_CHECKING:
 
 
 class Handle:
-    """One thing of a model."""
+    """Handle of a part of a model."""
 
     KIND: ClassVar[str]
-    """What it is, in a sentence."""
+    """Kind of part, for messages."""
 
     def __init__(self, simulation: "Simulation", index: int) -> None:
         self._simulation = simulation
@@ -21,12 +21,12 @@ class Handle:
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Name as in the file."""
         raise NotImplementedError
 
     @property
     def index(self) -> int:
-        """Into a `Snapshot`'s arrays of its kind; it changes as models before this one go.
+        """Index into a `Snapshot`'s arrays; it changes when models before this one are deleted.
 
         Raises:
             UsageError: the model was deleted.
@@ -37,19 +37,19 @@ class Handle:
 
     @property
     def is_valid(self) -> bool:
-        """Whether its model is, still."""
+        """True while the model exists."""
         return self._index is not None
 
     def rebind(self, index: int | None) -> None:
-        """Be at another index, or nowhere any more; for the simulation alone."""
+        """Set the index, or None after deletion; for the simulation only."""
         self._index = index
 
 
 def expect_finite(*numbers: float) -> None:
-    """Refuse what would leave nothing of a world.
+    """Check for NaN and infinity, which would destroy the state.
 
     Raises:
-        UsageError: a number is none, or endless.
+        UsageError: a number is not finite.
     """
     if not all(map(math.isfinite, numbers)):
         raise UsageError(f"finite numbers are needed, got {', '.join(f'{number:g}' for number in numbers)}")

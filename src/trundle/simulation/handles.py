@@ -1,4 +1,4 @@
-"""Models, links and joints of a running simulation, by name.
+"""Handles of models, links and joints of a running simulation.
 
     robot = sim["rp2w"]
     robot.joint("camera_base_camera").command_position(0.3)
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class LinkHandle(Handle):
-    """One link."""
+    """Handle of a link."""
 
     KIND = "link"
 
@@ -39,12 +39,12 @@ class LinkHandle(Handle):
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Name as in the file."""
         return self.link.name
 
     @property
     def pose(self) -> Pose:
-        """The link's frame in the world."""
+        """Pose of the link's frame in the world."""
         x, y, z, qw, qx, qy, qz = self._simulation.engine.reader.link_poses()[self.index].tolist()
         return Pose((x, y, z), (qw, qx, qy, qz))
 
@@ -55,39 +55,39 @@ class LinkHandle(Handle):
         return Twist((vx, vy, vz), (wx, wy, wz))
 
     def set_pose(self, pose: Pose) -> None:
-        """Put the link there at once, with all that hangs from it; speeds stay.
+        """Teleport the link with its tree; velocities stay.
 
         Raises:
-            UsageError: it hangs from something itself, or that is nowhere.
+            UsageError: the link has a parent joint or is fixed, or the pose is not finite.
         """
         expect_finite(*pose.position, *pose.quaternion)
         self._simulation.engine.writer.set_tree_pose(self.index, pose)
 
     def set_twist(self, twist: Twist) -> None:
-        """Give the link's origin this velocity, and this spin, at once, world axes; nothing keeps it.
+        """Set the velocity of the link's origin and its angular velocity once, world axes.
 
         Raises:
-            UsageError: it hangs from something, or that is no velocity.
+            UsageError: the link has a parent joint or is fixed, or the twist is not finite.
         """
         expect_finite(*twist.linear, *twist.angular)
         self._simulation.engine.writer.set_tree_twist(self.index, twist)
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
-        """Push and twist the link at its centre of mass, in world axes.
+        """Apply a wrench at the link's centre of mass, world axes.
 
         Args:
-            wrench: replaces whatever was applied to this link before.
-            duration_s: simulation time; None: until something else is applied.
+            wrench: replaces the wrench applied before.
+            duration_s: simulation time; None: until the next call.
         """
         until = self._simulation.expiry_step(duration_s)
         self._simulation.loads.set_wrench(self.index, wrench, until=until)
 
     def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
-        """Add to what pushes the link, up to the next hook: what wind, water and air do, called at every step.
+        """Add a wrench until the next hook, for forces computed at every step, such as wind, buoyancy and drag.
 
         Args:
             wrench: world axes.
-            at: where in the world the force acts [m]; None: at the centre of mass.
+            at: point of application in the world [m]; None: the centre of mass.
         """
         if at is not None:
             com = self.pose @ self.link.inertial.link_from_com
@@ -97,10 +97,10 @@ class LinkHandle(Handle):
         self._simulation.loads.add_wrench(self.index, wrench)
 
     def set_surface_motion(self, motion: "LinkGrip | None") -> None:
-        """Have the link's surface move and slip where it touches, from now on.
+        """Set the motion and slip of the link's surface at its contacts.
 
         Args:
-            motion: None: contacts are ordinary ones again.
+            motion: None: ordinary contacts.
         """
         self._simulation.loads.set_surface_motion(self.index, motion)
 
@@ -109,7 +109,7 @@ _Named = TypeVar("_Named", LinkHandle, JointHandle)
 
 
 class ModelHandle:
-    """One model."""
+    """Handle of a model."""
 
     def __init__(self, simulation: "Simulation", model: Model, *, first_link: int, first_joint: int) -> None:
         self._simulation = simulation
@@ -121,12 +121,12 @@ class ModelHandle:
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Name as in the file."""
         return self.model.name
 
     @property
     def pose(self) -> Pose:
-        """The model's frame in the world; it rides on the canonical link."""
+        """Pose of the model's frame in the world, fixed to the canonical link."""
         if not self.links:
             return self.model.world_from_model
         base = self.base
@@ -144,7 +144,7 @@ class ModelHandle:
 
     @property
     def base(self) -> LinkHandle:
-        """The canonical link; the first one where the file names none.
+        """Canonical link, or the first link if the file names none.
 
         Raises:
             UsageError: the model has no link.
@@ -155,10 +155,10 @@ class ModelHandle:
         return next((link for link in self.links if link.name == named), self.links[0])
 
     def set_pose(self, pose: Pose) -> None:
-        """Put the model's frame there at once; speeds stay. What hangs from the world is compiled anew there.
+        """Teleport the model; velocities stay. A model fixed to the world is recompiled at the new pose.
 
         Raises:
-            UsageError: that is nowhere.
+            UsageError: the pose is not finite.
         """
         expect_finite(*pose.position, *pose.quaternion)
         moved = pose @ self.pose.inverse()
@@ -170,7 +170,7 @@ class ModelHandle:
             link.set_pose(there)
 
     def set_twist(self, twist: Twist) -> None:
-        """Give what moves freely of the model this velocity and spin at once, world axes; nothing keeps it."""
+        """Set the model's twist on its free trees once, world axes."""
         (vx, vy, vz), (wx, wy, wz) = twist.linear, twist.angular
         x0, y0, z0 = self.pose.position
         for link in self.links:
@@ -180,16 +180,17 @@ class ModelHandle:
                 link.set_twist(Twist(there, twist.angular))
 
     def set_link_twists(self, twist: Twist) -> None:
-        """Give each link that moves freely this velocity of its own origin, and this spin, world axes.
+        """Set the velocity of each free link's own origin and its angular velocity once, world axes.
 
-        So do Gazebo's SetLinearVel and SetAngularVel of a model: what is beside its origin is not swung about that.
+        As Gazebo's SetLinearVel and SetAngularVel of a model: links away from the model's origin get no velocity from
+        the rotation.
         """
         for link in self.links:
             if self._simulation.engine.writer.is_free(link.index):
                 link.set_twist(twist)
 
     def update_description(self, model: Model) -> None:
-        """Stand for an edited model of the same links and joints; for the simulation alone."""
+        """Replace the description by an edited one with the same links and joints; for the simulation only."""
         self.model = model
         for handle, link in zip(self.links, model.links, strict=True):
             handle.link = link
@@ -197,25 +198,25 @@ class ModelHandle:
             handle.joint = joint
 
     def rebind(self, first_link: int | None, first_joint: int | None) -> None:
-        """Have other indices, or none any more; for the simulation alone."""
+        """Set new indices, or None after deletion; for the simulation only."""
         for i, link in enumerate(self.links):
             link.rebind(None if first_link is None else first_link + i)
         for i, joint in enumerate(self.joints):
             joint.rebind(None if first_joint is None else first_joint + i)
 
     def link(self, name: str) -> LinkHandle:
-        """The link of that name.
+        """Return a link by name.
 
         Raises:
-            UsageError: with the names there are.
+            UsageError: no such link; the message lists the links there are.
         """
         return _find_by_name(name, self.links, f"model {self.name!r} has no link")
 
     def joint(self, name: str) -> JointHandle:
-        """The joint of that name.
+        """Return a joint by name.
 
         Raises:
-            UsageError: with the names there are.
+            UsageError: no such joint; the message lists the joints there are.
         """
         return _find_by_name(name, self.joints, f"model {self.name!r} has no joint")
 
@@ -314,7 +315,7 @@ class ModelHandle:
         return self._joint_space.inverse_dynamics(q, v, a)
 
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
-        """Push and twist the model's canonical link at its centre of mass, in world axes."""
+        """Apply a wrench at the canonical link's centre of mass, world axes."""
         self.base.apply_wrench(wrench, duration_s=duration_s)
 
 
@@ -326,7 +327,7 @@ def _find_by_name(name: str, there: Iterable[_Named], none: str) -> _Named:
 
 
 def handles_of(simulation: "Simulation", world: World, known: Mapping[str, ModelHandle]) -> list[ModelHandle]:
-    """One handle for each model, in order; those that are known are moved to where they belong."""
+    """Return a handle per model, in order; known ones are rebound to their new indices."""
     handles: list[ModelHandle] = []
     link, joint = 0, 0
     for model in world.models:
@@ -343,7 +344,7 @@ def handles_of(simulation: "Simulation", world: World, known: Mapping[str, Model
 
 
 def world_joints_of(simulation: "Simulation", world: World, known: Mapping[str, JointHandle]) -> list[JointHandle]:
-    """One handle for each joint between models, in order; those that are known are moved to where they belong."""
+    """Return a handle per joint between models, in order; known ones are rebound to their new indices."""
     gone = dict(known)
     first = sum(len(model.joints) for model in world.models)
     handles: list[JointHandle] = []

@@ -1,4 +1,4 @@
-"""Joints that come while the world runs: where everything has to be for them, and what they are like."""
+"""Joints attached while the world runs."""
 
 from msgspec.structs import replace
 
@@ -13,23 +13,23 @@ WORLD = "world"
 
 
 def with_joint(world: World, models: list[ModelHandle], joint: Joint) -> World:
-    """The world with a joint between models that is at zero as everything is now.
+    """Return the world with a joint between models whose zero position is the current configuration.
 
-    A fixed one says itself where it holds the child; of another, the child's model is put so that it is at zero.
+    A fixed joint stores the pose of the child; for other types the child's model is moved so that the joint is at zero.
 
     Args:
         world: as it runs.
-        models: where everything is.
-        joint: links by `model::link` or "world"; its axes in the world, as everything is now.
+        models: handles with the current poses.
+        joint: links by `model::link` or "world"; axes in the world frame in the current configuration.
 
     Raises:
-        UsageError: no such link, or such a joint is there already.
+        UsageError: a link does not exist, or the joint's name is taken.
     """
     if any(there.name == joint.name for there in world.joints):
         raise UsageError(f"there is a joint {joint.name!r} already")
     parent, child = _find(models, joint.parent), _find(models, joint.child)
     if child is None:
-        raise UsageError(f"joint {joint.name!r}: its child has to be a link")
+        raise UsageError(f"joint {joint.name!r}: the child must be a link")
     if joint.type is JointType.FIXED:
         parent_from_world = Pose() if parent is None else parent[1].pose.inverse()
         held = replace(joint, parent_from_child=parent_from_world @ child[1].pose)
@@ -38,7 +38,7 @@ def with_joint(world: World, models: list[ModelHandle], joint: Joint) -> World:
     moved = (seen_from @ child[1].pose) @ child[1].link.model_from_link.inverse()
 
     joint = replace(joint, axis=_turned(joint.axis, seen_from), axis2=_turned(joint.axis2, seen_from))
-    # A parent in the same model stands where its child does: the two are at zero together or not at all.
+    # With parent and child in one model, moving the model would move both.
     put = world if parent is not None and parent[0] is child[0] else with_model_at(world, child[0].name, moved)
     return replace(put, joints=(*world.joints, joint))
 

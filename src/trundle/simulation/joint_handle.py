@@ -1,4 +1,4 @@
-"""A joint of a running simulation: where it is, what it carries, and how to drive it."""
+"""Joint handle: state, reaction and commands."""
 
 import math
 from typing import TYPE_CHECKING
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 
 class JointHandle(Handle):
-    """One joint; its freedoms are its axes, counted from 0 as the file has them. A ball joint's three are a rotation
-    vector, which can be read, and an effort.
+    """Handle of a joint; axes are counted from 0 in file order. A ball joint has three, which are a rotation vector to
+    read and take an effort.
     """
 
     KIND = "joint"
@@ -26,55 +26,55 @@ class JointHandle(Handle):
 
     @property
     def name(self) -> str:
-        """As in the file."""
+        """Name as in the file."""
         return self.joint.name
 
     @property
     def axes(self) -> range:
-        """Its freedoms, as indices into the engine's; none where its limits leave none."""
+        """Axes as indices into the engine's arrays; empty for a rigid joint."""
         return self._simulation.engine.compiled.joint_axes[self.index]
 
     @property
     def position(self) -> float:
-        """[rad or m] of the first axis; 0 without freedom."""
+        """Position of the first axis [rad or m]; 0 for a rigid joint."""
         axes = self.axes
         return self._simulation.engine.reader.positions_of(axes)[0] if axes else 0.0
 
     @property
     def velocity(self) -> float:
-        """[rad/s or m/s] of the first axis"""
+        """Velocity of the first axis [rad/s or m/s]."""
         axes = self.axes
         return self._simulation.engine.reader.velocities_of(axes)[0] if axes else 0.0
 
     @property
     def effort(self) -> float:
-        """What drives the first axis [N·m or N]."""
+        """Effort on the first axis [N·m or N]."""
         axes = self.axes
         return self._simulation.engine.reader.efforts_of(axes)[0] if axes else 0.0
 
     @property
     def is_driven(self) -> bool:
-        """Whether it has an axis, and so can be driven or put somewhere."""
+        """True if the joint has an axis that can be driven or positioned."""
         return bool(self.axes) and self._simulation.engine.compiled.axis_actuator[self.axes[0]] >= 0
 
     @property
     def positions(self) -> tuple[float, ...]:
-        """[rad or m] of each axis."""
+        """Position of each axis [rad or m]."""
         return tuple(self._simulation.engine.reader.positions_of(self.axes))
 
     @property
     def velocities(self) -> tuple[float, ...]:
-        """[rad/s or m/s] of each axis."""
+        """Velocity of each axis [rad/s or m/s]."""
         return tuple(self._simulation.engine.reader.velocities_of(self.axes))
 
     @property
     def efforts(self) -> tuple[float, ...]:
-        """What drives each axis [N·m or N]."""
+        """Effort on each axis [N·m or N]."""
         return tuple(self._simulation.engine.reader.efforts_of(self.axes))
 
     @property
     def reaction(self) -> Wrench:
-        """What the parent does to the child through this joint, at the joint, world axes: motors, limits and weight.
+        """Wrench of the parent on the child through this joint, at the joint, world axes: motors, limits and weight.
 
         Raises:
             UsageError: the joint closes a loop of links.
@@ -83,74 +83,49 @@ class JointHandle(Handle):
         link, anchor, sign = engine.compiled.joint_anchors[self.index]
         if link < 0:
             name = engine.compiled.joint_names[self.index]
-            raise UsageError(f"joint {name!r} closes a loop of links, or holds none; its reaction is not known")
+            raise UsageError(f"joint {name!r} closes a loop of links or carries no link; its reaction is not available")
         _, _, _, qw, qx, qy, qz = engine.reader.link_poses()[link].tolist()
         arm = Pose(quaternion=(qw, qx, qy, qz)).transform_vector(anchor)
         fx, fy, fz, tx, ty, tz = (sign * each for each in engine.reactions()[link].tolist())
         mx, my, mz = cross(arm, (fx, fy, fz))
         return Wrench((fx, fy, fz), (tx - mx, ty - my, tz - mz))
 
-    # -- state
-
-    def set_position(self, position: float, *, axis: int = 0) -> None:
-        """Set the position of an axis [rad or m] at once; its velocity stays, and no motor is switched.
-
-        Raises:
-            UsageError: there is no such axis, or the joint is a ball, whose three `ModelHandle.joint_positions` sets.
-        """
-        expect_finite(position)
-        driven = self._driven(axis)
-        self._simulation.engine.writer.set_axis_positions(range(driven, driven + 1), (position,))
-
-    def set_velocity(self, velocity: float, *, axis: int = 0) -> None:
-        """Set the velocity of an axis [rad/s or m/s] at once; nothing keeps it, and no motor is switched.
-
-        Raises:
-            UsageError: there is no such axis.
-        """
-        expect_finite(velocity)
-        index = self._axis(axis)
-        self._simulation.engine.writer.set_axis_velocities(range(index, index + 1), (velocity,))
-
-    # -- motors: the last command holds until the next one
-
-    def command_position(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Have a motor go to a position [rad or m], within the joint's limits, and stay there.
-
-        It closes in exponentially, a third of a second being its time constant, as far as its effort allows.
+    def set_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
+        """Drive an axis with an effort [N·m or N], within the effort and velocity limits.
 
         Args:
-            position: where to.
-            max_effort: of the motor [N·m or N]; the joint's own effort limit holds as well.
-            axis: which.
-        """
-        driven = self._driven(axis)
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
-        self._simulation.engine.motors.command_position(driven, self._within_limits(position, driven), max_effort)
-
-    def command_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Have a motor keep a velocity [rad/s or m/s] with at most so much effort [N·m or N], as Gazebo's SetVelocity
-        with fmax does."""
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
-        self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort)
-
-    def command_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
-        """Drive with this effort [N·m or N], within the joint's effort and velocity limits.
-
-        Args:
-            effort: replaces whatever drove the axis before.
-            axis: which.
+            effort: replaces the previous command.
+            axis: axis index.
             duration_s: simulation time; None: until the next command.
         """
         self._simulation.engine.motors.command_effort(self._axis(axis), effort)
         self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
 
+    def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
+        """Drive an axis at a velocity [rad/s or m/s] with limited effort, as Gazebo's SetVelocity with fmax."""
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
+
     def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
-        """Move the child's side at this velocity [rad/s or m/s], at once; the parent's side feels its weight alone."""
+        """Drive the child's side at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""
         self._simulation.loads.set_effort_expiry(self, axis, until=None)
         engine = self._simulation.engine
         engine.motors.drive_kinematically(self._driven(axis), velocity)
         engine.reader.invalidate()
+
+    def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
+        """Drive an axis to a position [rad or m] within its limits and hold it, with limited effort."""
+        driven = self._driven(axis)
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
+
+    def set_position(self, position: float, *, axis: int = 0) -> None:
+        """Set the joint's position at once [rad or m], at rest."""
+        self._simulation.engine.set_axis_position(self._driven(axis), position)
+
+    def start(self, velocity: float, *, axis: int = 0) -> None:
+        """Set the joint's velocity once [rad/s or m/s]."""
+        self._simulation.engine.set_axis_velocity(self._axis(axis), velocity)
 
     def _axis(self, axis: int) -> int:
         axes = self.axes
@@ -162,7 +137,7 @@ class JointHandle(Handle):
     def _driven(self, axis: int) -> int:
         index = self._axis(axis)
         if self._simulation.engine.compiled.axis_actuator[index] < 0:
-            raise UsageError(f"joint {self.name!r} cannot be driven so: a ball has no axis; give it an effort")
+            raise UsageError(f"joint {self.name!r} is a ball joint without a single axis; use an effort command")
         return index
 
     def _within_limits(self, position: float, axis: int) -> float:

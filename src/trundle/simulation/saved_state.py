@@ -1,4 +1,4 @@
-"""A simulation's state, kept to go back to it exactly."""
+"""Saved states of a simulation."""
 
 from msgspec import Struct
 
@@ -9,7 +9,7 @@ from .step_clock import StepClock
 
 
 class SavedSimulation(Struct, frozen=True):
-    """A state to go back to."""
+    """State to restore."""
 
     steps: int
     clock: StepClock

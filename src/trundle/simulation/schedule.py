@@ -1,4 +1,4 @@
-"""The hooks of one simulation, and which of them are due."""
+"""Schedule: the hooks of one simulation."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Schedule:
-    """Hooks in the order in which they came."""
+    """Hooks in order of registration."""
 
     def __init__(self, clock: StepClock) -> None:
         self._clock = clock
@@ -21,44 +21,44 @@ class Schedule:
     def add(
         self, hook: BeforeStep | AfterStep, period_ns: Period, *, now_ns: int, enabled: Callable[[], bool] | None
     ) -> None:
-        """Have a hook called from now [ns] on; see `Simulation.add_hook`."""
+        """Register a hook from now [ns] on; see `Simulation.add_hook`."""
         self._hooks.append(ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled))
 
     def retime(self, hook: object, period_ns: Period, *, now_ns: int) -> None:
-        """Call a hook from now [ns] on at another period [ns]; it keeps its turn among the others."""
+        """Change a hook's period [ns] from now [ns] on; it keeps its place in the order."""
         for scheduled in self._hooks:
             if scheduled.hook is hook:
                 scheduled.retime(period_ns, now_ns=now_ns)
 
     def remove(self, hook: object) -> None:
-        """Call a hook no more."""
+        """Remove a hook."""
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
 
     def set_clock(self, clock: StepClock) -> None:
-        """Keep every rhythm at other steps."""
+        """Keep the due times of all hooks on another clock."""
         self._clock = clock
         for hook in self._hooks:
             hook.set_clock(clock)
 
     def restart(self, step: int) -> None:
-        """Count time anew from a step that is a reset's or a restored state's."""
+        """Restart all hooks at a step, after a reset or restore."""
         for hook in self._hooks:
             hook.restart(step)
 
     def enabled(self, step: int) -> list[ScheduledHook]:
-        """Those that want to be called in the stride that begins with this step."""
+        """Return the enabled hooks of the stride that begins with this step."""
         return [hook for hook in self._hooks if hook.update_enabled(step)]
 
 
 def run_before(hooks: list[ScheduledHook], sim: "Simulation") -> None:
-    """Have those that are due at this step act on the world."""
+    """Call `before_step` of the hooks that are due."""
     for hook in hooks:
         if hook.before is not None and hook.before_timer.due(sim.steps):
             hook.before(sim)
 
 
 def run_after(hooks: list[ScheduledHook], step: int, snapshot: Callable[[], Snapshot]) -> None:
-    """Have those that are due at a step see the world; the snapshot is taken if there are any."""
+    """Call `after_step` of the hooks that are due; the snapshot is taken only if there are any."""
     due = [hook for hook in hooks if hook.after is not None and hook.after_timer.due(step)]
     if not due:
         return

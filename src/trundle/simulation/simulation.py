@@ -1,7 +1,7 @@
-"""The running world: time, commands in, snapshots out, hooks when they are due.
+"""Simulation: time, commands, hooks and snapshots.
 
-One thread owns it; every other thread posts a command. A stride is: drain commands, call the `before_step` hooks that
-are due, let the engine step in C up to the next due time, call the `after_step` hooks that are due then.
+One thread owns it; every other thread posts a command. A stride is: run the commands, call the due `before_step` hooks,
+step the engine in C up to the next due time, call the due `after_step` hooks.
 """
 
 from collections import deque
@@ -41,39 +41,39 @@ if TYPE_CHECKING:
     from trundle.model import AnimationState
 
 _MAX_STRIDE = 1000
-"""Steps in one stride: what blows up is undone to its beginning."""
+"""Most steps of one stride; an unstable stride is rolled back to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
 
 
 class Simulation:
-    """One world in motion."""
+    """World in motion."""
 
     def __init__(self, world: World, report: Diagnostics, *, seed: int = 0) -> None:
-        """Compile a world; time is zero and nothing has moved.
+        """Compile a world at time zero.
 
         Args:
-            world: what there is.
-            report: takes what physics has to mend.
-            seed: of everything random.
+            world: as read.
+            report: takes the warnings of the compile.
+            seed: of all random numbers.
         """
         self.report = report
         self.seed = seed
         self.engine = Engine(compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
-        """Without nested models: their links and joints are the outer model's, called `inner::name`."""
+        """World without nested models; their links and joints are the outer model's, named `inner::name`."""
         self.loads = AppliedLoads(self.engine)
-        """What handles have pushed."""
+        """Loads applied through handles."""
         self._clock = StepClock(world_step_ns(world))
         self.steps = 0
         self._before_resets = (0, 0)
-        """Time [ns] and steps that resets and restored states have taken back."""
+        """Time [ns] and steps before the last reset or restore."""
         self.models = handles_of(self, self.world, {})
         self.joints = world_joints_of(self, self.world, {})
-        """Between models, in file order."""
+        """Joints between models, in file order."""
         self.lines: dict[str, DebugLine] = {}
-        """What plugins draw, by `model::name`."""
+        """Lines drawn by plugins, by `model::name`."""
         self.lines_are_shown = False
-        """Whether a viewer shows them; a plugin whose lines cost much draws none until then."""
+        """True if a viewer shows the lines; plugins with expensive lines draw none before."""
         self._commands: deque[Command] = deque()
         self._schedule = Schedule(self._clock)
         self._on_change: list[Callable[[], None]] = []
@@ -82,7 +82,7 @@ class Simulation:
             for actor in world.actors
             if any(model.name == actor.name for model in self.models)
         }
-        """What moves them; each is a model as well."""
+        """Players of actors, each of which is a model as well."""
         for walk in self.actors.values():
             wanted = partial(walk.enabled, self.models)
             self.add_hook(walk, period_ns=walk.period_ns, enabled=wanted)
@@ -95,24 +95,24 @@ class Simulation:
 
     @property
     def simulated_ns(self) -> int:
-        """How much has been simulated [ns], whatever resets have taken back."""
+        """Total simulated time [ns], regardless of resets."""
         return self._before_resets[0] + self.time_ns
 
     @property
     def simulated_steps(self) -> int:
-        """In how many steps."""
+        """Total number of steps, regardless of resets."""
         return self._before_resets[1] + self.steps
 
     @property
     def step_ns(self) -> int:
-        """How long the next step is [ns]; `edit` may change it."""
+        """Length of the next step [ns]; `edit` may change it."""
         return self._clock.step_ns
 
     def __getitem__(self, name: str) -> ModelHandle:
-        """The model of that name.
+        """Return a model by name.
 
         Raises:
-            UsageError: with the names there are.
+            UsageError: no such model; the message lists the models there are.
         """
         for model in self.models:
             if model.name == name:
@@ -120,7 +120,7 @@ class Simulation:
         raise UsageError(f"no model {name!r}; there are: {', '.join(repr(m.name) for m in self.models) or 'none'}")
 
     def animation_state(self, actor: str) -> "AnimationState":
-        """What the bones of an actor are at now; one that is gone stands."""
+        """Return an actor's animation state; default for a deleted actor."""
         from trundle.model import AnimationState  # a world without actors starts without theirs
 
         walk = self.actors.get(actor)
@@ -129,20 +129,20 @@ class Simulation:
     # -- time
 
     def run(self, duration_s: float) -> None:
-        """Simulate so many seconds, flat out."""
-        self.advance(self.time_ns + round(duration_s * NS_PER_S))
+        """Simulate for a duration [s], as fast as possible."""
+        self.advance(self.time_ns + round(duration_s * NS))
 
     def step(self, count: int = 1) -> None:
-        """Simulate so many time steps."""
+        """Simulate a number of time steps."""
         self.advance(self.time_ns + count * self.step_ns)
 
     def advance(self, until_ns: int) -> None:
-        """Simulate up to a time [ns]; it ends at the first step that reaches it.
+        """Simulate up to the first step at or after a time [ns].
 
-        Where a command or a hook takes time back, what was left to simulate is left.
+        If a command or hook resets the time, the remaining duration stays the same.
 
         Raises:
-            SimulationUnstableError: the physics blew up; the world stands where it last was sound.
+            SimulationUnstableError: the physics became unstable; the world has its last good state.
         """
         left_ns = until_ns - self.time_ns
         while left_ns > 0:
@@ -150,7 +150,7 @@ class Simulation:
         self._drain()
 
     def stride(self, until_ns: int) -> None:
-        """Simulate up to the next instant at which a hook is called, or to a time [ns] if that comes first.
+        """Simulate up to the next due hook, or to a time [ns] if that comes first.
 
         Raises:
             SimulationUnstableError: as `advance`.
@@ -159,7 +159,7 @@ class Simulation:
         self._drain()
 
     def _stride(self, most_ns: int) -> int:
-        """Simulate so much or less [ns]; return how much it was."""
+        """Simulate at most a duration [ns]; return the simulated part."""
         self._drain()
         hooks = self._schedule.enabled(self.steps)
         run_before(hooks, self)
@@ -175,27 +175,27 @@ class Simulation:
     def add_hook(
         self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, enabled: Callable[[], bool] | None = None
     ) -> None:
-        """Have a hook called as time passes.
+        """Register a periodic hook.
 
         Args:
             hook: an object with before_step(simulation), after_step(snapshot) or both.
-            period_ns: how often [ns]; 0: at every step, which costs Python at every step.
-            enabled: asked before each stride; while it says no, the hook costs no stride.
+            period_ns: period [ns]; 0: every step, which costs Python at every step.
+            enabled: checked before each stride; while False, the hook costs no stride.
         """
         self._schedule.add(hook, period_ns, now_ns=self.time_ns, enabled=enabled)
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:
-        """Call a hook from now on at another period [ns]; it keeps its turn among the others."""
+        """Change a hook's period [ns] from now on; it keeps its place in the order."""
         self._schedule.retime(hook, period_ns, now_ns=self.time_ns)
 
     def remove_hook(self, hook: object) -> None:
-        """Call a hook no more."""
+        """Remove a hook."""
         self._schedule.remove(hook)
 
     # -- state
 
     def snapshot(self) -> Snapshot:
-        """Where everything is now."""
+        """Return a snapshot of the current state."""
         compiled = self.engine.compiled
         return Snapshot(
             time_ns=self.time_ns,
@@ -205,15 +205,15 @@ class Simulation:
         )
 
     def contacts(self, among: frozenset[str] | None = None) -> list[Contact]:
-        """What touched what in the last step; among: only what touched collisions of these names."""
+        """Return the contacts of the last step; among: only those of the named collisions."""
         return self.engine.contacts(among)
 
     def save(self) -> SavedSimulation:
-        """Keep the state, to go back to it exactly."""
+        """Save the complete state."""
         return SavedSimulation(self.steps, self._clock, self.engine.save(), self.loads.expiries.copy())
 
     def restore(self, saved: SavedSimulation) -> None:
-        """Go back to a saved state; hooks are due as if time had just got there."""
+        """Restore a saved state; hooks restart at its time."""
         simulated_ns, simulated_steps = self.simulated_ns, self.simulated_steps
         self.steps = saved.steps
         self.engine.restore(saved.engine)
@@ -223,11 +223,11 @@ class Simulation:
         self._schedule.restart(self.steps)
 
     def reset(self, *, time: bool = True, poses: bool = True) -> None:
-        """Go back to the start.
+        """Return to the initial state.
 
         Args:
-            time: to zero; else it goes on.
-            poses: as loaded, at rest, motors off, nothing applied; else everything stays as it is.
+            time: reset the time to zero.
+            poses: reset poses as loaded, at rest, with motors off and no loads.
         """
         steps = self.steps
         if poses:
@@ -245,21 +245,21 @@ class Simulation:
                 call()
 
     def on_reset(self, call: Callable[[], None]) -> None:
-        """Have a function called after each reset of poses."""
+        """Call a function after each reset of poses."""
         self._on_reset.append(call)
 
-    # -- models that come and go
+    # -- spawning and deleting
 
     def spawn(self, model: Model, *, allow_renaming: bool = False) -> ModelHandle:
-        """Add a model; everything else stays as it is, to the bit.
+        """Add a model; everything else keeps its exact state.
 
         Args:
-            model: put where its pose says.
-            allow_renaming: where there is one of that name, add _0 to it, else _1, …, as Gazebo does.
+            model: placed at its pose.
+            allow_renaming: append _0, _1, … to a name that is taken, as Gazebo does.
 
         Raises:
-            UsageError: there is one of that name.
-            DescriptionError: the engine cannot simulate it; nothing has changed.
+            UsageError: the name is taken.
+            DescriptionError: MuJoCo cannot simulate it; nothing has changed.
         """
         if allow_renaming:
             model = replace(model, name=unique_name(self.world, model.name))
@@ -268,10 +268,10 @@ class Simulation:
         return self.models[-1]
 
     def delete(self, name: str) -> None:
-        """Take a model out, and what joined it with others; everything else stays as it is, to the bit.
+        """Delete a model and its joints with others; everything else keeps its exact state.
 
         Raises:
-            UsageError: with the names there are.
+            UsageError: no such model; the message lists the models there are.
         """
         gone = self[name]
         self._replace_world(without_model(self.world, name))
@@ -279,10 +279,10 @@ class Simulation:
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
     def rename(self, name: str, new: str) -> None:
-        """Give a model another name; everything stays as it is, to the bit, and its handle remains good.
+        """Rename a model; everything keeps its exact state, and handles stay valid.
 
         Raises:
-            UsageError: there is none of that name, or one of the new one.
+            UsageError: there is no such model, or the new name is taken.
         """
         handle = self[name]
         if new == name:
@@ -292,49 +292,49 @@ class Simulation:
         self.lines = {key.replace(f"{name}::", f"{new}::", 1): line for key, line in self.lines.items()}
 
     def attach(self, joint: Joint) -> JointHandle:
-        """Join two links, or one and the world, where they are now; everything keeps its place.
+        """Attach a link to another or to the world in the current configuration; all poses stay.
 
         Args:
-            joint: links by `model::link` or "world", the frame in the child's, axes in the world as they lie now.
+            joint: links by `model::link` or "world", the joint frame in the child's, axes in the world as posed now.
 
         Raises:
-            UsageError: there is no such link, or such a joint already.
-            DescriptionError: the engine cannot simulate it; nothing has changed.
+            UsageError: a link does not exist, or the joint's name is taken.
+            DescriptionError: MuJoCo cannot simulate it; nothing has changed.
         """
         self._replace_world(with_joint(self.world, self.models, joint))
         return self.joints[-1]
 
     def detach(self, name: str) -> None:
-        """Take a joint between models away; everything keeps its place and speed, what hung from it is free.
+        """Remove a joint between models; poses and velocities stay, and the child is free.
 
         Raises:
-            UsageError: with the names there are.
+            UsageError: no such joint; the message lists the joints there are.
         """
         self._replace_world(without_joint(self.world, name))
 
     def edit(self, world: World) -> None:
-        """Go on with another time step, gravity, masses, surfaces or limits; all keep their state, to the bit.
+        """Change time step, gravity, masses, surfaces or limits; everything keeps its exact state.
 
         Args:
-            world: this simulation's, with whatever is to be different; the same models, links and joints.
+            world: this simulation's, edited; with the same models, links and joints.
 
         Raises:
-            UsageError: what there is, is different.
-            DescriptionError: the engine cannot simulate it; nothing has changed.
+            UsageError: the world has other models, links or joints.
+            DescriptionError: MuJoCo cannot simulate it; nothing has changed.
         """
         check_same_structure(self.world, world)
         self._replace_world(world)
 
     def on_change(self, call: Callable[[], None]) -> None:
-        """Have a function called after models came, went or were edited: indices may be others."""
+        """Call a function after models were spawned, deleted or edited, which may change indices."""
         self._on_change.append(call)
 
     def _replace_world(self, world: World, *, was: Mapping[str, ModelHandle] | None = None) -> None:
-        """Compile a changed world and carry everything over.
+        """Compile a changed world and transfer the state.
 
         Args:
             world: the changed one.
-            was: models that had another name, by the new one.
+            was: renamed models, new name → handle.
         """
         was = was or {}
         self.engine, links = transferred_engine(
@@ -357,7 +357,7 @@ class Simulation:
     # -- commands
 
     def post(self, command: Command) -> None:
-        """Have a function called with the simulation before its next step; from any thread."""
+        """Queue a function that is called with the simulation before its next step; thread-safe."""
         self._commands.append(command)
 
     def _drain(self) -> None:
@@ -365,5 +365,5 @@ class Simulation:
             self._commands.popleft()(self)
 
     def expiry_step(self, duration_s: float | None) -> int | None:
-        """The step at which what begins now and lasts so long is over; None: it lasts."""
-        return None if duration_s is None else self.steps + max(1, round(duration_s * NS_PER_S / self.step_ns))
+        """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
+        return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))

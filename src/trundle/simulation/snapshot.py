@@ -1,4 +1,4 @@
-"""Where everything is at one instant."""
+"""Snapshots of a world's state."""
 
 from collections.abc import Sequence
 
@@ -11,21 +11,21 @@ _Array = NDArray[np.float64]
 
 
 class Snapshot:
-    """The state of a world at one instant, for any thread; links and joints are in file order, over all models.
+    """Immutable state of a world at one instant, for any thread; links and joints in file order, over all models.
 
-    Positions, velocities and efforts of a joint are those of its first axis; `axes_of` has all of them.
+    Position, velocity and effort of a joint are those of its first axis; `axes_of` returns all.
     """
 
     def __init__(
         self, *, time_ns: int, instant: EngineSnapshot, first_axes: NDArray[np.intp], joint_axes: Sequence[range] = ()
     ) -> None:
-        """Name what an engine held.
+        """Wrap an engine snapshot.
 
         Args:
             time_ns: simulation time.
-            instant: the engine's numbers.
-            first_axes: of each joint, −1 where it has none.
-            joint_axes: of each joint, all.
+            instant: the engine's state.
+            first_axes: first axis of each joint, −1 if it has none.
+            joint_axes: all axes of each joint.
         """
         self.time_ns = time_ns
         self.engine = instant
@@ -34,31 +34,31 @@ class Snapshot:
 
     @property
     def poses(self) -> _Array:
-        """(links, 7) link frames in the world: x y z [m], qw qx qy qz."""
+        """(links, 7) poses of the link frames in the world: x y z [m], qw qx qy qz."""
         return self.engine.poses
 
     @property
     def twists(self) -> _Array:
-        """(links, 6) velocity of the link frame's origin [m/s], angular velocity [rad/s]; world axes."""
+        """(links, 6) velocity of the link frame's origin [m/s] and angular velocity [rad/s], world axes."""
         return self.engine.twists
 
     @property
     def joint_positions(self) -> _Array:
-        """(joints,) [rad or m]; 0 for joints without freedom."""
+        """(joints,) positions [rad or m]; 0 for rigid joints."""
         return self._of_joints(self.engine.axis_positions)
 
     @property
     def joint_velocities(self) -> _Array:
-        """(joints,) [rad/s or m/s]"""
+        """(joints,) velocities [rad/s or m/s]."""
         return self._of_joints(self.engine.axis_velocities)
 
     @property
     def joint_efforts(self) -> _Array:
-        """(joints,) what drives them [N·m or N]"""
+        """(joints,) efforts [N·m or N]."""
         return self._of_joints(self.engine.axis_efforts)
 
     def axes_of(self, joint: int) -> tuple[list[float], list[float], list[float]]:
-        """Position, velocity and effort of each axis of a joint."""
+        """Return position, velocity and effort of each axis of a joint."""
         axes = slice(self._joint_axes[joint].start, self._joint_axes[joint].stop)
         held = self.engine
         return (

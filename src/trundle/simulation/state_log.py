@@ -1,7 +1,7 @@
-"""State logs: where everything was, over time, in a file that can be cut anywhere and still be read.
+"""State logs: link poses and joint positions over time, in a file that stays readable when truncated.
 
-The file is one line of JSON (the names, the world as SDF), then rows of little-endian float64, all of one length: the
-time [s], x y z qw qx qy qz of every link in the world, the position of every joint's first axis. From Python:
+The file is one line of JSON (the names, the world as SDF), then rows of little-endian float64 of equal length: time
+[s], x y z qw qx qy qz of every link in the world, position of every joint's first axis. From Python:
 
     log = read_state_log("run.log")
     log.poses[-1, log.links.index("rp2w::chassis")]
@@ -30,18 +30,18 @@ _Array = NDArray[np.float64]
 
 
 class StateRecorder:
-    """A hook that writes a row when it is due."""
+    """Hook that writes a row when it is due."""
 
     period_ns = 20_000_000
 
     def __init__(self, path: Path, *, links: tuple[str, ...], joints: tuple[str, ...], sdf: str) -> None:
-        """Begin a file; one that is there is written anew.
+        """Create the file; an existing one is overwritten.
 
         Args:
             path: of the file.
             links: `model::link`, in the order of `Snapshot.poses`.
             joints: `model::joint`, in the order of `Snapshot.joint_positions`.
-            sdf: the world, for whoever plays the log.
+            sdf: the world, for playback.
 
         Raises:
             OSError: it cannot be written.
@@ -52,32 +52,32 @@ class StateRecorder:
         self._write(json.dumps(header).encode() + b"\n")
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Write where everything is.
+        """Write a row.
 
         Raises:
-            OSError: it cannot be written; the file has ended.
+            OSError: it cannot be written; the file is closed.
         """
         time = np.array([snapshot.time_ns / 1e9])
         row = np.concatenate([time, snapshot.poses.reshape(-1), snapshot.joint_positions])
         self._write(row.astype(_ROW).tobytes())
 
     def close(self) -> None:
-        """End the file."""
+        """Close the file."""
         self._file.close()
 
     def _write(self, data: bytes) -> None:
         try:
             self._file.write(data)
             self._file.flush()
-            self._path.stat()  # a file that was removed takes everything, and keeps nothing
+            self._path.stat()  # a deleted file accepts data without keeping it
         except OSError as error:
-            with contextlib.suppress(OSError):  # what did not fit before does not now
+            with contextlib.suppress(OSError):  # the flush fails as the write did
                 self._file.close()
             raise OSError(error.errno, error.strerror, str(self._path)) from None
 
 
 class StateLog(Struct, frozen=True, eq=False, kw_only=True):
-    """A recording."""
+    """Contents of a state log."""
 
     links: tuple[str, ...]
     joints: tuple[str, ...]
@@ -91,10 +91,10 @@ class StateLog(Struct, frozen=True, eq=False, kw_only=True):
 
 
 def read_state_log(file: Path | str) -> StateLog:
-    """Read a recording; a last row that was cut short is left out.
+    """Read a state log, without an incomplete last row.
 
     Raises:
-        DescriptionError: it is none.
+        DescriptionError: the file is not a state log.
         OSError: it cannot be read.
     """
     path = Path(file)
@@ -108,7 +108,7 @@ def read_state_log(file: Path | str) -> StateLog:
     except (ValueError, TypeError, KeyError, RecursionError):
         known, links, joints, sdf = False, (), (), ""
     if not known:
-        raise DescriptionError(Source(str(path), 1), f"no state log: it does not begin with {FORMAT!r}")
+        raise DescriptionError(Source(str(path), 1), f"not a state log: the file does not begin with {FORMAT!r}")
     width = 1 + 7 * len(links) + len(joints)
     count = (path.stat().st_size - start) // (width * _ROW.itemsize)
     rows = np.fromfile(path, dtype=_ROW, offset=start, count=count * width).reshape(count, width).astype(np.float64)

@@ -1,4 +1,4 @@
-"""Worlds that change while they run: what may come and go, and how the engine goes on with what there is then."""
+"""Edits of running worlds: spawn, delete, rename, and the transfer to a new engine."""
 
 from collections.abc import Iterable, Mapping
 from itertools import count
@@ -12,27 +12,27 @@ from trundle.spatial import Pose, Twist, pose_from_row
 
 
 def unique_name(world: World, name: str) -> str:
-    """The name, or where there is a model of that name with _0 added, else _1, …, as Gazebo does."""
+    """Return the name, with _0, _1, … appended if it is taken, as Gazebo does."""
     taken = {model.name for model in world.models}
     numbered = (f"{name}_{number}" for number in count())
     return name if name not in taken else next(each for each in numbered if each not in taken)
 
 
 def check_name_is_free(world: World, name: str) -> None:
-    """Make sure that a model can be called so.
+    """Check that a model name is free.
 
     Raises:
-        UsageError: one is, or it is no name.
+        UsageError: the name is taken or empty.
     """
     if not name or any(there.name == name for there in world.models):
         raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
 
 
 def check_same_structure(world: World, edited: World) -> None:
-    """Make sure that a world can go on as an edited one.
+    """Check that an edited world has the same models, links and joints.
 
     Raises:
-        UsageError: what there is, is different.
+        UsageError: it has others.
     """
     if _structure(edited) != _structure(world):
         raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
@@ -43,7 +43,7 @@ def _structure(world: World) -> list[tuple[str, list[str], list[str]]]:
 
 
 def without_model(world: World, name: str) -> World:
-    """The world without a model, and without the joints that joined it with others."""
+    """Return the world without a model and its joints with others."""
 
     def joins(joint: Joint) -> bool:
         return any(link.startswith(f"{name}::") for link in (joint.parent, joint.child))
@@ -56,10 +56,10 @@ def without_model(world: World, name: str) -> World:
 
 
 def without_joint(world: World, name: str) -> World:
-    """The world without a joint between models.
+    """Return the world without a joint between models.
 
     Raises:
-        UsageError: with the names there are.
+        UsageError: no such joint; the message lists the joints there are.
     """
     names = [joint.name for joint in world.joints]
     if name not in names:
@@ -69,7 +69,7 @@ def without_joint(world: World, name: str) -> World:
 
 
 def with_model_renamed(world: World, name: str, new: str) -> World:
-    """The world with a model of another name, and the joints between models that know it."""
+    """Return the world with a model renamed, also in the joints between models."""
 
     def linked(joint: Joint) -> Joint:
         parent, child = current_names((joint.parent, joint.child), {name: new})
@@ -83,7 +83,7 @@ def with_model_renamed(world: World, name: str, new: str) -> World:
 
 
 def with_model_at(world: World, name: str, world_from_model: Pose) -> World:
-    """The world with a model elsewhere."""
+    """Return the world with a model at another pose."""
     return replace(
         world,
         models=tuple(
@@ -93,7 +93,7 @@ def with_model_at(world: World, name: str, world_from_model: Pose) -> World:
 
 
 def current_names(names: Iterable[str], models: Mapping[str, str]) -> list[str]:
-    """`model::name` of each, with models called as they are now."""
+    """Return each `model::name` with the current name of the model."""
     parts = [name.partition("::") for name in names]
     return [f"{models.get(model, model)}{colons}{rest}" for model, colons, rest in parts]
 
@@ -101,16 +101,16 @@ def current_names(names: Iterable[str], models: Mapping[str, str]) -> list[str]:
 def transferred_engine(
     old: Engine, world: World, report: Diagnostics, models: Mapping[str, str]
 ) -> tuple[Engine, dict[int, int]]:
-    """An engine of a changed world in the state of the old one, and where each link went that is still there.
+    """Return an engine of a changed world in the old one's state, and the new index of each link that still exists.
 
     Args:
-        old: as it was.
+        old: previous engine.
         world: the changed one.
-        report: takes what physics has to mend.
-        models: those that have another name now, by the one they had.
+        report: takes the warnings of the compile.
+        models: renamed models, old name → new name.
 
     Raises:
-        DescriptionError: the engine cannot simulate it.
+        DescriptionError: MuJoCo cannot simulate it.
     """
     engine = Engine(compile_world(world, report))
     engine.transfer_from(old, renamed=models)
@@ -122,12 +122,12 @@ def transferred_engine(
 
 
 def _keep_free_links(old: Engine, engine: Engine, links: Mapping[int, int]) -> None:
-    """Have links that hung from something and are free now stay where they are, as fast as they were.
+    """Keep pose and twist of links that have become free.
 
     Args:
-        old: as it was.
-        engine: as it is.
-        links: where each link went.
+        old: previous engine.
+        engine: new engine.
+        links: old → new index.
     """
     poses, twists = old.reader.link_poses(), old.reader.link_twists()
     for before, link in links.items():
