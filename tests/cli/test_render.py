@@ -312,7 +312,7 @@ def test_an_empty_picture_is_explained_in_the_last_line(tmp_path: Path, capfd) -
     said = capfd.readouterr().err.splitlines()
     assert "no package 'ghost_description'" in said[0]
     assert said[-1] == (
-        f"{file}: nothing can be seen: none of its meshes was found (package://ghost_description/body.dae)"
+        f"{file}: nothing is visible: none of its meshes was found (package://ghost_description/body.dae)"
     )
 
 

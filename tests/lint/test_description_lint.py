@@ -18,7 +18,7 @@ def findings(folder: Path, link: str, more: str = "") -> str:
 @pytest.mark.parametrize(
     ("moment", "sentence"),
     [
-        ("1", "belongs to no body of 2 kg within 0.173 m, whose largest is 0.06; it will turn far too slowly"),
+        ("1", "is too large for 2 kg within 0.173 m (at most 0.06); it will turn far too slowly"),
         ("1e-7", "are tiny for 2 kg within 0.173 m"),
         ("0.0133", ""),
     ],
@@ -40,7 +40,7 @@ def test_joints_that_nothing_drives_and_names_that_ros_cannot_have_are_named(tmp
     assert "no plugin or transmission here names 'idle'" in findings(tmp_path, "", joint.format("idle") + plugin)
     text = findings(tmp_path, "", joint.format("driven") + plugin)
     assert "no plugin or transmission" not in text
-    assert "'2nd wheel' is no name ROS can have; on the graph and in tf it is 'n_2nd_wheel'" in text
+    assert "'2nd wheel' is not a legal ROS name; on the graph and in tf it is 'n_2nd_wheel'" in text
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_bodies_that_stand_in_one_another_and_cannot_move_are_named(tmp_path, sh
 
     text = check(str(file), {}, start=tmp_path).text()
 
-    assert ("model 'b' stands in model 'a', and neither can move" in text) == overlaps
+    assert ("model 'b' overlaps model 'a', and both are static" in text) == overlaps
 
 
 def test_a_robot_whose_every_mesh_is_missing_cannot_be_seen_and_the_last_line_says_so(tmp_path: Path) -> None:
@@ -74,5 +74,5 @@ def test_a_robot_whose_every_mesh_is_missing_cannot_be_seen_and_the_last_line_sa
 
     empty = findings(tmp_path, lost.format("v", "v") + lost.format("w", "w")).splitlines()[-1]
 
-    assert "nothing can be seen: none of its meshes was found (lost/v.dae and 1 more)" in empty
+    assert "nothing is visible: none of its meshes was found (lost/v.dae and 1 more)" in empty
     assert "can be seen" not in findings(tmp_path, lost.format("v", "v") + box)

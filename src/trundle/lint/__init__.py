@@ -1,1 +1,1 @@
-"""Findings about a description, without an engine: what it says and hardly ever means."""
+"""Lint of descriptions, without an engine: legal input that is most likely a mistake."""

@@ -1,4 +1,4 @@
-"""Names what a description may say and hardly ever means; it changes nothing."""
+"""Lint of inertias, overlaps, undriven joints and ROS names; changes nothing."""
 
 import math
 import re
@@ -25,15 +25,19 @@ from trundle.spatial import Pose
 from .overlaps import report_overlaps
 
 _SLUGGISH = 2.0
-"""Times the largest moment that the mass could have within the link's shapes."""
+"""Factor on the largest moment of inertia that the mass could have within the link's shapes; beyond, the link is
+sluggish.
+"""
 _TWITCHY = 1e-4
-"""Likewise, the other way."""
+"""The same factor for a suspiciously small moment."""
 _PASSIVE = frozenset({JointType.FIXED, JointType.BALL})
 _TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
 
 
 def lint_description(loaded: LoadedDescription, report: Diagnostics) -> None:
-    """Report on every model: inertias of no body, bodies in one another, idle joints, names that ROS cannot have."""
+    """Report inertias that do not fit their link, overlapping bodies, undriven joints, and names that ROS does not
+    allow.
+    """
     driven = " ".join(_TRANSMISSION.findall(loaded.urdf or ""))
     models = flattened(loaded.world).models
     report_overlaps(models, report)
@@ -56,8 +60,8 @@ def _lint_inertia(link: Link, report: Diagnostics) -> None:
     if largest > _SLUGGISH * most:
         report.warn(
             link.at,
-            f"link {link.name!r}: a moment of inertia of {largest:g} kg·m² belongs to no body of {inertial.mass:g} kg "
-            f"within {reach:.3g} m, whose largest is {most:.3g}; it will turn far too slowly",
+            f"link {link.name!r}: a moment of inertia of {largest:g} kg·m² is too large for {inertial.mass:g} kg "
+            f"within {reach:.3g} m (at most {most:.3g}); it will turn far too slowly",
         )
     elif 0.0 < largest < _TWITCHY * most:
         report.warn(
@@ -68,7 +72,7 @@ def _lint_inertia(link: Link, report: Diagnostics) -> None:
 
 
 def _reach(link: Link) -> float | None:
-    """How far from the centre of mass the link's shapes go at most [m]; None where that is not known."""
+    """Return the largest distance of the link's shapes from the centre of mass [m]; None if unknown."""
     shapes = [(shape.geometry, shape.link_from_collision) for shape in link.collisions]
     shapes = shapes or [(shape.geometry, shape.link_from_visual) for shape in link.visuals]
     reaches = [_shape_reach(geometry, pose, link.inertial) for geometry, pose in shapes]
@@ -110,7 +114,7 @@ def _lint_joints(model: Model, driven: str, report: Diagnostics) -> None:
 def _lint_names(model: Model, report: Diagnostics) -> None:
     for name, at in _names(model):
         if not is_legal_base_name(name.replace("::", "_")):
-            report.info(at, f"{name!r} is no name ROS can have; on the graph and in tf it is {ros_name(name)!r}")
+            report.info(at, f"{name!r} is not a legal ROS name; on the graph and in tf it is {ros_name(name)!r}")
 
 
 def _names(model: Model) -> Iterator[tuple[str, Source]]:

@@ -1,13 +1,13 @@
-"""Tells when a description shows nothing at all, and why: the user would look at an empty picture."""
+"""Check for descriptions that show nothing, because all meshes are missing."""
 
 from trundle.model import MeshFile, World, flattened
 
 
 def empty_reason(world: World) -> str:
-    """One sentence where visuals are written and none can be drawn, as their meshes are missing; else nothing.
+    """Return a sentence if visuals exist and none can be drawn, because their meshes are missing; else an empty text.
 
     Args:
-        world: what was added to it does not count.
+        world: added models are ignored.
     """
     models = [model for model in flattened(world).models if not model.added]
     shapes = [visual.geometry for model in models for link in model.links for visual in link.visuals]
@@ -16,4 +16,4 @@ def empty_reason(world: World) -> str:
         return ""
     names = list(dict.fromkeys(shape.uri for shape in missing))
     more = f" and {len(names) - 1} more" if names[1:] else ""
-    return f"nothing can be seen: none of its meshes was found ({names[0]}{more})"
+    return f"nothing is visible: none of its meshes was found ({names[0]}{more})"

@@ -1,4 +1,4 @@
-"""Names bodies that stand in one another though neither can move: one of them is likely in the wrong place."""
+"""Overlaps of static models, one of which is likely misplaced."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -8,11 +8,11 @@ from trundle.model import Box, Capsule, Collision, Cylinder, Ellipsoid, Model, S
 from trundle.spatial import Pose, Vector3
 
 _MAX_BODIES = 1000
-"""That are held against one another; of a larger world the first are."""
+"""Most static models compared; of a larger world the first are."""
 
 
 def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:
-    """Report every two static models of which one has the middle of a shape within a shape of the other.
+    """Report every pair of static models where the centre of a shape of one lies within a shape of the other.
 
     Args:
         models: without nested ones.
@@ -21,12 +21,12 @@ def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:
     still = [(model, list(_solids(model))) for model in models if model.static][:_MAX_BODIES]
     for (first, solids), (second, others) in combinations(still, 2):
         if any(_contains_center(one, other) or _contains_center(other, one) for one in solids for other in others):
-            what = f"model {second.name!r} stands in model {first.name!r}, and neither can move; is one misplaced?"
+            what = f"model {second.name!r} overlaps model {first.name!r}, and both are static; is one misplaced?"
             report.info(second.at, what)
 
 
 def _solids(model: Model) -> Iterator[tuple[Pose, Vector3]]:
-    """Where each simple shape is in the world, and half the lengths of a box that is wholly within it."""
+    """Yield the world pose of each primitive shape, and half the size of a box inscribed in it."""
     for link in model.links:
         world_from_link = model.world_from_model @ link.model_from_link
         for collision in link.collisions:
@@ -40,7 +40,7 @@ def _half_lengths(collision: Collision) -> Vector3 | None:
         case Box((x, y, z)):
             return x / 2, y / 2, z / 2
         case Sphere(radius):
-            return radius * 0.57, radius * 0.57, radius * 0.57  # 1 / √3, the cube within a ball
+            return radius * 0.57, radius * 0.57, radius * 0.57  # 1 / √3, the cube inscribed in a sphere
         case Ellipsoid((x, y, z)):
             return x * 0.57, y * 0.57, z * 0.57
         case Cylinder(radius, length) | Capsule(radius, length):

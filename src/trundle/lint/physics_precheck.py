@@ -1,7 +1,7 @@
-"""Tells, without the engine, whether the engine would take a world as it is.
+"""Check without the engine that physics accepts a world as written.
 
-Physics mends what it cannot use and says so; that takes loading and compiling. Most robots are boxes, cylinders and
-balls on a tree of hinges, of which it says nothing.
+Physics replaces values it cannot use, with a warning, but that needs loading and compiling. Most robots are boxes,
+cylinders and spheres on a tree of hinges, about which it reports nothing.
 """
 
 import math
@@ -28,14 +28,14 @@ from trundle.spatial import ZERO
 
 _TYPES = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.FIXED})
 _SMALLEST = 1e-3
-"""[m] and [kg] Ten and more times what physics raises."""
+"""Smallest length [m] and mass [kg], at least ten times the values that physics raises."""
 _SMALLEST_MOMENT = 1e-8
-"""[kg·m²] Ten times what physics raises."""
+"""Smallest moment of inertia [kg·m²], ten times the value that physics raises."""
 _LARGEST = 1e6
 
 
 def physics_accepts(world: World) -> bool:
-    """Whether physics has nothing to say of a world; False where it is not certain.
+    """True if physics has nothing to report about a world; False if uncertain.
 
     Args:
         world: without nested models.
@@ -63,7 +63,7 @@ def _are_different(named: Iterable[Model] | Iterable[Link] | Iterable[Joint]) ->
 
 
 def _is_tree(model: Model) -> bool:
-    """Every joint joins two links, every link hangs from one at most, and none from itself."""
+    """True if every joint connects two links, and the links form trees."""
     links = {link.name for link in model.links}
     parents = {joint.child: joint.parent for joint in model.joints}
     if len(parents) != len(model.joints) or not links.issuperset(parents) or not links.issuperset(parents.values()):
@@ -91,7 +91,7 @@ def _is_plain_inertial(inertial: Inertial) -> bool:
 
 
 def _eigenvalues(inertial: Inertial) -> tuple[float, float, float]:
-    """Of the inertia; a symmetric matrix has three real ones, which are cosines a third of a turn apart."""
+    """Return the eigenvalues of the inertia tensor, by the trigonometric solution for symmetric 3 × 3 matrices."""
     scale = max(map(abs, (*inertial.moments, *inertial.products)))
     if scale == 0.0:
         return 0.0, 0.0, 0.0
@@ -113,7 +113,7 @@ def _is_plain_joint(joint: Joint) -> bool:
     axis = joint.axis
     if joint.type not in _TYPES or axis is None or joint.axis2 is not None:
         return False
-    has_hard_stops = axis.stop_stiffness >= 1e8  # physics names a softer one
+    has_hard_stops = axis.stop_stiffness >= 1e8  # physics reports a softer one
     return (
         axis.lower < axis.upper
         and axis.effort > 0.0
