@@ -86,11 +86,11 @@ def test_a_bad_number_falls_back_aloud(tmp_path: Path) -> None:
     model = sdf(tmp_path, "1.6", '<link name="a"><inertial><mass>heavy</mass></inertial></link>', report)
 
     assert model.link("a").inertial.mass == 1.0
-    assert any("<mass> wants one number, got 'heavy'; 1 is used" in w for w in report.warnings)
+    assert any("<mass> needs one number, got 'heavy'; 1 is used" in w for w in report.warnings)
 
 
 def test_strict_makes_a_warning_an_error(tmp_path: Path) -> None:
-    with pytest.raises(DescriptionError, match="<mass> wants one number"):
+    with pytest.raises(DescriptionError, match="<mass> needs one number"):
         sdf(tmp_path, "1.6", '<link name="a"><inertial><mass>x</mass></inertial></link>', Diagnostics(strict=True))
 
 

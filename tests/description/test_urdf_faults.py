@@ -65,7 +65,7 @@ def test_a_link_is_read_up_to_its_fault_as_by_urdfdom(tmp_path: Path) -> None:
         "link 'base': <inertial> without a whole <inertia>; as by urdfdom, its mass of 2 kg is kept "
         "and its inertia is zero",
         "link 'base': as by urdfdom, <visual> after a fault is not read",
-        "<cone> is no URDF shape; this <visual> is left out",
+        "<cone> is not a URDF shape; this <visual> is left out",
         "link 'tip': as by urdfdom, <collision> after a fault is not read",
     ]
 

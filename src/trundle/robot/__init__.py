@@ -1,4 +1,4 @@
-"""A URDF's own tree as written, and its kinematics."""
+"""URDF tree as written, and its kinematics."""
 
 import lazy_loader
 

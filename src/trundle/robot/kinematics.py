@@ -1,4 +1,4 @@
-"""Where the links of a URDF are for given joint positions."""
+"""Forward kinematics of a URDF."""
 
 from collections.abc import Mapping
 
@@ -8,7 +8,9 @@ from .robot import Robot, RobotJoint
 
 
 def parent_from_child(joint: RobotJoint, position: float) -> Pose:
-    """The child link's frame in the parent's with the joint at `position` [rad or m]; fixed-like types ignore it."""
+    """Return the child link's frame in the parent's with the joint at `position` [rad or m], which fixed, floating and
+    planar joints ignore.
+    """
     if joint.type in ("fixed", "floating", "planar"):
         return joint.parent_from_joint
     axis = normalized(joint.axis) or ZERO
@@ -18,7 +20,7 @@ def parent_from_child(joint: RobotJoint, position: float) -> Pose:
 
 
 def root_from_links(robot: Robot, positions: Mapping[str, float]) -> dict[str, Pose]:
-    """Every link's frame in the root link's; joints not named are at zero, mimics follow their leaders."""
+    """Return every link's frame in the root link's; joints not named are at zero, mimic joints follow their leaders."""
     followed = dict(positions)
     for joint in robot.joints:
         if joint.mimic is not None and joint.name not in followed:

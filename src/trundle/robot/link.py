@@ -1,4 +1,4 @@
-"""Reads a URDF's <link> by urdfdom's rules."""
+"""Reader of a URDF's <link> by urdfdom's rules."""
 
 from typing import cast
 
@@ -11,7 +11,7 @@ from .values import read_number, read_origin, read_vector
 
 
 def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> RobotLink:
-    """Read one link as far as urdfdom does: it keeps a link with a fault, and reads nothing after the fault."""
+    """Read one link as urdfdom does: a link with a fault is kept, and nothing is read after the fault."""
     name = node.required_attribute("name")
     inertial, is_sound = _read_inertial(node, name, report)
     shapes: dict[str, list[RobotShape]] = {"visual": [], "collision": []}
@@ -39,7 +39,7 @@ def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> Robot
 
 
 def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[RobotInertial | None, bool]:
-    """Return a link's inertial and whether it is complete: urdfdom keeps a mass whose inertia is at fault."""
+    """Return a link's inertial, and False if it is incomplete: urdfdom keeps the mass of a faulty inertia."""
     node = link.find("inertial")
     if node is None:
         return None, True
@@ -106,5 +106,5 @@ def _read_geometry(owner: XmlNode, report: Diagnostics) -> RobotGeometry | None:
             scale = (1.0, 1.0, 1.0) if shape.attribute("scale") is None else read_vector(shape, "scale", report)
             return RobotMesh(uri, scale or (1.0, 1.0, 1.0))
         case other:
-            report.warn(shape.at, f"<{other}> is no URDF shape; this <{owner.tag}> is left out")
+            report.warn(shape.at, f"<{other}> is not a URDF shape; this <{owner.tag}> is left out")
             return None

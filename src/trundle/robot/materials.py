@@ -1,4 +1,4 @@
-"""Reads a URDF's <material>: a colour, an image, or the name of one that was read before, by urdfdom's rules."""
+"""Reader of a URDF's <material>: a colour, a texture, or the name of one defined before, by urdfdom's rules."""
 
 import math
 from collections.abc import Iterable
@@ -12,25 +12,25 @@ from .robot import Rgba
 
 @dataclass(frozen=True, slots=True)
 class RobotMaterial:
-    """What a material says."""
+    """Colour and texture of a material."""
 
     rgba: Rgba | None = None
-    """None where it names no colour."""
+    """None without a colour."""
     texture: str = ""
-    """URI of an image, as written."""
+    """URI of the texture, as written."""
 
 
 class Materials:
-    """The materials known so far, by name; those defined inside a link are known to the links after it."""
+    """Materials by name; those defined inside a link are visible to the links after it."""
 
     def __init__(self, nodes: Iterable[XmlNode], report: Diagnostics) -> None:
-        """Read those of the robot."""
+        """Read the robot's materials."""
         self._report = report
         self._materials: dict[str, RobotMaterial] = {}
         for node in nodes:
             name = node.attribute("name")
             if name is None:
-                report.warn(node.at, "<material> without a name can be used nowhere; it is left out")
+                report.warn(node.at, "<material> without a name cannot be referenced; it is left out")
                 node.mark_all_read()
                 continue
             if name in self._materials:
@@ -38,7 +38,7 @@ class Materials:
             self._materials[name] = self._read(node)
 
     def find(self, node: XmlNode) -> RobotMaterial:
-        """How a visual with this <material> looks."""
+        """Return the colour and texture of a visual's <material>."""
         name, look = node.attribute("name") or "", self._read(node)
         if look == RobotMaterial():
             if name not in self._materials:
@@ -57,7 +57,7 @@ class Materials:
         text = node.attribute("rgba")
         values = parse_numbers(text or "")
         if values is None or len(values) != 4 or not all(map(math.isfinite, values)):
-            self._report.warn(node.at, f"<color rgba={text!r}> wants four numbers; it is ignored")
+            self._report.warn(node.at, f"<color rgba={text!r}> needs four numbers; it is ignored")
             return None
         r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
         return (r, g, b, a)

@@ -1,4 +1,4 @@
-"""Reads a URDF by urdfdom's rules."""
+"""Reader of URDF by urdfdom's rules."""
 
 from typing import cast, get_args
 
@@ -14,15 +14,15 @@ from .values import read_optional, read_origin, read_vector
 _TYPES: tuple[str, ...] = get_args(RobotJointType)
 _LIMITED = ("revolute", "prismatic")
 _FOR_OTHERS = ("gazebo", "transmission")
-"""Children of <robot> that the conversion to SDF and ros_control read."""
+"""Children of <robot> for the conversion to SDF and for ros_control."""
 
 
 def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     """Read <robot>.
 
     Raises:
-        DescriptionError: no tree: a joint names no link, a link has two parents, there is no root or several; or a
-            limit that urdfdom requires is missing.
+        DescriptionError: not a tree: a joint names an unknown link, a link has two parents, there is no root or
+            several; or a limit that urdfdom requires is missing.
     """
     if root.tag != "robot":
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
@@ -45,7 +45,7 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     ring = [link for link in links if link.name not in reached]
     if ring:
         names = ", ".join(repr(link.name) for link in ring[:5])
-        report.warn(ring[0].at, f"links {names} form a ring that no joint leads to; as urdfdom does, they are left out")
+        report.warn(ring[0].at, f"links {names} form a loop apart from the root; as urdfdom does, they are left out")
     return Robot(
         name=name,
         at=root.at,
@@ -79,7 +79,7 @@ def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> st
         parents[joint.child] = joint
     roots = [name for name in names if name not in parents]
     if not roots:
-        raise DescriptionError(node.at, "the joints form a ring: every link is some joint's child")
+        raise DescriptionError(node.at, "the joints form a loop: every link is some joint's child")
     if len(roots) > 1:
         raise DescriptionError(
             node.at, f"more than one root link: {', '.join(map(repr, roots))}; joints must join them"
@@ -88,7 +88,7 @@ def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> st
 
 
 def _reached(root: str, joints: list[RobotJoint]) -> set[str]:
-    """The root and every link below it."""
+    """Return the root and every link below it."""
     below: dict[str, list[str]] = {}
     for joint in joints:
         below.setdefault(joint.parent, []).append(joint.child)
@@ -127,8 +127,8 @@ def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
         friction=read_optional(dynamics, "friction", 0.0, report),
         mimic=_read_mimic(node, name, report),
     )
-    node.find("calibration")  # real hardware's
-    safety = node.find("safety_controller")  # ros_control's
+    node.find("calibration")  # for real hardware
+    safety = node.find("safety_controller")  # for ros_control
     if safety is not None and safety.attribute("k_velocity") is None:
         what = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
         report.warn(safety.at, f"{what}; it is ignored")
@@ -144,7 +144,7 @@ def _read_axis(node: XmlNode, name: str, type_: str, report: Diagnostics) -> Vec
     if vector is None:
         return (1.0, 0.0, 0.0)
     if not any(vector):
-        report.warn(axis.at, f"joint {name!r}: an axis of no length; 1 0 0 is used")
+        report.warn(axis.at, f"joint {name!r}: an axis of zero length; 1 0 0 is used")
         return (1.0, 0.0, 0.0)
     return vector
 

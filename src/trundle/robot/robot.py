@@ -1,4 +1,4 @@
-"""A URDF as written: the tree that robot_state_publisher, RobotModel and ros_control work on."""
+"""URDF as written: the tree that robot_state_publisher, RobotModel and ros_control use."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -12,14 +12,14 @@ Rgba: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class RobotBox:
-    """A box; full lengths [m]."""
+    """Box; full lengths [m]."""
 
     size: Vector3
 
 
 @dataclass(frozen=True, slots=True)
 class RobotCylinder:
-    """A cylinder along z, centred [m]."""
+    """Cylinder along z, centred [m]."""
 
     radius: float
     length: float
@@ -27,14 +27,14 @@ class RobotCylinder:
 
 @dataclass(frozen=True, slots=True)
 class RobotSphere:
-    """A ball [m]."""
+    """Sphere [m]."""
 
     radius: float
 
 
 @dataclass(frozen=True, slots=True)
 class RobotMesh:
-    """Triangles from a file; the URI is as written."""
+    """Triangle mesh from a file; the URI is as written."""
 
     uri: str
     scale: Vector3 = (1.0, 1.0, 1.0)
@@ -45,7 +45,7 @@ RobotGeometry: TypeAlias = RobotBox | RobotCylinder | RobotSphere | RobotMesh
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotInertial:
-    """<inertial>, all of which URDF requires where it is given."""
+    """<inertial> with all its elements, which URDF requires."""
 
     mass: float
     """[kg]"""
@@ -61,14 +61,14 @@ class RobotShape:
     """A <visual> or <collision>."""
 
     name: str
-    """Empty where it has none."""
+    """Empty if unnamed."""
     geometry: RobotGeometry
     at: Source
     link_from_shape: Pose = Pose()
     rgba: Rgba | None = None
-    """A visual's own colour; None where the file names none."""
+    """Colour of a visual; None if the file names none."""
     texture: str = ""
-    """URI of the image on a visual, as written; `rgba` tints it."""
+    """Texture URI of a visual, as written; tinted by `rgba`."""
     material: str = ""
 
 
@@ -85,7 +85,7 @@ class RobotLink:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotMimic:
-    """This joint follows another: multiplier · leader + offset."""
+    """<mimic>: this joint follows another by multiplier · leader + offset."""
 
     joint: str
     multiplier: float = 1.0
@@ -112,9 +112,9 @@ class RobotJoint:
     child: str
     at: Source
     parent_from_joint: Pose = Pose()
-    """<origin>: the joint's frame, which is also the child link's, at zero."""
+    """<origin>: the joint frame, equal to the child link's frame at position zero."""
     axis: Vector3 = (1.0, 0.0, 0.0)
-    """In the joint's frame, as written."""
+    """Axis in the joint frame, as written."""
     limit: JointLimit | None = None
     damping: float = 0.0
     friction: float = 0.0
@@ -128,7 +128,7 @@ class Robot:
     name: str
     at: Source
     root: str
-    """The one link that is no joint's child."""
+    """Link that is no joint's child."""
     links: tuple[RobotLink, ...]
     """In file order."""
     joints: tuple[RobotJoint, ...]

@@ -1,4 +1,4 @@
-"""Reads the numbers of a URDF's attributes; a bad one is named, and None or the default taken."""
+"""Readers of numeric URDF attributes; a bad value is reported and gives None or the default."""
 
 import math
 
@@ -22,7 +22,7 @@ def read_vector(node: XmlNode, key: str, report: Diagnostics) -> Vector3 | None:
     text = node.attribute(key)
     values = parse_numbers(text or "")
     if values is None or len(values) != 3 or not all(map(math.isfinite, values)):
-        report.warn(node.at, f"<{node.tag} {key}={text!r}> wants three numbers; it is ignored")
+        report.warn(node.at, f"<{node.tag} {key}={text!r}> needs three numbers; it is ignored")
         return None
     return (values[0], values[1], values[2])
 
@@ -31,7 +31,7 @@ def read_number(node: XmlNode, key: str, report: Diagnostics) -> float | None:
     text = node.attribute(key)
     values = parse_numbers(text or "")
     if values is None or len(values) != 1 or not math.isfinite(values[0]):
-        report.warn(node.at, f"<{node.tag} {key}={text!r}> wants one number")
+        report.warn(node.at, f"<{node.tag} {key}={text!r}> needs one number")
         return None
     return values[0]
 
