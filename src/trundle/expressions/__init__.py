@@ -1,4 +1,4 @@
-"""Expressions that a file holds: text and names enter, a value leaves; no code of Python runs."""
+"""Expression evaluator for files: text and names in, a value out; no Python code of the file runs."""
 
 import lazy_loader
 

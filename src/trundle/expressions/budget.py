@@ -1,4 +1,4 @@
-"""Bounds the work and the memory that the expressions of one document take together."""
+"""Budget of time and memory for the expressions of one document."""
 
 from collections.abc import Iterable, Iterator
 from typing import Any, cast
@@ -8,50 +8,50 @@ MAX_ITEMS = 1_000_000
 MAX_BITS = 100_000
 """Size of one integer."""
 _MAX_STEPS = 3_000_000
-"""A step is one operation, some 0.2 µs; the PR2, the most of all published robots, takes 19,000."""
+"""Step budget; a step is one operation of about 0.2 µs. The PR2, the largest of the published robots, takes 19,000."""
 _MAX_OCTETS = 96 * 1024 * 1024
-"""Size of all values that were ever made for one document; the PR2's are 160,000."""
+"""Memory budget for all values of one document; the PR2 needs 160,000."""
 _MAX_DEPTH = 100
-"""Levels of iterators over iterators."""
+"""Nesting depth of iterators."""
 
 _GROUPS = (list, tuple, set, frozenset, type({}.keys()), type({}.values()), type({}.items()))
 _SMALL = 1 << 61
-"""Below it an integer is its own hash."""
+"""Bound below which an integer is its own hash."""
 
 
 class ExpressionError(ValueError):
-    """The expression is refused; the text says why."""
+    """Refused expression, with the reason."""
 
 
 class Budget:
-    """The work and memory that one document may still use."""
+    """Remaining steps and memory of one document."""
 
     def __init__(self, steps: int = _MAX_STEPS, octets: int = _MAX_OCTETS) -> None:
         self._steps, self._octets = steps, octets
         self._most_steps, self._most_octets = steps, octets
         self.depth = 0
-        """Iterators that are waiting for one another."""
+        """Nesting depth of iterators in progress."""
 
     @property
     def spent(self) -> tuple[int, int]:
-        """Steps and octets so far."""
+        """Steps and octets used."""
         return self._most_steps - self._steps, self._most_octets - self._octets
 
     def spend(self, steps: int) -> None:
-        """Take steps.
+        """Use steps.
 
         Raises:
-            ExpressionError: none are left.
+            ExpressionError: the budget is exhausted.
         """
         self._steps -= steps
         if self._steps < 0:
             raise ExpressionError(f"the expressions of one file may take at most {self._most_steps} steps")
 
     def allocate(self, octets: int) -> None:
-        """Take memory; it is never given back, for a property may keep every value.
+        """Use memory, which is never returned, because a property may keep any value.
 
         Raises:
-            ExpressionError: none is left.
+            ExpressionError: the budget is exhausted.
         """
         self._octets -= octets
         if self._octets < 0:
@@ -60,28 +60,28 @@ class Budget:
             )
 
     def allocate_generator(self) -> None:
-        """Take what an object that iterates takes."""
+        """Use the steps and memory of a generator object."""
         self.spend(20)
         self.allocate(800)
 
     def lazy(self, items: Iterator[Any]) -> "LazyIterator":
-        """Make the value that a file gets for items which are made when they are asked for."""
+        """Wrap a lazily evaluated iterator for use by expressions."""
         self.allocate_generator()
         return LazyIterator(self, items)
 
     def allocate_text(self, text: str) -> str:
-        """Take the memory of a text, which was made already or is one of few."""
+        """Use the memory of a text that was just created."""
         self.allocate(50 + (len(text) if text.isascii() else 4 * len(text)))
         return text
 
     def iterate(self, items: Iterable[Any], steps: int = 1) -> Iterator[Any]:
-        """Iterate; every item takes that many steps."""
+        """Iterate with a cost in steps per item."""
         for item in items:
             self.spend(steps)
             yield item
 
     def collect(self, items: Iterable[Any]) -> list[Any]:
-        """List what an iterable gives."""
+        """Return the items of an iterable as a list."""
         found: list[Any] = []
         for item in items:
             self.spend(1)
@@ -91,10 +91,10 @@ class Budget:
         return found
 
     def spend_traversal(self, value: object) -> int:
-        """Spend what going through a value takes, shared parts as often as they occur; return its length as text.
+        """Use the steps of traversing a value, shared parts as often as they occur; return its length as text.
 
         Raises:
-            ExpressionError: it is longer than any value may be, or without end.
+            ExpressionError: it is longer than a value may be, or infinite.
         """
         size, pending = 0, [value]
         while pending:
@@ -122,11 +122,11 @@ class Budget:
         return size
 
     def spend_lookup(self, key: object, among: int) -> Any:
-        """Spend what looking for a key takes in a dictionary or set of that many."""
+        """Use the steps of looking up a key in a dictionary or set of that size."""
         if isinstance(key, tuple | frozenset):
             self.spend_traversal(key)
             _bound_depth(cast("tuple[object, ...]", key))
-            self.spend(among >> 4)  # nothing keeps their hashes from being all the same
+            self.spend(among >> 4)  # their hashes may all collide
         elif isinstance(key, int) and not -_SMALL < key < _SMALL:
             self.spend(key.bit_length() >> 6)
             self.spend(among >> 4)
@@ -134,7 +134,7 @@ class Budget:
 
 
 class LazyIterator:
-    """Items that are made when they are asked for; Python 3.11 crashes where thousands of generators ask each other."""
+    """Lazy iterator with bounded nesting; Python 3.11 crashes on thousands of nested generators."""
 
     __slots__ = ("_budget", "_items")
 
@@ -155,7 +155,7 @@ class LazyIterator:
 
 
 def _bound_depth(key: Iterable[object]) -> None:
-    """Refuse tuples in tuples beyond all sense; to hash them, Python calls itself without a bound."""
+    """Refuse deeply nested tuples, which Python hashes with unbounded recursion."""
     for _ in range(_MAX_DEPTH):
         key = [part for each in key if isinstance(each, tuple | frozenset) for part in cast("tuple[object, ...]", each)]
         if not key:
@@ -164,12 +164,12 @@ def _bound_depth(key: Iterable[object]) -> None:
 
 
 def bound_length(length: float) -> None:
-    """Refuse a text, list or range that long."""
+    """Refuse a text, list or range beyond the maximum length."""
     if length > MAX_ITEMS:
         raise ExpressionError(f"a text, list or range of more than {MAX_ITEMS} items")
 
 
 def bound_bits(bits: float) -> None:
-    """Refuse an integer of that many bits."""
+    """Refuse an integer beyond the maximum number of bits."""
     if bits > MAX_BITS:
         raise ExpressionError(f"a number of more than {MAX_BITS} bits")

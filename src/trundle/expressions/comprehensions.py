@@ -1,4 +1,4 @@
-"""Loops of comprehensions."""
+"""Comprehensions: nested loops with conditions."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
@@ -15,15 +15,15 @@ class Loop(NamedTuple):
 
 
 class Comprehension(NamedTuple):
-    """Loops within one another, and what is made at each turn."""
+    """Nested loops and the elements of each iteration."""
 
     loops: Sequence[Loop]
     elements: Sequence[Code]
     cost: int
-    """Operations of a turn."""
+    """Operations per iteration."""
 
     def evaluate(self, running: Evaluator, around: Frame) -> Iterator[list[Any]]:
-        """Evaluate what the outermost loop goes through; iterate over the elements of each turn."""
+        """Evaluate the outermost iterable, and iterate over the elements."""
         running.budget.allocate_generator()
         return self._iterate(running, {None: around}, 0, iter(self.loops[0].items(running, around)))
 

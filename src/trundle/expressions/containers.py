@@ -1,4 +1,4 @@
-"""Makes and looks into containers, as the syntax of an expression asks for."""
+"""Containers of expressions: creation and subscripting."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -17,7 +17,7 @@ def set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
 
 
 def mapping_of(caller: Caller, value: Any) -> dict[str, Any]:
-    """Return the arguments that `**value` stands for."""
+    """Return the arguments of `**value`."""
     if not isinstance(value, dict):
         raise TypeError(f"argument after ** must be a mapping, not {type(value).__name__}")
     caller.budget.spend(len(value))
@@ -26,7 +26,7 @@ def mapping_of(caller: Caller, value: Any) -> dict[str, Any]:
 
 
 def item_of(caller: Caller, owner: Any, index: Any) -> Any:
-    """Find `owner[index]`."""
+    """Return `owner[index]`."""
     if not isinstance(owner, str | list | tuple | dict | range):
         raise TypeError(f"{type(owner).__name__!r} object is not subscriptable")
     if isinstance(owner, dict):

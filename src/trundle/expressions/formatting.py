@@ -1,4 +1,4 @@
-"""Formats values as text: str(), %, str.format and f-strings, without a way to the parts of a value."""
+"""Text formatting: str(), %, str.format and f-strings, without access to attributes or items of values."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -9,7 +9,7 @@ from .budget import Budget, ExpressionError, bound_length
 
 _NUMBER = re.compile(r"\d+")
 _WIDEST = 9999
-"""Characters that one value is padded to, or digits that it is given."""
+"""Largest width or precision of a format."""
 
 
 def text_of(budget: Budget, value: object) -> str:
@@ -70,7 +70,7 @@ def _unsupported(spec: str) -> ExpressionError:
 
 
 class _Formatter(Formatter):
-    """Python's own, and fields are whole values: `{0.part}` and `{0[part]}` are refused."""
+    """Python's formatter with whole values as fields: `{0.part}` and `{0[part]}` are refused."""
 
     def __init__(self, budget: Budget) -> None:
         self._budget = budget

@@ -1,4 +1,4 @@
-"""Frames of lambdas and comprehensions: their names, and how values get there."""
+"""Local names of lambdas and comprehensions."""
 
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -8,20 +8,20 @@ from .budget import ExpressionError
 from .values import Callee, Caller
 
 Frame = dict[Any, Any] | None
-"""Values of the names that a lambda or a comprehension has; under None, the frame around it."""
+"""Local values of a lambda or comprehension; under None, the enclosing frame."""
 Scopes = tuple[frozenset[str], ...]
-"""Names of every frame, the innermost first."""
+"""Names of every frame, innermost first."""
 
 
 class Evaluator(Caller, Protocol):
-    """An evaluation, as seen by its operations."""
+    """Evaluation, as seen by its operations."""
 
     def look_up(self, name: str) -> Any:
-        """The value of a name of the document."""
+        """Return the value of a document's name."""
         ...
 
     def attribute(self, owner: Any, name: str) -> Any:
-        """The attribute of a value."""
+        """Return an attribute of a value."""
         ...
 
 
@@ -30,7 +30,7 @@ Assignment = Callable[[Evaluator, dict[Any, Any], Any], None]
 
 
 def local_lookup(name: str, depth: int) -> Code:
-    """Look a name up in a frame, so many frames out."""
+    """Return code that looks up a name `depth` frames out."""
 
     def code(_running: Evaluator, frame: Frame) -> Any:
         for _ in range(depth):
@@ -57,7 +57,7 @@ def targets(target: ast.expr) -> Iterator[str]:
 
 
 def assignment(target: ast.expr) -> Assignment:
-    """Compile what `for TARGET in …` does with an item."""
+    """Compile the assignment of `for TARGET in …`."""
     if isinstance(target, ast.Name):
         name = target.id
 
@@ -89,7 +89,7 @@ _STEPS_OF_A_CALL = 15
 
 
 class Lambda(Callee):
-    """A function that an expression made."""
+    """Function created by an expression."""
 
     __slots__ = ("_around", "_body", "_cost", "_defaults", "_running", "_signature")
 

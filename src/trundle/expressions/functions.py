@@ -1,4 +1,4 @@
-"""Python's functions and those of `math`, as an expression calls them: no result grows without bound."""
+"""Builtins and `math` functions for expressions, with bounded results."""
 
 import ast
 import builtins
@@ -13,11 +13,11 @@ from .operators import BINARY, allocate_integer, spend_product
 from .values import Caller, Guarded
 
 _MAX_DIGITS = 100
-"""That an integer is rounded by."""
+"""Largest number of digits for round()."""
 
 
 def _linear_time(function: Callable[..., Any]) -> Guarded:
-    """Call a function that does no more than its values are long, after it went through what iterates."""
+    """Guard a function whose cost is linear in the length of its arguments, after expanding lazy iterators."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         given = [each if each.__class__ is float else _iterable(caller.budget, each) for each in values]
@@ -27,7 +27,7 @@ def _linear_time(function: Callable[..., Any]) -> Guarded:
 
 
 def _iterable(budget: Budget, value: Any) -> Any:
-    """A value that goes through no code of the file when it is iterated."""
+    """Return the value with all lazy iterators expanded."""
     match value:
         case str():
             budget.spend(len(value) >> 4)
@@ -41,12 +41,12 @@ def _iterable(budget: Budget, value: Any) -> Any:
 
 
 def _constant_time(function: Callable[..., Any]) -> Guarded:
-    """Call a function that takes the same time for every value."""
+    """Guard a function of constant cost."""
     return lambda _caller, values, named: function(*values, **named)
 
 
 def _converted(kind: type) -> Guarded:
-    """Make a number of a text or another number."""
+    """Guard the conversion of a text or number to a number."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         for each in values:
@@ -98,7 +98,7 @@ def _set(kind: type) -> Guarded:
 
 
 def dictionary(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> dict[Any, Any]:
-    """Make a dictionary of another, or of pairs."""
+    """Create a dictionary from another, or from pairs."""
     found: dict[Any, Any] = {}
     pairs: Iterable[Any] = ()
     if values:
@@ -156,7 +156,7 @@ def _filter(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> 
 
 
 def _iterating(function: Callable[..., Iterable[Any]]) -> Guarded:
-    """Call a function that gives the items of others one by one."""
+    """Guard a function that yields the items of other iterables."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
         return caller.budget.lazy(_turns(caller.budget, function(*values, **named), len(values) + 1))
@@ -165,7 +165,7 @@ def _iterating(function: Callable[..., Iterable[Any]]) -> Guarded:
 
 
 def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
-    """Iterate over tuples of that many values."""
+    """Iterate over tuples of `width` values."""
     for item in items:
         budget.spend(width)
         budget.allocate(40 + 8 * width)
@@ -221,7 +221,7 @@ def _sum(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any
     found = caller.budget.collect(items)
     caller.budget.spend_traversal(found)
     if all(isinstance(each, float | int) for each in found) and isinstance(start, int | float):
-        return allocate_integer(caller.budget, sum(found, start))  # in one go: newer Pythons add floats more exactly
+        return allocate_integer(caller.budget, sum(found, start))  # at once: newer Pythons add floats more exactly
     return reduce(lambda a, b: _add(caller.budget, a, b), found, start)
 
 
@@ -231,7 +231,7 @@ _add, _multiply = BINARY[ast.Add], BINARY[ast.Mult]
 def _round(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
     digits = values[1] if len(values) > 1 else named.get("ndigits")
     if isinstance(digits, int) and abs(digits) > _MAX_DIGITS:
-        raise ValueError(f"it rounds to at most {_MAX_DIGITS} digits")
+        raise ValueError(f"round() takes at most {_MAX_DIGITS} digits")
     return round(*values, **named)
 
 
@@ -244,7 +244,7 @@ def _truth(function: Callable[[Iterable[Any]], bool]) -> Guarded:
 
 
 def _of_small_integers(function: Callable[..., int]) -> Guarded:
-    """Call a function whose result has some sixteen bits for each of its number."""
+    """Guard a function whose result has some sixteen bits per unit of its arguments."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
         bits = max((abs(each) * 16 for each in values if isinstance(each, int)), default=0)
@@ -268,7 +268,7 @@ def _product(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) ->
 
 
 MATH_NAMES: Mapping[str, Any] = {name: value for name, value in vars(math).items() if not name.startswith("_")}
-"""Names that `from math import *` gives."""
+"""Names of `from math import *`."""
 
 GUARDED: Mapping[Callable[..., Any], Guarded] = {
     **{function: _linear_time(function) for function in MATH_NAMES.values() if callable(function)},
@@ -296,8 +296,8 @@ GUARDED: Mapping[Callable[..., Any], Guarded] = {
     sum: _sum,
     round: _round,
 }
-"""Functions that may be called, and those called in their place."""
+"""Function → guarded replacement."""
 
 _PLAIN = "abs all any bool dict float int len list map max min round sorted str sum tuple"
 PYTHON_NAMES: Mapping[str, Any] = {name: getattr(builtins, name) for name in _PLAIN.split()}
-"""The builtins that need no prefix anywhere."""
+"""Builtins available without a prefix."""

@@ -1,8 +1,8 @@
-"""Evaluates expressions that a file holds, with nothing of Python but what is listed here.
+"""Interpreter for expressions in files, restricted to the Python features listed in this room.
 
-simpleeval knows neither lambdas nor a bound on time and looks names of attributes up in a list of those to refuse;
-asteval has statements, files and numpy; RestrictedPython leaves every bound to whoever uses it, and both lists go by
-names alone, where the type of the object decides what is harmless.
+simpleeval has neither lambdas nor a time bound and refuses attributes by name; asteval has statements, files and numpy;
+RestrictedPython leaves every bound to its caller. Both lists go by names alone, where the type of the object decides
+what is harmless.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -15,24 +15,24 @@ from .syntax import Code, compile_expression
 from .values import Callee
 
 _LONGEST = 65_536
-"""Characters of one expression."""
+"""Largest length of an expression."""
 _OCTETS_PER_NODE = 250
-"""Memory of a node; the steps to parse it are a tenth."""
+"""Memory per syntax node; its parsing costs a tenth of that in steps."""
 _STEPS_PER_CALL = 5
 _OCTETS_PER_CALL = 80
-"""Memory of a value that a call returns and that is not counted where it is made; also of finding an attribute."""
+"""Memory of a call's result that is not counted where it is created, and of an attribute lookup."""
 _SHORT = frozenset({str, int, float, bool})
-"""Kinds of values that are as long as they look."""
+"""Types whose size needs no traversal."""
 
 
 class Names(Protocol):
-    """Where the names of an expression are looked up."""
+    """Lookup of the names of an expression."""
 
     def __getitem__(self, name: str, /) -> Any:
-        """The value of a name.
+        """Return the value of a name.
 
         Raises:
-            KeyError: nothing has it.
+            KeyError: it is not defined.
         """
         ...
 
@@ -43,14 +43,14 @@ class _Compiled(NamedTuple):
 
 
 class Interpreter:
-    """Evaluates the expressions of one document, which share a budget."""
+    """Interpreter for the expressions of one document, which share a budget."""
 
     def __init__(self, budget: Budget | None = None, dotted: Callable[[Any, str], Any] | None = None) -> None:
-        """Prepare.
+        """Create an interpreter.
 
         Args:
-            budget: work and memory of the whole document.
-            dotted: gives an attribute of an object of the program's own, or NotImplemented.
+            budget: time and memory of the whole document.
+            dotted: returns an attribute of an object of the program's own, or NotImplemented.
         """
         self.budget = budget or Budget()
         self.dotted = dotted
@@ -60,7 +60,7 @@ class Interpreter:
         """Evaluate an expression.
 
         Raises:
-            ExpressionError: a name or an attribute that is not for files, or a value or a loop too large.
+            ExpressionError: a forbidden name or attribute, or a value or loop that is too large.
             Exception: what Python raises for the same: SyntaxError, NameError, TypeError, ZeroDivisionError, …
         """
         try:
@@ -90,7 +90,7 @@ class Interpreter:
 
 
 class Evaluation:
-    """One evaluation: its names, and what it may call."""
+    """One evaluation: names and calls."""
 
     __slots__ = ("_interpreter", "_names", "budget")
 
@@ -99,10 +99,10 @@ class Evaluation:
         self.budget = interpreter.budget
 
     def look_up(self, name: str) -> Any:
-        """The value of a name.
+        """Return the value of a name.
 
         Raises:
-            NameError: nothing has it.
+            NameError: it is not defined.
         """
         try:
             return self._names[name]
@@ -110,10 +110,10 @@ class Evaluation:
             raise NameError(f"name {name!r} is not defined") from None
 
     def attribute(self, owner: Any, name: str) -> Any:
-        """The attribute of a value.
+        """Return an attribute of a value.
 
         Raises:
-            AttributeError: there is none that an expression may use.
+            AttributeError: it does not exist or is not allowed.
         """
         self.budget.spend(_STEPS_PER_CALL)
         self.budget.allocate(_OCTETS_PER_CALL)
@@ -125,7 +125,7 @@ class Evaluation:
         """Call a value.
 
         Raises:
-            TypeError: it is nothing that an expression may call.
+            TypeError: expressions may not call it.
         """
         self.budget.spend(_STEPS_PER_CALL)
         self.budget.allocate(_OCTETS_PER_CALL)

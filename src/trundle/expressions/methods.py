@@ -1,4 +1,4 @@
-"""Methods and attributes that an expression may use, by the type of the object."""
+"""Methods and attributes available to expressions, by object type."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,12 +10,12 @@ from .functions import sort
 from .values import Callee, Caller, Function
 
 _Guarded = Callable[[Caller, Any, Sequence[Any], Mapping[str, Any]], Any]
-"""Calls a method of the object given second."""
+"""Calls a method of the object in the second argument."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Method(Callee):
-    """A method of one object."""
+    """Bound method."""
 
     name: str
     owner: object
@@ -29,10 +29,10 @@ class Method(Callee):
 
 
 def attribute(owner: Any, name: str) -> Any:
-    """Find an attribute.
+    """Return an attribute.
 
     Raises:
-        AttributeError: there is none, or none that an expression may use.
+        AttributeError: it does not exist or is not allowed.
     """
     if isinstance(owner, type):
         if name in _METHODS_OF.get(owner, ()):
@@ -50,7 +50,7 @@ def attribute(owner: Any, name: str) -> Any:
 
 
 def _of_first(kind: type, name: str) -> Callable[..., Any]:
-    """Call a method of a type with its object first, as in `map(str.upper, texts)`."""
+    """Return an unbound method, as in `map(str.upper, texts)`."""
 
     def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         if not values or not isinstance(values[0], kind):
@@ -61,18 +61,18 @@ def _of_first(kind: type, name: str) -> Callable[..., Any]:
 
 
 def is_method(kind: type, name: str) -> bool:
-    """Whether a type has a method that an expression may use."""
+    """True if a type has this method and expressions may use it."""
     return name in _METHODS_OF.get(kind, ())
 
 
 def _linear_size(name: str, *, product: bool = False, cost_of_keys: bool = False, deep: bool = False) -> _Guarded:
-    """Call Python's own method, whose result is no longer than what it is given, or no more than three times.
+    """Guard a method whose result is at most about three times as long as its input.
 
     Args:
-        name: the method's.
-        product: it may go through its values once for each character of the text.
-        cost_of_keys: its first value is looked for as a key.
-        deep: it compares its values with the items.
+        name: of the method.
+        product: it may traverse its arguments once per character of the text.
+        cost_of_keys: its first argument is looked up as a key.
+        deep: it compares its arguments with the items.
     """
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
@@ -147,7 +147,7 @@ def _format_map(caller: Caller, owner: str, values: Sequence[Any], named: Mappin
 
 
 def _growing(name: str) -> _Guarded:
-    """Call Python's own method, which makes a list, dictionary or set longer by what it is given."""
+    """Guard a method that extends a list, dictionary or set by its arguments."""
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         budget = caller.budget
@@ -177,7 +177,7 @@ def _sort(caller: Caller, owner: list[Any], values: Sequence[Any], named: Mappin
 
 
 def _combined(name: str) -> _Guarded:
-    """Call Python's own method of sets with sets."""
+    """Guard a set method with sets as arguments."""
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         given: list[set[Any]] = [_set_of(caller, each) for each in values]
@@ -201,7 +201,7 @@ def _named(names: str, make: Callable[[str], _Guarded]) -> dict[str, _Guarded]:
 
 
 _LENGTH = _named("__len__", _linear_size)
-"""Asked for before xacro 1.13.13 refused all such names: xArm's description has robot_sn.__len__()."""
+"""Needed because xacro before 1.13.13 allowed such names: xArm's description has robot_sn.__len__()."""
 _SET = {
     **_LENGTH,
     **_named("difference intersection isdisjoint issubset issuperset symmetric_difference union", _combined),
@@ -216,7 +216,7 @@ _METHODS_OF: dict[type, dict[str, _Guarded]] = {
         **_named("isidentifier islower isnumeric isprintable isspace istitle isupper lower partition", _linear_size),
         **_named("removeprefix removesuffix split splitlines startswith swapcase title upper", _linear_size),
         **_named(
-            "lstrip rfind rindex rpartition rsplit rstrip strip",  # Python looks from behind without a table
+            "lstrip rfind rindex rpartition rsplit rstrip strip",  # Python searches from the end without a table
             lambda name: _linear_size(name, product=True),
         ),
         **_named("center expandtabs ljust rjust zfill", _padded),

@@ -1,4 +1,4 @@
-"""Operators of expressions: those of Python, each result bounded before it is made."""
+"""Operators of expressions, with results bounded before they are created."""
 
 import ast
 import operator
@@ -16,12 +16,12 @@ _CONTAINERS: Any = (list, tuple, dict, set, frozenset)
 
 
 def is_short(number: int) -> bool:
-    """Whether an integer is of a size that costs nothing."""
+    """True if an integer is small enough to be free of cost."""
     return -_MACHINE_WORD < number < _MACHINE_WORD
 
 
 def allocate_integer(budget: Budget, value: Any) -> Any:
-    """Take the memory of an integer; refuse one that is too long."""
+    """Use the memory of an integer; refuse one that is too long."""
     if isinstance(value, int) and not is_short(value):
         bits = value.bit_length()
         bound_bits(bits)
@@ -48,7 +48,7 @@ def _multiply(budget: Budget, left: Any, right: Any) -> Any:
 
 
 def _hold_sequence(budget: Budget, example: Any, length: int) -> None:
-    """Take the memory of a text, list or tuple of that length, of the kind of the example."""
+    """Use the memory of a text, list or tuple of that length."""
     bound_length(length)
     octets = (1 if example.isascii() else 4) if isinstance(example, str) else 8
     budget.allocate(56 + octets * length)
@@ -56,7 +56,7 @@ def _hold_sequence(budget: Budget, example: Any, length: int) -> None:
 
 
 def spend_product(budget: Budget, left: int, right: int) -> None:
-    """Spend what multiplying or dividing two integers takes."""
+    """Use the steps of multiplying or dividing two integers."""
     if not (is_short(left) and is_short(right)):
         budget.spend(left.bit_length() * right.bit_length() >> 16)
         budget.allocate((left.bit_length() + right.bit_length()) >> 3)
@@ -121,7 +121,7 @@ BINARY: dict[type[ast.operator], Operation] = {
     ast.BitOr: _merging(operator.or_),
     ast.BitXor: _merging(operator.xor),
 }
-"""All but the product of matrices."""
+"""All operators except the matrix product."""
 FLOAT_OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -147,7 +147,7 @@ def _ordered(function: Callable[[Any, Any], Any]) -> Operation:
 
 
 def spend_comparison(budget: Budget, left: Any, right: Any) -> None:
-    """Spend what comparing two values takes."""
+    """Use the steps of comparing two values."""
     if isinstance(left, _CONTAINERS):
         if isinstance(right, _CONTAINERS):
             budget.spend_traversal(left)
@@ -157,7 +157,7 @@ def spend_comparison(budget: Budget, left: Any, right: Any) -> None:
 
 
 def contains(budget: Budget, item: Any, among: Any) -> bool:
-    """Whether a value is in a container."""
+    """True if a value is in a container."""
     if isinstance(among, str):
         budget.spend(len(among) >> 4)
     elif isinstance(among, dict | set | frozenset):
@@ -171,7 +171,7 @@ def contains(budget: Budget, item: Any, among: Any) -> bool:
 
 
 def equal(budget: Budget, left: Any, right: Any) -> bool:
-    """Whether two values are equal."""
+    """True if two values are equal."""
     spend_comparison(budget, left, right)
     return bool(left == right)
 

@@ -1,4 +1,4 @@
-"""Compiles an expression into functions, one for each of its operations; syntax that is not listed is refused."""
+"""Compiler from an expression to nested functions; syntax that is not listed is refused."""
 
 import ast
 import warnings
@@ -16,14 +16,14 @@ _Part = TypeVar("_Part")
 
 
 def compile_expression(text: str) -> tuple[Code, int, list[str]]:
-    """Compile an expression: its code, the number of its operations, and the names in it that no file may use.
+    """Compile an expression; return its code, its number of operations, and its forbidden names.
 
     Raises:
-        SyntaxError: it is no expression.
-        ExpressionError: it holds syntax that is refused.
+        SyntaxError: it is not an expression.
+        ExpressionError: it contains syntax that is refused.
         RecursionError, MemoryError: it is nested too deeply.
     """
-    with warnings.catch_warnings():  # "1or 2" is legal, and Python says what it thinks of it
+    with warnings.catch_warnings():  # "1or 2" is legal, but Python warns
         warnings.simplefilter("ignore", SyntaxWarning)
         tree = ast.parse(text, "<expression>", "eval")
     compiler = _Compiler()
@@ -32,7 +32,7 @@ def compile_expression(text: str) -> tuple[Code, int, list[str]]:
 
 
 class _Compiler(ast.NodeVisitor):
-    """A method for each kind of syntax that is allowed."""
+    """Visitor with a method per kind of syntax that is allowed."""
 
     def __init__(self) -> None:
         self._scopes: Scopes = ()
@@ -46,7 +46,7 @@ class _Compiler(ast.NodeVisitor):
         return super().visit(node)
 
     def generic_visit(self, node: ast.AST) -> Any:
-        """Refuse what has no method here."""
+        """Refuse other syntax."""
         raise ExpressionError(f"{ast.unparse(node)[:100]!r} is not allowed in an expression")
 
     def _all(self, nodes: Sequence[ast.expr]) -> list[Code]:
@@ -56,7 +56,7 @@ class _Compiler(ast.NodeVisitor):
         return _nothing if node is None else self.visit(node)
 
     def _within(self, names: Iterable[str], compile_part: Callable[[], _Part]) -> tuple[_Part, int]:
-        """Compile a part that runs many times, in a frame of its own, and count its operations."""
+        """Compile a repeated part in its own frame, and count its operations."""
         scopes, before = self._scopes, self.count
         self._scopes = (frozenset(map(self._visible, names)), *scopes)
         try:
@@ -149,7 +149,7 @@ class _Compiler(ast.NodeVisitor):
         return lambda running, frame: slice(*(part(running, frame) for part in parts))
 
     def _items(self, nodes: Sequence[ast.expr]) -> Callable[[Evaluator, Frame], list[Any]]:
-        """Compile the items of a list or the values of a call, some of which may be `*several`."""
+        """Compile list items or call arguments, including `*several`."""
         if not any(isinstance(node, ast.Starred) for node in nodes):
             codes = self._all(nodes)
             return lambda running, frame: [code(running, frame) for code in codes]
@@ -308,7 +308,7 @@ def _nothing(*_: object) -> None:
 
 
 def _defaults(arguments: ast.arguments) -> Iterable[tuple[ast.arg, ast.expr]]:
-    """The arguments of a lambda that have a default, with it."""
+    """Yield the arguments of a lambda that have a default."""
     positional = [*arguments.posonlyargs, *arguments.args]
     last = positional[len(positional) - len(arguments.defaults) :]
     by_name = zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)

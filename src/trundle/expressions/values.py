@@ -1,4 +1,4 @@
-"""Values of an expression that can be called."""
+"""Callable values of expressions."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,39 +8,39 @@ from .budget import Budget
 
 
 class Caller(Protocol):
-    """The interpreter, as seen by the functions that it calls."""
+    """Interpreter, as seen by the functions that it calls."""
 
     @property
     def budget(self) -> Budget:
-        """Work and memory left."""
+        """Remaining time and memory."""
         ...
 
     def call(self, callee: Any, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
         """Call a value.
 
         Raises:
-            Exception: it may not be called, or whatever the call raises.
+            Exception: it may not be called, or what the call raises.
         """
         ...
 
 
 Guarded = Callable[[Caller, Sequence[Any], Mapping[str, Any]], Any]
-"""A function that bounds its own work."""
+"""Function that bounds its own cost."""
 
 
 class Callee:
-    """A value that an expression may call; it has no attributes there."""
+    """Callable value without attributes."""
 
     __slots__ = ()
 
     def call(self, caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
-        """Call it."""
+        """Call the value."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Function(Callee):
-    """A function that the program offers to the expressions of a file."""
+    """Function that the program offers to the expressions of a file."""
 
     name: str
     body: Guarded
@@ -53,7 +53,7 @@ class Function(Callee):
 
 
 def wrap_function(function: Callable[..., Any], name: str | None = None) -> Function:
-    """Offer a function of Python that does no more work than its values are long."""
+    """Offer a Python function whose cost is linear in the length of its arguments."""
 
     def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         caller.budget.spend(10)
