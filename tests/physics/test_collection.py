@@ -15,7 +15,7 @@ from trundle.simulation import Simulation
 COLLECTION = Path(__file__).resolve().parents[3] / "shared/corpus"
 REPOSITORIES = COLLECTION / "repos"
 KINDS = ("*.sdf", "*.world", "*.urdf")
-NO_XML = r"not well-formed XML: the root element has to start here"
+NO_XML = r"not well-formed XML: the root element must start here"
 NO_DESCRIPTION = r"<urdf> starts neither an SDF"
 JOINT_STATES = "ros+joint_state_publisher/joint_state_publisher/test"
 REFUSED = {

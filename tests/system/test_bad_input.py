@@ -13,7 +13,7 @@ LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf
     ("name", "text", "sentence"),
     [
         ("empty.sdf", "", "empty.sdf:1: error: the file is empty"),
-        ("words.sdf", "hello", "words.sdf:1: error: not well-formed XML: the root element has to start here, with '<'"),
+        ("words.sdf", "hello", "words.sdf:1: error: not well-formed XML: the root element must start here, with '<'"),
         ("other.sdf", "<html/>", "other.sdf:1: error: <html> starts neither an SDF (<sdf>) nor a URDF (<robot>)"),
         (
             "joint.sdf",

@@ -44,7 +44,7 @@ def test_a_second_one_of_what_there_is_one_of_is_named() -> None:
     ("text", "sentence"),
     [
         ("", "x.xml:1: error: the file is empty"),
-        ("hello", "x.xml:1: error: not well-formed XML: the root element has to start here, with '<' (column 1)"),
+        ("hello", "x.xml:1: error: not well-formed XML: the root element must start here, with '<' (column 1)"),
         ("<a>\n<b></a>", "x.xml:2: error: not well-formed XML: </a> where <b> of line 2 is still open (column 8)"),
         (" \n  <a>\n<b></a>", "x.xml:3: error: not well-formed XML: </a> where <b> of line 3 is still open (column 8)"),
         ("\n  <a b></a>", "x.xml:2: error: not well-formed XML: attribute 'b' has no value (column 7)"),

@@ -1,4 +1,4 @@
-"""XML text to a tree that knows file and line and what of it nobody read: the only door to lxml."""
+"""XML tree with file, line and unread elements; the only user of lxml."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Says what is not well-formed about a document, and where, in place of libxml2's own words."""
+"""Sentences for syntax errors in XML, in place of libxml2's messages."""
 
 import re
 from collections.abc import Mapping
@@ -7,12 +7,12 @@ from lxml import etree
 
 _E = etree.ErrorTypes
 _POSITION = re.compile(r", line \d+, column \d+\s*$")
-"""libxml2 repeats the place."""
+"""Position that libxml2 repeats in its messages."""
 _ATTRIBUTE_TWICE = "attribute {0!r} is given twice"
 _NO_BLANK = "a blank is missing here"
 _CUT_SHORT = "<!DOCTYPE …> is cut short"
 _SENTENCES: Mapping[int, tuple[tuple[str, str], ...]] = {
-    _E.ERR_DOCUMENT_EMPTY: (("", "the root element has to start here, with '<'"),),
+    _E.ERR_DOCUMENT_EMPTY: (("", "the root element must start here, with '<'"),),
     _E.ERR_DOCUMENT_END: (("", "more follows where the root element has ended"),),
     _E.ERR_TAG_NAME_MISMATCH: ((r": (\S+) line (\d+) and (\S+)", "</{2}> where <{0}> of line {1} is still open"),),
     _E.ERR_TAG_NOT_FINISHED: ((r"tag (\S+) line (\d+)", "it ends where <{0}> of line {1} is still open"),),
@@ -22,12 +22,12 @@ _SENTENCES: Mapping[int, tuple[tuple[str, str], ...]] = {
     ),
     _E.ERR_NAME_REQUIRED: (
         ("EntityRef", "'&' starts no reference here; write &amp;"),
-        ("attribute", "an attribute, or the '>' that ends the tag, has to stand here"),
+        ("attribute", "an attribute, or the '>' that ends the tag, must stand here"),
         ("StartTag", "'<' starts no tag here; write &lt;"),
     ),
     _E.ERR_ENTITYREF_SEMICOL_MISSING: (("", "no ';' ends what '&' starts; for an '&' alone write &amp;"),),
     _E.ERR_UNDECLARED_ENTITY: (("'(.*)'", "&{0}; is not defined; XML has &amp; &lt; &gt; &quot; and &apos;"),),
-    _E.ERR_ENTITY_LOOP: (("", "an entity that holds itself"),),
+    _E.ERR_ENTITY_LOOP: (("", "an entity that contains itself"),),
     _E.ERR_ATTRIBUTE_REDEFINED: ((r"Attribute (\S+)", _ATTRIBUTE_TWICE),),
     _E.NS_ERR_ATTRIBUTE_REDEFINED: ((r"Attribute (\S+)", _ATTRIBUTE_TWICE),),
     _E.ERR_ATTRIBUTE_WITHOUT_VALUE: ((r"attribute (\S+)", "attribute {0!r} has no value"),),
@@ -46,9 +46,9 @@ _SENTENCES: Mapping[int, tuple[tuple[str, str], ...]] = {
     _E.ERR_DOCTYPE_NOT_FINISHED: (("", _CUT_SHORT),),
     _E.ERR_INT_SUBSET_NOT_FINISHED: (("", _CUT_SHORT),),
     _E.ERR_INVALID_CHAR: (("", "a character that XML does not allow"),),
-    _E.ERR_INVALID_HEX_CHARREF: (("", "&#x…; of what is no hexadecimal number"),),
-    _E.ERR_INVALID_DEC_CHARREF: (("", "&#…; of what is no number"),),
-    _E.ERR_INVALID_ENCODING: (("", "bytes that are none of the encoding it is in"),),
+    _E.ERR_INVALID_HEX_CHARREF: (("", "&#x…; without a hexadecimal number"),),
+    _E.ERR_INVALID_DEC_CHARREF: (("", "&#…; without a number"),),
+    _E.ERR_INVALID_ENCODING: (("", "bytes that are invalid in its encoding"),),
     _E.ERR_UNSUPPORTED_ENCODING: ((r": (\S+)", "the encoding {0!r} is not known"),),
     _E.ERR_NAME_TOO_LONG: (("", "a name of more than 50000 characters"),),
     _E.ERR_RESOURCE_LIMIT: (
@@ -57,17 +57,17 @@ _SENTENCES: Mapping[int, tuple[tuple[str, str], ...]] = {
         ("", "a text of more than ten million characters"),
     ),
     _E.NS_ERR_UNDEFINED_NAMESPACE: ((r"prefix (\S+)", 'the prefix {0!r} is not declared; xmlns:{0}="…" declares it'),),
-    _E.NS_ERR_QNAME: ((r"'(.*)'", "{0!r} is no name, which has a colon only between two words"),),
+    _E.NS_ERR_QNAME: ((r"'(.*)'", "{0!r} is not a name: a colon stands only between two words"),),
 }
-"""By the kind of an error, what its message holds → our sentence, with what the pattern's groups found."""
+"""Error code → (pattern in libxml2's message, sentence formatted with the pattern's groups)."""
 
 
 def place_fault(error: etree.XMLSyntaxError, *, before: bytes) -> tuple[int, str]:
-    """The line of an error, and a sentence with the column.
+    """Return the line of an error, and a sentence with the column.
 
     Args:
-        error: what libxml2 found.
-        before: white space in front of the document that libxml2 was not given.
+        error: libxml2's error.
+        before: white space before the document that libxml2 did not see.
     """
     lines = before.count(b"\n")
     line, column = error.lineno or 1, (error.offset or 0) + 1

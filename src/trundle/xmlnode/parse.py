@@ -1,4 +1,4 @@
-"""Files and bytes to elements: bounded, and as forgiving as Gazebo's and ROS's old readers where one asks for it.
+"""XML parser with bounds, and optionally as tolerant as Gazebo's and ROS's old parsers.
 
 Entities are never fetched and never expanded without bound, so a hostile file costs no more than its own size.
 """
@@ -17,7 +17,7 @@ from .tinyxml import rewrite_as_xml
 
 _MAX_BYTES = 64 * 1024 * 1024
 _DEEPEST = 256
-"""libxml2's own bound."""
+"""libxml2's own limit."""
 _TOO_MUCH = etree.ErrorTypes.ERR_RESOURCE_LIMIT
 
 
@@ -25,13 +25,13 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     """Parse a document.
 
     Args:
-        text: all of it.
-        name: how messages call it.
-        report: with one, slips that Gazebo's and ROS's old XML readers let pass are named there and let pass too.
-        deepest: elements within one another that are read, for readers that do not go down all of them.
+        text: the whole document.
+        name: file name in messages.
+        report: if given, errors that Gazebo's and ROS's old XML parsers tolerate become warnings.
+        deepest: largest nesting depth, for readers that do not descend into all of it.
 
     Raises:
-        DescriptionError: not XML, empty, or larger or deeper than any honest file.
+        DescriptionError: not XML, empty, or beyond the size or depth limit.
     """
     data = text.encode() if isinstance(text, str) else text
     if len(data) > _MAX_BYTES:
@@ -39,12 +39,12 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     if not data.strip():
         raise DescriptionError(Source(name, 1), "the file is empty")
     if report is not None and not _says_or_is_unicode(data):
-        report.warn(Source(name, 1), "bytes that are no UTF-8 in a file that names no encoding; read as Latin-1")
+        report.warn(Source(name, 1), "not UTF-8, and no encoding is declared; read as Latin-1")
         data = data.decode("latin-1").encode()
     if report is not None and data.startswith(_UTF_16):
         report.warn(Source(name, 1), "UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8")
     parser = _parser()
-    document = data.lstrip()  # tutorials and templates start with blank lines, and Gazebo and ROS read on
+    document = data.lstrip()  # Gazebo and ROS accept leading blank lines, which tutorials and templates have
     before = data[: len(data) - len(document)]
     try:
         root = etree.fromstring(document, parser)
@@ -77,11 +77,13 @@ _PREFIXES = frozenset(
         etree.ErrorTypes.NS_ERR_XML_NAMESPACE,
     }
 )
-"""Undeclared prefixes, or two of them: names to TinyXML like any other. libxml2 keeps them as written."""
+"""Error codes of undeclared or double prefixes, which TinyXML treats as part of the name; libxml2 keeps them as
+written.
+"""
 
 
 def _says_or_is_unicode(data: bytes) -> bool:
-    """Whether a document names its encoding, or needs to name none."""
+    """True if a document declares its encoding or is valid UTF-8."""
     if b"encoding" in data[:200].split(b"?>")[0] or data.startswith(_UTF_16):
         return True
     try:
@@ -92,7 +94,9 @@ def _says_or_is_unicode(data: bytes) -> bool:
 
 
 def _deep(data: bytes, deepest: int) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
-    """The tree of a deep document; None where it is too deep, or defines entities, whose bounds fall with depth's."""
+    """Return the tree of a deep document; None if it is too deep, or defines entities, whose limits huge_tree lifts as
+    well.
+    """
     if b"<!DOCTYPE" in data:
         return None
     walk = etree.iterparse(
@@ -127,7 +131,7 @@ def _parser(*, recover: bool = False) -> etree.XMLParser:
 
 
 def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
-    """The tree of a document that TinyXML reads, or None."""
+    """Return the tree of a document that TinyXML accepts, or None."""
     text = rewrite_as_xml(data)
     if text is None:
         return None
@@ -140,7 +144,7 @@ def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportP
 
 
 def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
-    """Parse a file; `report` and `deepest` as for `parse_xml`.
+    """Parse a file; `report` and `deepest` as in `parse_xml`.
 
     Raises:
         DescriptionError: as `parse_xml`, or the file cannot be read.

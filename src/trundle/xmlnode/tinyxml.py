@@ -1,7 +1,7 @@
-"""Rewrites what TinyXML, the parser of Gazebo 11 and urdfdom, reads and XML does not allow.
+"""Conversion to XML of what TinyXML, the parser of Gazebo 11 and urdfdom, accepts beyond XML.
 
-It takes a bare `&`, values without quotes or with `<`, `--` in comments, control characters, a declaration anywhere
-and more after the root element. Line breaks stay where they are, and names as they are, stray colons included.
+It accepts a bare `&`, values without quotes or with `<`, `--` in comments, control characters, a declaration anywhere
+and content after the root element. Line breaks are kept, and so are names, including stray colons.
 """
 
 import re
@@ -18,17 +18,17 @@ _CONTROL = re.compile("[\x01-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]|&#(?:[0-8]|1[124
 
 
 class _RefusedError(Exception):
-    """TinyXML takes it for no document either."""
+    """Document that TinyXML refuses, too."""
 
 
 def rewrite_as_xml(data: bytes) -> bytes | None:
-    """A document as well-formed XML but for its prefixes.
+    """Return a document as XML that is well-formed except for its prefixes.
 
     Args:
-        data: all of it.
+        data: the whole document.
 
     Returns:
-        None where TinyXML refuses it, too, or where it defines entities, which TinyXML never expands.
+        None if TinyXML refuses it, too, or if it defines entities, which TinyXML never expands.
     """
     text = _decoded(data)
     if "\0" in text or "<!ENTITY" in text:
@@ -46,7 +46,7 @@ def rewrite_as_xml(data: bytes) -> bytes | None:
 
 
 def _decoded(data: bytes) -> str:
-    """As UTF-8, or else as Latin-1, which every sequence of bytes is."""
+    """Decode as UTF-8, or as Latin-1, which accepts any bytes."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -54,7 +54,7 @@ def _decoded(data: bytes) -> str:
 
 
 def _next(text: str, at: int) -> tuple[str, int, int]:
-    """The piece of a document that begins at a place: as XML, where it ends, how many elements deeper that is."""
+    """Return the next token as XML, its end, and the change of depth."""
     if plain := _TEXT.match(text, at):
         return _escaped(plain[0]), plain.end(), 0
     if start := _START.match(text, at):
@@ -66,7 +66,7 @@ def _next(text: str, at: int) -> tuple[str, int, int]:
     if text.startswith(_CDATA, at):
         end = _after(text, at, "]]>")
         return _CONTROL.sub("", text[at:end]), end, 0
-    # Comments, declarations and what TinyXML calls unknown: only their line breaks are kept.
+    # Comments, declarations and unknown tags: only their line breaks are kept.
     end = _after(text, at, "-->" if text.startswith("<!--", at) else ">")
     return "\n" * text.count("\n", at, end), end, 0
 
@@ -85,7 +85,7 @@ def _start_tag(text: str, start: re.Match[str]) -> tuple[str, int, int]:
 
 
 def _after(text: str, at: int, mark: str) -> int:
-    """Where something that ends with a mark ends."""
+    """Return the position after a mark."""
     found = text.find(mark, at)
     if found < 0:
         raise _RefusedError
@@ -93,6 +93,6 @@ def _after(text: str, at: int, mark: str) -> int:
 
 
 def _escaped(text: str) -> str:
-    """Text or a value, without what no reference explains; TinyXML drops a bare `&` likewise."""
+    """Return escaped text without invalid references; TinyXML drops a bare `&`, too."""
     text = _CONTROL.sub("", _BARE.sub("", text))
     return text.replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
