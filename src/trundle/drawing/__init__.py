@@ -1,4 +1,4 @@
-"""Graphs of nodes and topics, and curves over time: as text for a terminal, as SVG pictures."""
+"""Node graphs, trees and curves over time, as text for a terminal or as SVG."""
 
 import lazy_loader
 

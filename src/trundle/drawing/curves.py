@@ -1,4 +1,4 @@
-"""Curves over time: as an SVG picture, and as characters for a terminal."""
+"""Curves over time, as SVG or as text for a terminal."""
 
 import math
 from collections.abc import Sequence
@@ -8,24 +8,24 @@ from html import escape
 _COLOURS = ("#2563a8", "#c2501b", "#2f8f4e", "#8a3fa0", "#b8860b", "#157f8c", "#b02a4c", "#5c6470")
 _MARKS = "*+ox#%@&"
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP, _LINE, _CHARACTER = 900, 420, 80, 40, 16, 18, 7.2
-"""[px] Of the picture without its legend, of its margins, a line of the legend, a letter."""
+"""Width and height without legend, margins, height of a legend line, width of a character [px]."""
 _TICKS = 6
 _NOISE = 1e-9
-"""Of a value, what is drawn as a level line: a robot at rest is not magnified."""
+"""Span relative to the value below which a curve is drawn flat: a robot at rest is not magnified."""
 _BEYOND = 1e300
-"""What is larger, as the greatest double, is no number to draw: spans of such are beyond a double."""
+"""Largest value drawn; the span of larger ones overflows a double."""
 
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """A name and (time [s], value) in order of time."""
+    """Name and (time [s], value) points in order of time."""
 
     name: str
     points: list[tuple[float, float]]
 
 
 def curves_svg(curves: Sequence[Curve]) -> str:
-    """Draw curves with axes and a legend below."""
+    """Draw curves with axes and a legend below, as SVG."""
     times, values = _ranges(curves)
     right, low = _WIDTH - 20, _HEIGHT - _BOTTOM
     marks, moments = _ticks(*values), _ticks(*times)
@@ -65,7 +65,7 @@ def curves_svg(curves: Sequence[Curve]) -> str:
 
 
 def curves_text(curves: Sequence[Curve], *, columns: int, rows: int) -> str:
-    """Draw curves with characters, one kind for each curve."""
+    """Draw curves as text, with one character per curve."""
     times, values = _ranges(curves)
     digits = _digits(max(map(abs, values)), (values[1] - values[0]) / 10)
     bottom, top = (f"{value:.{digits}g}" for value in values)
@@ -91,7 +91,7 @@ def curves_text(curves: Sequence[Curve], *, columns: int, rows: int) -> str:
 
 
 def _ranges(curves: Sequence[Curve]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """What the axes span; never nothing."""
+    """Return the ranges of both axes, never empty."""
     times = [t for curve in curves if curve.points for t in (curve.points[0][0], curve.points[-1][0])] or [0.0]
     values = [value for curve in curves for _, value in curve.points if abs(value) < _BEYOND] or [0.0]
     start, end, low, high = min(times), max(times), min(values), max(values)
@@ -101,7 +101,7 @@ def _ranges(curves: Sequence[Curve]) -> tuple[tuple[float, float], tuple[float, 
 
 
 def _ticks(low: float, high: float) -> list[tuple[float, str]]:
-    """Round numbers between two, and how each is written."""
+    """Return round tick values and their labels."""
     rough = (high - low) / _TICKS
     power = 10.0 ** math.floor(math.log10(rough))
     step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= rough)
@@ -111,12 +111,12 @@ def _ticks(low: float, high: float) -> list[tuple[float, str]]:
 
 
 def _digits(most: float, step: float) -> int:
-    """How many digits tell numbers apart that differ by a step: eastings of a map are large and near one another."""
+    """Return the digits that distinguish values one step apart, such as large map eastings."""
     return max(4, math.ceil(math.log10(most / step)) + 1)
 
 
 def _pieces(curve: Curve) -> list[list[tuple[float, float]]]:
-    """A curve is broken where it is no number."""
+    """Split a curve at points that are not finite."""
     pieces: list[list[tuple[float, float]]] = [[]]
     for point in curve.points:
         if abs(point[1]) < _BEYOND:
@@ -129,7 +129,7 @@ def _pieces(curve: Curve) -> list[list[tuple[float, float]]]:
 def _decimated(
     points: Sequence[tuple[float, float]], times: tuple[float, float], width: int
 ) -> list[tuple[float, float]]:
-    """Leave of the points above one pixel the first, the least, the greatest and the last."""
+    """Keep the first, smallest, largest and last point per pixel column."""
     above: dict[int, list[tuple[float, float]]] = {}
     for point in points:
         above.setdefault(int((point[0] - times[0]) / (times[1] - times[0]) * width), []).append(point)

@@ -1,4 +1,4 @@
-"""A graph of nodes and topics: as text for Graphviz, and as an SVG picture in columns from left to right."""
+"""Graph of nodes and topics, as DOT or as SVG with columns from left to right."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,16 +10,16 @@ from .layered_layout import Vertex, layered_layout
 
 Item: TypeAlias = tuple[Literal["node", "topic"], str]
 _ROW, _SLOT, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 40, 12, 80, 26, 7.2, 16
-"""[px] Boxes in a column are this far apart, arrows that pass it, columns; boxes are this high, letters this wide."""
+"""Row height of a box and of a passing arrow, column gap, box height, character width, margin [px]."""
 _LEVEL, _LOWER = 10, 7
-"""[px] An arrow runs level this far beside a column; one that closes a loop begins and ends this much lower."""
+"""Length of an arrow's horizontal ends, and vertical offset of the ends of a loop-closing arrow [px]."""
 _QUIET = ("/rosout", "/rosout_agg", "/clock", "/diagnostics", "/statistics")
-"""What everybody talks about; rqt_graph hides them too."""
+"""Topics of almost every node, which rqt_graph hides too."""
 
 
 @dataclass(frozen=True, slots=True)
 class NodeGraph:
-    """Nodes, topics and the arrows between them."""
+    """Nodes, topics and arrows."""
 
     items: list[Item]
     edges: list[tuple[Item, Item]]
@@ -28,12 +28,12 @@ class NodeGraph:
 def node_graph(
     publishers: Mapping[str, Sequence[str]], subscribers: Mapping[str, Sequence[str]], *, with_all: bool
 ) -> NodeGraph:
-    """Who publishes what to whom.
+    """Build the graph of publishers and subscribers.
 
     Args:
         publishers: topic → nodes.
         subscribers: topic → nodes.
-        with_all: what everybody talks about, and what nobody hears, too.
+        with_all: include topics such as /rosout, and topics without subscribers or publishers.
     """
     topics = sorted({*publishers, *subscribers})
     if not with_all:
@@ -53,7 +53,7 @@ def _node(name: str) -> Item:
 
 
 def graph_dot(drawing: NodeGraph) -> str:
-    """Write it in Graphviz' language: nodes round, topics square."""
+    """Write the graph in DOT: nodes round, topics square."""
     lines = ["digraph graphname {", "  rankdir=LR;"]
     for kind, name in drawing.items:
         lines.append(f"  {_id(kind, name)} [label={_text(name)}, shape={'ellipse' if kind == 'node' else 'box'}];")
@@ -62,7 +62,7 @@ def graph_dot(drawing: NodeGraph) -> str:
 
 
 def graph_svg(drawing: NodeGraph) -> str:
-    """Draw it: each item right of those that feed it, as far as loops allow."""
+    """Draw the graph as SVG, each item right of its inputs as far as loops allow."""
     placed = layered_layout(drawing.items, drawing.edges, box_gap=_ROW, slot_gap=_SLOT)
     widths: dict[Vertex, float] = {item: len(item[1]) * _CHARACTER + 20 for item in drawing.items}
     places: dict[Vertex, _Slot] = {}
@@ -94,17 +94,17 @@ def graph_svg(drawing: NodeGraph) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Slot:
-    """Of a box, or of the slot that an arrow has in a column it passes [px]."""
+    """Position of a box, or of an arrow passing a column [px]."""
 
     left: float
     middle: float
     width: float
     column: tuple[float, float]
-    """Between which arrows run level."""
+    """Left and right end of the horizontal part of arrows."""
 
 
 def _arrow(route: Sequence[_Slot]) -> str:
-    """Level through columns, bent between them; an arrow that closes a loop goes from right to left."""
+    """Draw an arrow, horizontal through columns and curved between them; a loop-closing one runs from right to left."""
     forwards = route[0].column <= route[-1].column
     start, end = route[0], route[-1]
     heights = [place.middle for place in route]

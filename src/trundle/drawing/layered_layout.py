@@ -1,7 +1,7 @@
-"""Where the boxes and arrows of a graph go: in columns from left to right, by Sugiyama's method.
+"""Layered graph layout in columns from left to right, by Sugiyama's method.
 
 K. Sugiyama, S. Tagawa, M. Toda: Methods for visual understanding of hierarchical system structures, 1981. An arrow that
-spans columns has a slot of its own in each of those between, so that none runs behind a box.
+spans columns has a slot in each of them, so that it never runs behind a box.
 """
 
 from collections.abc import Hashable, Mapping, Sequence
@@ -11,33 +11,33 @@ from typing import TypeAlias
 
 Vertex: TypeAlias = Hashable
 _SWEEPS = 12
-"""Passes of sorting each column by its neighbours, which takes most crossings out."""
+"""Passes of sorting each column by its neighbours, which removes most crossings."""
 _STRAIGHT = 8.0
-"""How much rather an arrow is straight than a box in the middle of its neighbours."""
+"""Weight of a straight arrow against a centred box."""
 
 
 @dataclass(frozen=True, slots=True)
 class LayeredLayout:
-    """Columns of boxes and slots, and how high each is."""
+    """Columns of boxes and slots, and their vertical positions."""
 
     columns: list[list[Vertex]]
-    """From left to right, each from top to bottom; a slot is (number of the edge, column)."""
+    """Columns from left to right, each from top to bottom; a slot is (number of the edge, column)."""
     heights: dict[Vertex, float]
-    """The middle of each, from 0 at the topmost."""
+    """Vertical centre of each, from 0 at the topmost."""
     routes: list[list[Vertex]]
-    """For each edge what it passes from its start to its end, slots included."""
+    """Vertices of each edge from start to end, slots included."""
 
 
 def layered_layout(
     items: Sequence[Vertex], edges: Sequence[tuple[Vertex, Vertex]], *, box_gap: float, slot_gap: float
 ) -> LayeredLayout:
-    """Place the boxes: each right of those that feed it, as far as loops allow.
+    """Place the boxes, each right of its inputs as far as loops allow.
 
     Args:
-        items: the boxes.
-        edges: between boxes, from, to.
-        box_gap: between the middles of two boxes in a column; half of it goes to each.
-        slot_gap: the same of two slots.
+        items: boxes.
+        edges: pairs of boxes, (from, to).
+        box_gap: distance between the centres of two boxes in a column.
+        slot_gap: distance between the centres of two slots.
     """
     order = _without_loops(items, edges)
     position = {item: i for i, item in enumerate(order)}
@@ -64,7 +64,7 @@ def layered_layout(
     _sort(columns, links)
     heights = _heights(columns, links, boxes, box_gap, slot_gap)
     lowest = max(heights.values(), default=-box_gap)
-    for item in (item for item in items if item not in joined):  # what has no arrows goes below all else
+    for item in (item for item in items if item not in joined):  # boxes without arrows go below all others
         lowest += box_gap
         heights[item] = lowest
         columns[0].append(item)
@@ -73,14 +73,14 @@ def layered_layout(
 
 
 def _without_loops(items: Sequence[Vertex], edges: Sequence[tuple[Vertex, Vertex]]) -> list[Vertex]:
-    """Order the boxes so that arrows point forwards, but for those that close a loop."""
+    """Order the boxes so that all arrows point forwards, except those that close a loop."""
     below: dict[Vertex, list[Vertex]] = {item: [] for item in items}
     fed = {end for _, end in edges}
     for start, end in edges:
         below[start].append(end)
     done: dict[Vertex, None] = {}
     entered: set[Vertex] = set()
-    for first in sorted(items, key=lambda item: item in fed):  # a loop is cut where something comes into it
+    for first in sorted(items, key=lambda item: item in fed):  # a loop is cut at its entry
         waiting = [(first, iter(below[first]))] if first not in entered else []
         entered.add(first)
         while waiting:
@@ -96,7 +96,7 @@ def _without_loops(items: Sequence[Vertex], edges: Sequence[tuple[Vertex, Vertex
 
 
 def _depths(order: Sequence[Vertex], forwards: Sequence[tuple[Vertex, Vertex]]) -> dict[Vertex, int]:
-    """The column of each box: after the last of those that feed it; what nothing feeds, before the first it feeds."""
+    """Return the column of each box: after its last input; without inputs, before its first output."""
     below: dict[Vertex, list[Vertex]] = {item: [] for item in order}
     for start, end in forwards:
         if start != end:
@@ -112,7 +112,7 @@ def _depths(order: Sequence[Vertex], forwards: Sequence[tuple[Vertex, Vertex]]) 
 
 
 def _sort(columns: list[list[Vertex]], links: Mapping[Vertex, tuple[list[Vertex], list[Vertex]]]) -> None:
-    """Bring each column into the order of what its members are joined to, now on the left, now on the right."""
+    """Sort each column by the mean position of its neighbours, alternately left and right."""
     row = {vertex: float(i) for column in columns for i, vertex in enumerate(column)}
     for sweep in range(_SWEEPS):
         side = sweep % 2
@@ -129,7 +129,7 @@ def _heights(
     box_gap: float,
     slot_gap: float,
 ) -> dict[Vertex, float]:
-    """As high as what each is joined to, as far as its column has room."""
+    """Return heights close to those of the neighbours, as far as the column has room."""
     room = {vertex: box_gap if vertex in boxes else slot_gap for column in columns for vertex in column}
     height = {vertex: 0.0 for column in columns for vertex in column}
     for sweep in range(_SWEEPS):
@@ -144,7 +144,7 @@ def _heights(
 
 
 def _spread(wished: Sequence[float], weights: Sequence[float], room: Sequence[float]) -> list[float]:
-    """The heights nearest to those wished for that keep order and distance (pool adjacent violators)."""
+    """Return the heights nearest to the wished ones that keep order and distance (pool adjacent violators)."""
     offsets = [0.0]
     for above, below in pairwise(room):
         offsets.append(offsets[-1] + (above + below) / 2)

@@ -1,6 +1,6 @@
-"""A tree as lines for a terminal or as an SVG picture: kinematic trees, tf trees.
+"""Trees, such as kinematic or tf trees, as text or SVG.
 
-Iterative throughout: a chain of thousands is drawn like any other.
+Iterative throughout, so that the depth is unlimited.
 """
 
 from collections.abc import Iterator, Sequence
@@ -8,21 +8,21 @@ from dataclasses import dataclass, field
 from html import escape
 
 _ROW, _INDENT, _HEIGHT, _CHARACTER = 30, 36, 22, 7.2
-"""[px] Rows are this far apart, levels this deep, boxes this high, letters this wide."""
+"""Row height, indentation, box height, character width [px]."""
 
 
 @dataclass(slots=True)
 class TreeNode:
-    """A labelled node and what hangs below it."""
+    """Labelled node with children."""
 
     label: str
     edge: str = ""
-    """What joins it to the node above."""
+    """Label of the edge to the parent."""
     children: list["TreeNode"] = field(default_factory=list["TreeNode"])
 
 
 def tree_text(roots: Sequence[TreeNode]) -> str:
-    """Draw trees with lines, one node a row.
+    """Draw trees with lines, one node per row.
 
     base
     ├─ wheel  (hinge: revolute)
@@ -37,7 +37,7 @@ def tree_text(roots: Sequence[TreeNode]) -> str:
 
 
 def tree_svg(roots: Sequence[TreeNode], *, title: str) -> str:
-    """Draw trees as an SVG document: boxes in file order from top to bottom, joined by right-angled lines."""
+    """Draw trees as an SVG document: boxes in file order from top to bottom, connected by right-angled lines."""
     boxes: list[str] = []
     lines: list[str] = []
     rows_above: list[int] = []
@@ -70,7 +70,7 @@ def tree_svg(roots: Sequence[TreeNode], *, title: str) -> str:
 
 
 def _walk(roots: Sequence[TreeNode]) -> Iterator[tuple[TreeNode, tuple[bool, ...]]]:
-    """Every node from top to bottom, and for each level down to it whether it is the last there."""
+    """Yield every node in preorder, with a flag per level: True for the last sibling."""
     waiting = [(root, (i == len(roots) - 1,)) for i, root in enumerate(roots)][::-1]
     while waiting:
         node, lasts = waiting.pop()
