@@ -1,4 +1,4 @@
-"""Drive laws and what controllers share."""
+"""Drive kinematics, PID laws, speed limits and splines."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The law of two driven wheels: body speed to wheel speeds, and wheel travel back to where the body is."""
+"""Differential drive: body twist to wheel speeds, and wheel odometry."""
 
 import math
 
@@ -6,39 +6,39 @@ from msgspec import Struct
 
 
 class DifferentialDrive(Struct, frozen=True, kw_only=True):
-    """Two wheels on one axle."""
+    """Differential drive with two wheels on one axle."""
 
     wheel_radius: float
     """[m]"""
     separation: float
-    """Between the wheels' middles [m]."""
+    """Distance between the wheels' centres [m]."""
 
     def wheel_speeds(self, forward: float, turning: float) -> tuple[float, float]:
-        """Left and right wheel speed [rad/s], positive forwards.
+        """Return left and right wheel speed [rad/s], positive forwards.
 
         Args:
-            forward: of the axle's middle [m/s].
-            turning: to the left [rad/s].
+            forward: speed of the axle's centre [m/s].
+            turning: yaw rate, positive to the left [rad/s].
         """
         half = turning * self.separation / 2
         return (forward - half) / self.wheel_radius, (forward + half) / self.wheel_radius
 
 
 class WheelOdometry(Struct):
-    """Where the wheels say the body is, from where it started."""
+    """Planar odometry from wheel rotation, relative to the start."""
 
     drive: DifferentialDrive
     x: float = 0.0
-    """Forwards [m]."""
+    """Position forwards [m]."""
     y: float = 0.0
-    """To the left [m]."""
+    """Position to the left [m]."""
     yaw: float = 0.0
-    """[rad], not wrapped."""
+    """Yaw [rad], not wrapped."""
 
     def update(self, left: float, right: float) -> tuple[float, float]:
-        """Add what the wheels turned [rad], positive forwards; return distance [m] and turn [rad].
+        """Add wheel rotations [rad], positive forwards; return distance [m] and change of yaw [rad].
 
-        The arc is taken along its chord's direction, which is exact for the turn and of third order for the place.
+        The arc is replaced by a chord along the mean heading: exact in yaw, third-order in position.
         """
         left, right = left * self.drive.wheel_radius, right * self.drive.wheel_radius
         distance, turn = (left + right) / 2, (right - left) / self.drive.separation
@@ -49,5 +49,5 @@ class WheelOdometry(Struct):
 
 
 def step_towards(value: float, target: float, most: float) -> float:
-    """Move a value towards a target by no more than `most`."""
+    """Move a value towards a target by at most `most`."""
     return value + min(max(target - value, -most), most)

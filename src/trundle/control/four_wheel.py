@@ -1,4 +1,4 @@
-"""The law of four driven, steered wheels; the commands are four_wheel_steering_controller's."""
+"""Kinematics of four driven, steered wheels, with the commands of four_wheel_steering_controller."""
 
 import math
 from typing import TypeAlias
@@ -8,31 +8,31 @@ from msgspec import Struct
 Wheels: TypeAlias = tuple[float, float, float, float]
 """Front left, front right, rear left, rear right."""
 _SLOWEST = 0.001
-"""[m/s] What is slower stands."""
+"""Speed below which the robot stands [m/s]."""
 _TURNED = 0.001
-"""[rad] A wheel turned by less points straight on."""
+"""Steering angle below which a wheel points straight on [rad]."""
 _SAME = 0.01
-"""Tangents of the two angles of an axle that differ by less point at nothing near."""
+"""Difference of the tangents of an axle's angles below which its wheels are parallel."""
 
 
 class FourWheelSteering(Struct, frozen=True, kw_only=True):
-    """Two steered axles."""
+    """Robot with two steered axles."""
 
     track: float
-    """Between the steering axes of one axle [m]."""
+    """Distance between the steering axes of one axle [m]."""
     offset: float
-    """From a steering axis out to its wheel [m]."""
+    """Distance from a steering axis out to its wheel [m]."""
     radius: float
-    """Of the wheels [m]."""
+    """Wheel radius [m]."""
     base: float
-    """Between the axles [m]."""
+    """Wheelbase [m]."""
 
     def command_for_twist(self, forward: float, turning: float) -> tuple[Wheels, Wheels]:
-        """Wheel speeds [rad/s] and steering angles [rad] for both axles turned alike, the other way round.
+        """Return wheel speeds [rad/s] and steering angles [rad] for a twist, with opposite angles at the two axles.
 
         Args:
-            forward: of the middle [m/s].
-            turning: to the left [rad/s].
+            forward: speed of the centre [m/s].
+            turning: yaw rate, positive to the left [rad/s].
         """
         moves, half = abs(forward) > _SLOWEST, turning * self.track / 2
         speeds = (0.0, 0.0)
@@ -47,12 +47,12 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         return (*speeds, *speeds), (left, right, -left, -right)
 
     def command_for_angles(self, speed: float, front: float, rear: float) -> tuple[Wheels, Wheels]:
-        """Wheel speeds [rad/s] and steering angles [rad] for the angles that the axles' middles are to have.
+        """Return wheel speeds [rad/s] and steering angles [rad] for given angles at the axles' centres.
 
         Args:
-            speed: of the middle along the base [m/s].
-            front: to the left [rad].
-            rear: likewise.
+            speed: of the centre along the base [m/s].
+            front: front angle, positive to the left [rad].
+            rear: rear angle, positive to the left [rad].
         """
         ahead, behind = (math.tan(min(max(angle, -math.pi / 2), math.pi / 2)) for angle in (front, rear))
         apart = self.track * (ahead - behind) / 2
@@ -71,12 +71,12 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         return front_speeds + rear_speeds, angles
 
     def forward_kinematics(self, speeds: Wheels, front: float, rear: float) -> tuple[float, float, float]:
-        """How fast the middle goes forwards and to the left [m/s], and turns to the left [rad/s].
+        """Return the centre's velocity forwards and to the left [m/s], and the yaw rate, positive to the left [rad/s].
 
         Args:
             speeds: of the wheels [rad/s].
-            front: angle of the front axle's middle [rad].
-            rear: of the rear one's.
+            front: angle at the front axle's centre [rad].
+            rear: angle at the rear axle's centre [rad].
         """
         bend = (math.tan(front) - math.tan(rear)) / self.base
         ahead = self._axle_speed(speeds[:2], front, math.cos(front) * bend)
@@ -86,18 +86,20 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         return forward, (ahead * math.sin(front) + behind * math.sin(rear)) / 2, turning
 
     def _speeds(self, forward: float, turning: float, sideways: float) -> tuple[float, float]:
-        """Of an axle's left and right wheel, whose steering axes go `sideways` [m/s]."""
+        """Return the speeds of an axle's left and right wheel [rad/s], for a lateral speed of its steering
+        axes [m/s].
+        """
         sign, out, half = math.copysign(1.0, forward), turning * self.offset / self.radius, turning * self.track / 2
         left, right = (sign * math.hypot(forward + each, sideways) / self.radius for each in (-half, half))
         return left - out, right + out
 
     def _to_centre(self, left: float, right: float) -> float:
-        """How far along the base the point is from an axle about which it turns [m]."""
+        """Return the distance along the base from an axle to the centre of rotation [m]."""
         one, other = math.tan(left), math.tan(right)
         return one * other * self.track / (one - other) if abs(one - other) > _SAME else 0.0
 
     def _axle_speed(self, speeds: tuple[float, float], angle: float, curvature: float) -> float:
-        """Of an axle's middle along its own angle [m/s], by its wheels [rad/s]."""
+        """Return the speed of an axle's centre along its own angle [m/s], from its wheels [rad/s]."""
         wide = self.track * curvature
         ways = (math.sqrt(1.0 + sign * wide * math.cos(angle) + wide**2 / 4) for sign in (-1.0, 1.0))
         outward = (-self.offset * curvature, self.offset * curvature)
@@ -106,7 +108,7 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
 
 
 def axle_angle(left: float, right: float) -> float:
-    """The angle of an axle's middle [rad], by those of its wheels."""
+    """Return the angle at an axle's centre [rad], from those of its wheels."""
     one, other = math.tan(left), math.tan(right)
     if (abs(left) <= _TURNED and abs(right) <= _TURNED) or one + other == 0.0:
         return 0.0

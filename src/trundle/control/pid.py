@@ -1,29 +1,31 @@
-"""A PID law with a clamped integral, of one sign with the error."""
+"""PID law of Gazebo with a clamped integral; a positive error gives a negative command."""
 
 from msgspec import Struct
 
 
 class Pid(Struct, kw_only=True):
-    """Turns an error into a command; what is too large is wanted smaller."""
+    """PID controller for error = actual − desired."""
 
     p: float = 0.0
     i: float = 0.0
     d: float = 0.0
     i_min: float = 0.0
     i_max: float = 0.0
-    """What the integral may contribute."""
+    """Limits of the integral term."""
     low: float = 0.0
     high: float = -1.0
-    """What the command may be; any, where high is below low, as in Gazebo."""
+    """Limits of the command; unlimited if high < low, as in Gazebo."""
     _integral: float = 0.0
     _last: float = 0.0
 
     def reset(self) -> None:
-        """Forget every error."""
+        """Clear the integral and the last error."""
         self._integral = self._last = 0.0
 
     def command(self, error: float, dt: float) -> float:
-        """The command for what is minus what is wanted, dt [s] after the last; as in Gazebo the first d sees a jump."""
+        """Return the command for error = actual − desired, dt [s] after the last; as in Gazebo, the first derivative
+        sees a jump.
+        """
         if dt <= 0.0:
             return 0.0
         self._integral += error * dt

@@ -1,4 +1,4 @@
-"""How fast a commanded speed may be, change, and change its change."""
+"""Limits of velocity, acceleration and jerk of a command."""
 
 import math
 
@@ -6,7 +6,7 @@ from msgspec import Struct
 
 
 class SpeedLimit(Struct, frozen=True, kw_only=True):
-    """Limits of one direction of motion; the smaller limit on the way to it wins."""
+    """Limits of one direction of motion; the tightest applies."""
 
     min_velocity: float = -math.inf
     max_velocity: float = math.inf
@@ -19,7 +19,7 @@ class SpeedLimit(Struct, frozen=True, kw_only=True):
     """[m/s³ or rad/s³]"""
 
     def limit(self, wanted: float, last: float, before_last: float, dt: float) -> float:
-        """The speed nearest to the one wanted, dt [s] after the last and twice that after the one before."""
+        """Return the allowed velocity nearest to the wanted one, from the last two, each dt [s] apart."""
         if math.isfinite(self.max_jerk) or math.isfinite(self.min_jerk):
             change, before = wanted - last, last - before_last
             twice = 2.0 * dt * dt

@@ -1,4 +1,4 @@
-"""Trajectories of one joint: straight, cubic or quintic from point to point, by what each point states."""
+"""Joint trajectories: linear, cubic or quintic segments, depending on the data of each point."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -7,7 +7,7 @@ from msgspec import Struct
 
 
 class JointPoint(Struct, frozen=True):
-    """Where a joint is to be at a time, and how fast, if that is stated."""
+    """Position of a joint at a time, with optional velocity and acceleration."""
 
     time_s: float
     position: float
@@ -16,20 +16,20 @@ class JointPoint(Struct, frozen=True):
 
 
 class JointSpline:
-    """Goes through points in time; before the first and after the last it stays."""
+    """Trajectory through points; constant before the first and after the last."""
 
     def __init__(self, points: Sequence[JointPoint]) -> None:
-        """Take points in the order of their times; at least one."""
+        """Create a trajectory from at least one point, in order of time."""
         self._points = list(points)
         self._times = [point.time_s for point in self._points]
 
     @property
     def end_s(self) -> float:
-        """When it arrives."""
+        """Time of the last point."""
         return self._times[-1]
 
     def sample(self, time_s: float) -> tuple[float, float, float]:
-        """Position, velocity and acceleration."""
+        """Return position, velocity and acceleration."""
         number = bisect_right(self._times, time_s)
         if number == 0:
             return self._points[0].position, 0.0, 0.0
@@ -40,7 +40,7 @@ class JointSpline:
 
 
 def _interpolate(a: JointPoint, b: JointPoint, t: float) -> tuple[float, float, float]:
-    """Evaluate the polynomial of lowest degree that meets what both ends state."""
+    """Return the state on the polynomial of lowest degree through the data of both ends."""
     span = b.time_s - a.time_s
     way = b.position - a.position
     if a.velocity is None or b.velocity is None:

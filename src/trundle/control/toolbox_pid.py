@@ -1,32 +1,32 @@
-"""The PID law of ros_control's controllers."""
+"""PID law of ros_control's controllers (control_toolbox)."""
 
 from msgspec import Struct
 
 
 class ToolboxPid(Struct, kw_only=True):
-    """Turns the error, what is wanted less what is, into a command; control_toolbox's, gain by gain."""
+    """PID controller for error = desired − actual, with control_toolbox's gains."""
 
     p: float = 0.0
     i: float = 0.0
     d: float = 0.0
     i_clamp: float = 0.0
-    """What the integral may contribute, of either sign."""
+    """Limit of the integral term's magnitude."""
     antiwindup: bool = False
-    """Whether the integral itself stops growing there; else only what it contributes."""
+    """True if the integral itself is clamped; else only its contribution."""
     _integral: float = 0.0
     _last: float = 0.0
 
     def reset(self) -> None:
-        """Forget every error."""
+        """Clear the integral and the last error."""
         self._integral = self._last = 0.0
 
     def command(self, error: float, dt: float, *, slope: float | None = None) -> float:
-        """The command dt [s] after the last.
+        """Return the command, dt [s] after the last.
 
         Args:
-            error: wanted less actual.
+            error: desired − actual.
             dt: since the last command.
-            slope: of the error [1/s]; None: by the last error, which was 0 before the first.
+            slope: derivative of the error [1/s]; None: from the last error, which is 0 before the first.
         """
         if dt <= 0.0:
             return 0.0
