@@ -108,6 +108,6 @@ def test_a_skin_without_bones_is_a_box_and_says_why(tmp_path: Path) -> None:
 
     told = [finding.what for finding in sim.report.findings]
     assert any(
-        "actor 'bender' is a box of its skin's size; its bones do not move: its skin is nowhere" in each
+        "actor 'bender' is a box of its skin's size; its bones do not move: its skin file was not found" in each
         for each in told
     )

@@ -1,4 +1,4 @@
-"""What there is to see, as plain data, and what a renderer makes of it."""
+"""Scenes as plain data, and their renderers."""
 
 import lazy_loader
 

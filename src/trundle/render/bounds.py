@@ -1,4 +1,4 @@
-"""How far shapes reach."""
+"""Bounds of shapes."""
 
 import math
 
@@ -13,11 +13,11 @@ from .scene import ShapeGeometry
 
 _Points = NDArray[np.float64]
 _AROUND = 64
-"""Points round a circle: what lies between them is a thousandth of its radius farther out."""
+"""Points per circle; between them it bulges by a thousandth of its radius."""
 
 
 def corners_of(geometry: ShapeGeometry) -> list[Vector3]:
-    """The eight corners of the box around a shape, in its own frame [m]; none of an endless plane."""
+    """Return the eight corners of a shape's bounding box in its own frame [m]; none for an infinite plane."""
     match geometry:
         case Box((x, y, z)):
             half = (x / 2, y / 2, z / 2)
@@ -38,7 +38,7 @@ def corners_of(geometry: ShapeGeometry) -> list[Vector3]:
 
 
 def outline_of(geometry: ShapeGeometry) -> _Points:
-    """(n, 3) Points that reach as far as a shape does, whichever way one looks [m]; none of an endless plane."""
+    """Return (n, 3) points with the same extent as a shape in every direction [m]; none for an infinite plane."""
     match geometry:
         case Cylinder(radius, length):
             x, y = radius * np.cos(_TURNS), radius * np.sin(_TURNS)
@@ -58,7 +58,7 @@ def outline_of(geometry: ShapeGeometry) -> _Points:
 
 _TURNS = np.arange(_AROUND) * (math.tau / _AROUND)
 _HEIGHTS = np.linspace(-math.pi / 2, math.pi / 2, _AROUND // 2)
-"""Of an even number of circles, none of which is the equator: a capsule's halves part there."""
+"""Latitudes of an even number of circles, none of them the equator, where a capsule's halves separate."""
 _BALL: _Points = np.stack(
     [
         np.outer(np.cos(_HEIGHTS), np.cos(_TURNS)),
@@ -67,4 +67,4 @@ _BALL: _Points = np.stack(
     ],
     axis=-1,
 ).reshape(-1, 3)
-"""Radius 1."""
+"""Points on the unit sphere."""

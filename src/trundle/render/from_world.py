@@ -1,4 +1,4 @@
-"""A world's visuals, or its collision shapes, as a scene."""
+"""Conversion of a world's visuals or collisions to a scene."""
 
 from collections.abc import Iterator
 
@@ -28,19 +28,19 @@ from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
 _MAX_CORNERS = 1000
-"""Of a polyline: cutting it up takes time by their cube."""
+"""Most corners of a polyline; triangulation time grows with their cube."""
 _BARELY_THERE = 0.02
 """Opacity below which a visual is not drawn at all."""
 
 
 def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = False, mask: int = EVERY_BIT) -> Scene:
-    """Make a scene whose bodies are the links of all models, in file order: that of `Snapshot.poses`.
+    """Return a scene whose bodies are the links of all models, in the order of `Snapshot.poses`.
 
     Args:
-        world: what there is.
-        report: takes what cannot be drawn.
-        collisions: of these shapes; else of visuals.
-        mask: only visuals whose flags share a bit with it.
+        world: with its models.
+        report: takes warnings of shapes that cannot be drawn.
+        collisions: draw collisions instead of visuals.
+        mask: draw only visuals whose flags share a bit with it.
     """
     shapes: list[Shape] = []
     bodies: list[str] = []
@@ -122,7 +122,7 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
 
 
 def _textured_shapes(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Shape]:
-    """A shape as its material says; a mesh that the description does not paint comes in the colours of its file."""
+    """Yield a shape with its material; a mesh without one takes the colours of its file."""
     material = visual.material
     shape = Shape(
         name=visual.name,
@@ -157,7 +157,7 @@ def _prism(
         return None
     prism = prism_mesh(outlines, height)
     if len(prism.faces) == 0:
-        report.warn(at, "a polyline that holds no area; it is not drawn")
+        report.warn(at, "a polyline without area; it is not drawn")
         return None
     return prism
 

@@ -1,4 +1,4 @@
-"""Trundle's own renderer: pictures made on the CPU, in C++; no GPU, no display."""
+"""Trundle's own renderer, on the CPU in C++, without GPU or display."""
 
 from collections.abc import Callable, Sequence
 from typing import Generic, TypeVar
@@ -19,7 +19,7 @@ from .textures import load_texture
 refuse_stale(_native)
 
 _THINNEST = 1e-4
-"""[m] What a thickness of zero becomes: 0.1 mm."""
+"""Smallest thickness of a shape [m]."""
 _LIGHTS = {
     "directional": _native.LightKind.DIRECTIONAL,
     "point": _native.LightKind.POINT,
@@ -39,7 +39,7 @@ Item = TypeVar("Item")
 
 
 class _Registry(Generic[Key, Item]):
-    """Things that several shapes share, each made once."""
+    """Objects shared by several shapes, each created once."""
 
     def __init__(self) -> None:
         self._numbers: dict[Key, int] = {}
@@ -53,14 +53,14 @@ class _Registry(Generic[Key, Item]):
 
 
 class NativeRenderer:
-    """Implements `Renderer`: what is seen is found by exact ray intersection, of meshes by rasterising."""
+    """`Renderer` by exact ray intersection of primitives and rasterisation of meshes."""
 
     def __init__(self, scene: Scene, *, threads: int = 1) -> None:
-        """Hand a scene to C++.
+        """Pass a scene to C++.
 
         Args:
-            scene: what there is to see.
-            threads: that share the rows of all pictures of a call, at most 64; they are the same with any number.
+            scene: shapes and lights.
+            threads: share the rows of all images of a call, at most 64; results do not depend on their number.
         """
         meshes = _Registry[int, _native.Mesh]()
         textures = _Registry[Texture, _native.Texture]()
@@ -93,7 +93,7 @@ class NativeRenderer:
             for number, shape in enumerate(scene.shapes)
             if isinstance(shape.geometry, Mesh)
         }
-        """Of each shape that is one: its number in C++, and what it began as."""
+        """Shape number → mesh number in C++ and the initial mesh."""
         horizon, zenith = scene.sky or (scene.background, scene.background)
         self._renderer = _native.Renderer(
             bodies=len(scene.bodies),
@@ -121,7 +121,7 @@ class NativeRenderer:
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
     ) -> list[Picture]:
         """See `Renderer.render`."""
-        # In one piece: the memory of many small pictures would go back to the system after each call, to come anew.
+        # One allocation: memory of many small images would return to the system after each call.
         shape = (len(views), *size_of(views))
         rgb = np.empty((*shape, 3), dtype=np.uint8)
         depths = np.empty(shape, dtype=np.float32) if depth else None
@@ -141,17 +141,17 @@ class NativeRenderer:
     def cast(
         self, world_from_place: Pose, directions: NDArray[np.float64], *, reach_m: float, exclude: int | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        """Send rays from one place.
+        """Cast rays from one origin.
 
         Args:
-            world_from_place: where they start.
-            directions: (N, 3), of unit length, in that place's frame.
-            reach_m: how far they go.
-            exclude: a body to look through.
+            world_from_place: frame of the origin.
+            directions: (N, 3) unit vectors in that frame.
+            reach_m: largest distance.
+            exclude: body that rays ignore.
 
         Returns:
-            (N,) distances to the first shape [m], infinite where none is within reach; of a shape that a ray starts
-            inside, nothing is met. (N,) indices of the shapes in the scene, −1 for none.
+            (N,) distances to the first shape [m], infinite without a hit; a ray that starts inside a shape does not hit
+            it. (N,) indices of the shapes in the scene, −1 for none.
         """
         count = len(directions)
         ranges, shapes = np.empty(count), np.empty(count, _INDEX)

@@ -1,4 +1,4 @@
-"""What a renderer does: poses in, pictures out. Implementations live where their engines do."""
+"""Renderer interface: poses in, images out. Implementations live with their engines."""
 
 import math
 from collections.abc import Sequence
@@ -15,17 +15,17 @@ _LARGEST = 16384
 
 
 class Intrinsics(Struct, frozen=True, kw_only=True):
-    """A pinhole without distortion."""
+    """Pinhole camera without distortion."""
 
     width_px: int
     height_px: int
     horizontal_fov_rad: float
-    """Less than pi where a picture is to be drawn; what a wide lens sees is looked up in several such pictures."""
+    """Less than pi for rendering; a wide-angle image is composed of several."""
     near_m: float = 0.1
     far_m: float = 100.0
 
     def __post_init__(self) -> None:
-        """Refuse what no picture can be made with.
+        """Validate the values.
 
         Raises:
             ValueError: with the reason.
@@ -45,21 +45,21 @@ class Intrinsics(Struct, frozen=True, kw_only=True):
 
 
 class Picture(Struct, frozen=True, eq=False):
-    """What a camera saw."""
+    """Rendered image."""
 
     rgb: NDArray[np.uint8]
     """(height, width, 3)"""
     depth: NDArray[np.float32] | None = None
-    """(height, width) distance along the view axis [m]; infinite where nothing is."""
+    """(height, width) depth along the view axis [m]; infinite in the background."""
     segmentation: NDArray[np.int32] | None = None
-    """(height, width) index of the shape in the scene; -1 where nothing is."""
+    """(height, width) index of the shape in the scene; -1 in the background."""
 
 
 def size_of(views: Sequence[tuple[Pose, Intrinsics]]) -> tuple[int, int]:
-    """The height and width of all of them [px].
+    """Return the common height and width of views [px].
 
     Raises:
-        ValueError: there are none, or not all are of one size.
+        ValueError: there are none, or their sizes differ.
     """
     sizes = {(lens.height_px, lens.width_px) for _, lens in views}
     if len(sizes) != 1:
@@ -68,31 +68,31 @@ def size_of(views: Sequence[tuple[Pose, Intrinsics]]) -> tuple[int, int]:
 
 
 class Renderer(Protocol):
-    """Draws one scene from anywhere."""
+    """Renderer of one scene."""
 
     def update(self, poses: NDArray[np.float64]) -> None:
-        """Move the scene's bodies: (bodies, 7) x y z qw qx qy qz in the world."""
+        """Set the body poses: (bodies, 7) x y z qw qx qy qz in the world."""
         ...
 
     def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
-        """Give a shape that is a mesh other places for its vertices, (N, 3); its faces stay."""
+        """Set the vertices (N, 3) of a mesh shape; its faces stay."""
         ...
 
     def render(
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
     ) -> list[Picture]:
-        """Draw what cameras see at one instant, all in one call.
+        """Render the views of several cameras at one instant.
 
         Args:
-            views: world_from_camera and the lens of each; a camera looks along its +x, with y to the left and z up, as
-                in SDF.
-            depth: whether distances are wanted, too.
-            segmentation: likewise.
+            views: world_from_camera and intrinsics of each; a camera looks along its +x, with y to the left and z up,
+                as in SDF.
+            depth: render depths, too.
+            segmentation: render shape indices, too.
 
         Returns:
-            A picture for each, in their order.
+            One image per view, in order.
 
         Raises:
-            ValueError: there are none, or not all are of one size.
+            ValueError: there are none, or their sizes differ.
         """
         ...

@@ -1,4 +1,4 @@
-"""Roads as shapes."""
+"""Shapes of roads."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,7 @@ from .scene import Shape
 
 
 def road_shapes(world: World, report: Diagnostics) -> Iterator[Shape]:
-    """Each road, lying on what stands still: shapes ride on bodies, and a road is on none."""
+    """Yield each road on a static link, because shapes need a body."""
     links = [(model, link) for model in world.models for link in model.links]
     still = next((body for body, (model, link) in enumerate(links) if model.static or link.fixed), None)
     for road in world.roads:

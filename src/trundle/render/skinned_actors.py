@@ -1,4 +1,4 @@
-"""Actors' skins: the shapes they are made of, and where their vertices are at a moment."""
+"""Actors' skins: shapes and animated vertices."""
 
 from collections.abc import Callable
 
@@ -14,9 +14,9 @@ from .scene import Scene, SceneSkin, Shape
 
 
 def unsupported_reason(actor: Actor) -> str | None:
-    """Why the bones of an actor's skin do not move; None: they do."""
+    """Return the reason why an actor's skin cannot be animated; None if it can."""
     if actor.skin is None or actor.skin.path is None:
-        return "its skin is nowhere"
+        return "its skin file was not found"
     try:
         skin = load_skin(actor.skin.path)
         for animation in actor.animations:
@@ -28,12 +28,12 @@ def unsupported_reason(actor: Actor) -> str | None:
 
 
 def skinned_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], SceneSkin] | None:
-    """The shapes of an actor's skin as it begins, and how they go on; None where its bones do not move.
+    """Return the shapes of an actor's skin and their animation; None if it cannot be animated.
 
     Args:
         actor: with a skin.
-        body: that it rides on.
-        first: the number of the first of the shapes in the scene.
+        body: index of its body.
+        first: index of the first shape in the scene.
     """
     if actor.skin is None or actor.skin.path is None or unsupported_reason(actor) is not None:
         return None
@@ -54,7 +54,7 @@ def skinned_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Sc
 
 
 def update_skins(renderer: Renderer, scene: Scene, animation_state: Callable[[str], AnimationState]) -> None:
-    """Have the skins of a scene drawn as they are at their actors' moments."""
+    """Update the vertices of a scene's skins to their actors' animation states."""
     for skin in scene.skins:
         vertices = skin.vertices(animation_state(skin.actor))
         for number, rows in enumerate(skin.rows):
@@ -62,7 +62,7 @@ def update_skins(renderer: Renderer, scene: Scene, animation_state: Callable[[st
 
 
 class SkinnedActor:
-    """A skin on its animations."""
+    """Skin with its animations."""
 
     def __init__(self, actor: Actor, skin: Skin) -> None:
         assert actor.skin is not None
@@ -79,10 +79,10 @@ class SkinnedActor:
                 self._animations[animation.name] = (animation, motion, bones)
 
     def vertices(self, state: AnimationState) -> NDArray[np.float32]:
-        """(N, 3) where the skin's vertices are, in the actor's frame [m].
+        """Return (N, 3) vertices in the actor's frame [m].
 
-        As in Gazebo: the root bone of an actor on its way stays over the way, and with <interpolate_x> the animation
-        goes on with what has been covered.
+        As in Gazebo, a moving actor's root bone stays over its path, and with <interpolate_x> the animation advances
+        with the distance covered.
         """
         chosen = self._animations.get(state.animation) or next(iter(self._animations.values()), None)
         if chosen is None:

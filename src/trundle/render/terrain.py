@@ -1,4 +1,4 @@
-"""Terrain in the colours of its layers."""
+"""Terrain with painted layers."""
 
 from io import BytesIO
 
@@ -14,13 +14,13 @@ from trundle.spatial import Vector3
 from .textures import load_texture
 
 _MAX_SAMPLES = 257
-"""Of each side, as terrain is drawn."""
+"""Most height samples per side."""
 _SIDE_PX = 1024
-"""Of the image that lies once over all of it."""
+"""Size of the texture over the whole terrain [px]."""
 
 
 def painted_terrain(terrain: Heightmap, at: Source, report: Diagnostics) -> Mesh | None:
-    """Terrain with its layers as one image; None, and said so, where it cannot be drawn."""
+    """Return terrain with its layers as one texture; None with a warning if it cannot be drawn."""
     assert terrain.path is not None
     try:
         heights = read_heights(terrain.path, most=_MAX_SAMPLES)
@@ -66,7 +66,7 @@ def _painted(
 
 
 def _repeated(image: NDArray[np.uint8], side_m: float, size: Vector3) -> NDArray[np.float32]:
-    """(px, px, 3) an image over all of the terrain, the upper edge first, as fine as the picture is."""
+    """Return an image tiled over the terrain, (px, px, 3), upper edge first, at the texture's resolution."""
     side_m = side_m if side_m > 0.0 else size[0]
     wide, high = (min(max(round(_SIDE_PX * side_m / size[axis]), 1), image.shape[1 - axis]) for axis in (0, 1))
     tile = np.asarray(Image.fromarray(image).resize((wide, high), Image.Resampling.BOX), dtype=np.float32)

@@ -1,4 +1,4 @@
-"""Images that shapes are painted with."""
+"""Textures of shapes."""
 
 from functools import lru_cache
 
@@ -9,12 +9,12 @@ from trundle.meshes import Texture, image_file
 
 _MAX_PIXELS = 64 * 1024 * 1024
 _LARGEST = 4096
-"""Of each side; a larger image is reduced."""
+"""Largest side [px]; a larger image is reduced."""
 
 
 @lru_cache(maxsize=64)
 def load_texture(texture: Texture) -> NDArray[np.uint8] | None:
-    """Read an image as (height, width, 3), the highest row first; None where it cannot be read."""
+    """Read an image as (height, width, 3), top row first; None if it cannot be read."""
     from PIL import Image  # slow to load, and robots of plain shapes have no textures
 
     try:
