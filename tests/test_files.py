@@ -70,7 +70,7 @@ def test_a_pipe_of_the_command_line_is_read_to_its_end() -> None:
 def test_a_pipe_that_nothing_writes_to_does_not_hang(fifo: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(files, "_TIMEOUT_S", 0.05)
 
-    assert refused(lambda: files.read_stream(fifo)) == "nothing has written it to its end within 0.05 s"
+    assert refused(lambda: files.read_stream(fifo)) == "no end of the stream within 0.05 s"
 
 
 def test_a_stream_without_end_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,11 +16,11 @@ __all__ = ["__version__", "load"]
 
 
 def load(file: str, *, seed: int = 0) -> "Simulation":
-    """Read a robot or a world, ready to simulate; a robot alone is put on a ground plane under a sun.
+    """Load a robot or world, ready to simulate; a robot alone gets a ground plane and a sun.
 
     Args:
         file: SDF, URDF or xacro; a folder with model.config; or model://NAME.
-        seed: of everything random.
+        seed: of all random numbers.
 
     Raises:
         TrundleError: one sentence with file and line. Warnings are in the simulation's `report`.

@@ -1,23 +1,23 @@
-"""`trundle` and `python -m trundle`: the way in."""
+"""Entry point of `trundle` and `python -m trundle`."""
 
 import sys
 
 
 def main() -> int:
-    """Run the command; Ctrl-C before it could begin, and after it, ends the process without a word."""
+    """Run the command; Ctrl-C before its start or after its end exits silently."""
     try:
         import signal
 
         before = signal.signal(signal.SIGINT, signal.SIG_DFL)
         if hasattr(signal, "pthread_sigmask"):
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # cpp/start.cc held it back
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # blocked by cpp/start.cc
     except KeyboardInterrupt:
         return 130
     from trundle.cli import main as command
 
     signal.signal(signal.SIGINT, before)
     code = command()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # while Python ends there is nobody to answer it
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # during Python's shutdown no handler runs
     return code
 
 

@@ -1,7 +1,7 @@
-"""Access to the page: which requests are served, and which header fields answers carry.
+"""Access control of the page: which requests are served, and the header fields of responses.
 
-Any web page that a person visits can have the browser send requests to loopback, and a name of its own can lead
-there (DNS rebinding). What it cannot do is choose `Origin` and `Host`, or guess the session's token.
+Any web page that a user visits can have the browser send requests to loopback, and its domain can resolve to it (DNS
+rebinding). It cannot choose `Origin` and `Host`, or guess the session's token.
 """
 
 import secrets
@@ -14,7 +14,7 @@ from .page_address import AUTHORITY, NONE_ALLOWED, AllowedNames, is_address, is_
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageRequest:
-    """The fields of an HTTP request, or of a WebSocket's upgrade, that access is judged by."""
+    """Fields of an HTTP request or WebSocket upgrade that decide access."""
 
     target: str
     """Path and query."""
@@ -25,23 +25,23 @@ class PageRequest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Access:
-    """The rules of one server."""
+    """Access rules of one server."""
 
     host: str
-    """The name or address that it binds."""
+    """Host name or address of the socket."""
     port: int
     allowed: AllowedNames = NONE_ALLOWED
     needs_token: bool = False
-    """Whether only the token opens; always so off loopback."""
+    """True if the token is required; always so off loopback."""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
 
     def url(self, address: str, port: int) -> str:
-        """Where it is; with the token where that is asked for."""
+        """Return the URL, with the token if required."""
         query = f"/?token={self.token}" if self._is_closed else ""
         return f"http://{f'[{address}]' if ':' in address else address}:{port}{query}"
 
     def refusal(self, request: PageRequest) -> str | None:
-        """Return why a request is refused, in a sentence; None: it is served."""
+        """Return the reason for refusing a request, as a sentence; None: it is served."""
         if self._has_token_in_query(request) or (self._has_token_in_cookie(request) and _is_own(request)):
             return None
         if self._is_closed:
@@ -61,10 +61,10 @@ class Access:
         return None
 
     def answer_fields(self, request: PageRequest) -> dict[str, str]:
-        """Return the header fields of an answer to a request that is served.
+        """Return the header fields of a response.
 
-        The cookie carries the token on to the page's own requests; the policy keeps other pages from framing this
-        one, and what is written in this one from talking to other servers.
+        The cookie carries the token on to the page's own requests; the policy keeps other pages from framing this one,
+        and scripts in this one from contacting other servers.
         """
         framers = " ".join(("'self'", *self.allowed.origins))
         here = f" ws://{request.host} wss://{request.host}" if _name(request.host) else ""
@@ -88,7 +88,7 @@ class Access:
 
     @property
     def _cookie(self) -> str:
-        """Cookies are of a host; the port keeps those of several pages apart."""
+        """Cookie name; the port distinguishes pages of one host."""
         return f"trundle-{self.port}"
 
     def _has_token_in_query(self, request: PageRequest) -> bool:
@@ -108,7 +108,7 @@ class Access:
 
 
 def _is_own(request: PageRequest) -> bool:
-    """Whether no page sent it, or one of this very server."""
+    """True if the request comes from no page or from one of this server."""
     if request.origin is None:
         return True
     host = (request.host or "").lower()
@@ -116,7 +116,7 @@ def _is_own(request: PageRequest) -> bool:
 
 
 def _name(host: str | None) -> str:
-    """The name or address in a `Host` field; nothing where there is none."""
+    """Return the name or address in a `Host` field; empty if invalid."""
     found = AUTHORITY.fullmatch((host or "").lower())
     return "" if found is None else found[1].strip("[]").rstrip(".")
 

@@ -1,4 +1,4 @@
-"""Files that a command is asked to write: whole or not at all."""
+"""Atomic writing of output files."""
 
 import os
 import shutil
@@ -8,9 +8,9 @@ from .diagnostics import UsageError
 
 
 def write_atomically(path: Path, text: str) -> None:
-    """Write a text as UTF-8; a file that is there keeps what it holds until the new text is on the disk.
+    """Write a text as UTF-8; an existing file keeps its content until the new one is on disk.
 
-    Who may read it stays, a link stays one, and what is no file, a pipe or /dev/stdout, is written into.
+    Permissions and symbolic links are kept; pipes and devices such as /dev/stdout are written directly.
 
     Raises:
         UsageError: it cannot be written.
@@ -27,7 +27,7 @@ def write_atomically(path: Path, text: str) -> None:
 def _replace(path: Path, text: str) -> None:
     half = path.with_name(f".{path.name}.part")
     try:
-        half.unlink(missing_ok=True)  # of a program that was killed, or a link that another user put there
+        half.unlink(missing_ok=True)  # left by a killed program, or a link placed by another user
         with half.open("x", encoding="utf-8") as file:
             if path.exists():
                 shutil.copymode(path, half)

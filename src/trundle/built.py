@@ -1,4 +1,4 @@
-"""Tells compiled modules that are not of the C++ beside them, as a checkout has them once that is edited or pulled."""
+"""Check that the compiled modules of a checkout match its C++ sources."""
 
 import hashlib
 from functools import cache
@@ -11,22 +11,22 @@ _SOURCES = Path(__file__).parents[2] / "cpp"
 
 
 def refuse_stale(module: ModuleType) -> None:
-    """Refuse a compiled module of a checkout that was built of other sources; an installed wheel has none beside it.
+    """Refuse a compiled module of a checkout that was built from other sources; an installed wheel has no sources.
 
     Raises:
-        TrundleError: it was.
+        TrundleError: the sources differ.
     """
     wanted = _digest(_SOURCES)
     record = Path(str(module.__file__)).parents[1] / "sources.sha256"  # CMake's, installed with the modules
     if wanted is None or (record.is_file() and record.read_text() == wanted):
         return
-    what = f"the compiled part of Trundle is not of the sources in {_SOURCES}"
+    what = f"the compiled part of Trundle does not match the sources in {_SOURCES}"
     raise TrundleError(f"{what}; build it: make .venv/.ready, or pip install --editable {_SOURCES.parent}")
 
 
 @cache
 def _digest(sources: Path) -> str | None:
-    """As in CMakeLists.txt; None: no sources are there."""
+    """Return the digest, as in CMakeLists.txt; None without sources."""
     files = sorted(path for path in sources.glob("*") if path.suffix in (".cc", ".h"))
     digests = [hashlib.sha256(path.read_bytes()).hexdigest() for path in files]
     return hashlib.sha256("".join(digests).encode()).hexdigest() if files else None

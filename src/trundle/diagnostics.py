@@ -1,11 +1,11 @@
-"""What was found while reading, and where: sources, warnings and the error that ends a reading.
+"""Sources, warnings and errors of reading files.
 
-A `Diagnostics` is passed in by whoever asked for the reading; there is no global log. Every command imports this, so
-nothing here is a dataclass: their module takes longer to load than light commands take to work.
+A `Diagnostics` is passed in by the caller; there is no global log. Every command imports this module, so it has no
+dataclasses: their module takes longer to load than light commands take to run.
 
     TrundleError
-    ├── DescriptionError   a file says something nothing sensible can be made of
-    └── UsageError         the request itself is off (a taken port, an unknown name)
+    ├── DescriptionError   a file cannot be interpreted
+    └── UsageError         the request itself is wrong (a taken port, an unknown name)
 """
 
 from collections.abc import Iterable
@@ -13,12 +13,12 @@ from typing import Literal, NamedTuple, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
 _NAMED = 3
-"""Lines that are named beside the first where many are meant."""
+"""Most further lines listed for one message."""
 _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
 
 
 class Source(NamedTuple):
-    """A place in a text: the file as the user named it and the line, counted from 1."""
+    """Position in a text: the file as named by the user, and the line, counted from 1."""
 
     file: str
     line: int | None = None
@@ -28,18 +28,18 @@ class Source(NamedTuple):
 
 
 class TrundleError(Exception):
-    """Everything Trundle raises for a reason a user can mend."""
+    """Base of all errors that a user can fix."""
 
 
 class UsageError(TrundleError):
-    """The request cannot be met as it was put."""
+    """Request that cannot be fulfilled."""
 
 
 class DescriptionError(TrundleError):
-    """A file, or a place in it, of which nothing sensible can be made."""
+    """File, or place in a file, that cannot be interpreted."""
 
     def __init__(self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = ()) -> None:
-        """Say what is wrong, and `more` that is."""
+        """State the error, and further ones in `more`."""
         self.at = at
         self.what = what
         self.more = tuple(more)
@@ -47,7 +47,7 @@ class DescriptionError(TrundleError):
 
 
 class DiagnosticJson(TypedDict):
-    """One finding as `--json` prints it."""
+    """Finding in `--json` output."""
 
     severity: str
     file: str
@@ -56,7 +56,7 @@ class DiagnosticJson(TypedDict):
 
 
 class Diagnostic(NamedTuple):
-    """One finding."""
+    """Finding with severity, source and message."""
 
     severity: Severity
     at: Source
@@ -70,16 +70,16 @@ class Diagnostic(NamedTuple):
 
 
 class Diagnostics:
-    """Collects findings in the order they were made, each once."""
+    """Collection of findings in order, without duplicates."""
 
     def __init__(self, *, strict: bool = False) -> None:
-        """Start with nothing found; `strict` makes every warning an error, and the reading ends at the first one."""
+        """Start empty; `strict` turns every warning into an error, so that reading ends at the first one."""
         self.strict = strict
         self.findings: list[Diagnostic] = []
         self._seen: set[Diagnostic] = set()
 
     def warn(self, at: Source, what: str) -> None:
-        """Name something wrong or unsupported; the sentence states what is done instead.
+        """Add a warning; the sentence states what is done instead.
 
         Raises:
             DescriptionError: in strict mode.
@@ -89,7 +89,7 @@ class Diagnostics:
         self._add(Diagnostic("warning", at, what))
 
     def warn_error(self, error: TrundleError, at: Source, otherwise: str, *, who: str = "") -> None:
-        """Name an error that ends nothing, where it says itself or else at `at`; `otherwise` states what is done.
+        """Add a recovered error as a warning, at its own source or else at `at`; `otherwise` states what is done.
 
         Raises:
             DescriptionError: in strict mode.
@@ -98,16 +98,16 @@ class Diagnostics:
         self.warn(where, f"{who}: {what}; {otherwise}" if who else f"{what}; {otherwise}")
 
     def info(self, at: Source, what: str) -> None:
-        """Name a rule that fired and that a reader of the file may not expect."""
+        """Add a note on an applied rule that a reader of the file may not expect."""
         self._add(Diagnostic("info", at, what))
 
     def error(self, error: DescriptionError) -> None:
-        """Keep the error that ended a reading, and more that it names, beside what led up to it."""
+        """Add the error that ended a reading, and the further ones in it."""
         for each in (error, *error.more):
             self._add(Diagnostic("error", each.at, each.what))
 
     def extend(self, findings: Iterable[Diagnostic]) -> None:
-        """Take over another collection's findings."""
+        """Add the findings of another collection."""
         for finding in findings:
             self._add(finding)
 
@@ -118,16 +118,16 @@ class Diagnostics:
 
     @property
     def warnings(self) -> list[str]:
-        """The warnings as printed."""
+        """Printed warnings."""
         return [str(f) for f in self.findings if f.severity == "warning"]
 
     @property
     def errors(self) -> list[str]:
-        """The errors as printed."""
+        """Printed errors."""
         return [str(f) for f in self.findings if f.severity == "error"]
 
     def worst_first(self) -> list[str]:
-        """Errors, then warnings, then notes as printed; what is said of many lines of a file is printed once."""
+        """Return printed errors, then warnings, then notes; a message for many lines of a file is printed once."""
         lines: dict[Diagnostic, list[int | None]] = {}
         for finding in sorted(self.findings, key=lambda f: _ORDER[f.severity]):
             everywhere = finding._replace(at=Source(finding.at.file))

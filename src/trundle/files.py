@@ -1,7 +1,7 @@
-"""Files that the command line or other files name: read whole, bounded in bytes and in time.
+"""Input files: read whole, bounded in bytes and in time.
 
-Every fault is an `OSError` whose `strerror` is a sentence for the user. Whether a name leads anywhere is asked with
-`os.path`, which says no of names that no file can have; `pathlib` raises for some of them.
+Every fault is an `OSError` whose `strerror` is a sentence for the user. Existence is tested with `os.path`, which
+returns False for invalid names; `pathlib` raises for some of them.
 """
 
 import errno
@@ -18,23 +18,23 @@ from typing import BinaryIO, TypeAlias
 AnyPath: TypeAlias = str | os.PathLike[str]
 
 MAX_BYTES = 64 * 1024 * 1024
-"""Size of a description or a text; the largest published ones are a few MB."""
+"""Largest size of a description or text; the largest published ones are a few MB."""
 _CHUNK_BYTES = 64 * 1024
 _TIMEOUT_S = 60.0
-"""For a pipe to come to its end; `<param command>` has as long."""
+"""Time limit for a pipe; `<param command>` has the same."""
 _DESCRIPTOR = re.compile(r"/dev/stdin|(?:/dev|/proc/self)/fd/(\d{1,9})")
 _STREAMS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFSOCK: "a socket"}
 _FLAGS = ("O_NONBLOCK", "O_NOCTTY", "O_BINARY", "O_CLOEXEC")
 _OPEN = os.O_RDONLY | sum(getattr(os, flag, 0) for flag in _FLAGS)
-"""A pipe that nothing writes to is opened at once, too."""
+"""Flags that open a pipe without a writer at once."""
 
 
 def read_file(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> bytes:
     """Read a regular file.
 
     Args:
-        path: where it is.
-        max_bytes: bytes; counted as they are read, for a file may grow, and those of /proc claim to be empty.
+        path: of the file.
+        max_bytes: limit, counted while reading, because files may grow and those of /proc have size 0.
 
     Raises:
         OSError: no such file, a pipe, device or folder, a larger one, or one that cannot be read.
@@ -44,7 +44,7 @@ def read_file(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> bytes:
 
 
 def read_text(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> str:
-    """Read a regular file as UTF-8, any other byte replaced, with the line ends of Unix.
+    """Read a regular file as UTF-8 with invalid bytes replaced and Unix line ends.
 
     Raises:
         OSError: as `read_file`.
@@ -53,15 +53,15 @@ def read_text(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> str:
 
 
 def open_file(path: AnyPath, /) -> BinaryIO:
-    """Open a regular file for reading, for a reader that looks here and there in it.
+    """Open a regular file for random access.
 
     Raises:
         OSError: no such file, a pipe, device or folder, or one that cannot be opened.
     """
     try:
-        _refuse_irregular(os.stat(path).st_mode, path)  # some devices act when they are opened
+        _refuse_irregular(os.stat(path).st_mode, path)  # opening some devices has side effects
         file = os.fdopen(os.open(path, _OPEN), "rb")
-    except ValueError:  # a NUL in it, or half of a surrogate pair
+    except ValueError:  # a NUL or half of a surrogate pair in the name
         raise FileNotFoundError(errno.ENOENT, "no file can have this name", os.fspath(path)) from None
     try:
         _refuse_irregular(os.fstat(file.fileno()).st_mode, path)
@@ -72,7 +72,7 @@ def open_file(path: AnyPath, /) -> BinaryIO:
 
 
 def read_input(path: AnyPath, /) -> bytes:
-    """Read a file of the command line, which may be a pipe.
+    """Read a file or pipe of the command line.
 
     Raises:
         OSError: as `read_file` and `read_stream`.
@@ -81,7 +81,7 @@ def read_input(path: AnyPath, /) -> bytes:
 
 
 def is_stream(path: AnyPath, /) -> bool:
-    """Tell a pipe, a device, a socket or what this process has open from files and folders, and from nothing."""
+    """True for a pipe, device, socket or open descriptor; False for files, folders and missing paths."""
     try:
         is_open_here = _DESCRIPTOR.fullmatch(os.fspath(path)) is not None
         return stat.S_IFMT(os.stat(path).st_mode) in _STREAMS or is_open_here
@@ -90,14 +90,14 @@ def is_stream(path: AnyPath, /) -> bool:
 
 
 def read_stream(path: AnyPath, /) -> bytes:
-    """Read what the command line names in place of a file: a pipe such as `<(xacro robot.xacro)`, or /dev/stdin.
+    """Read a stream of the command line, such as `<(xacro robot.xacro)` or /dev/stdin.
 
     Raises:
         OSError: it has no end within a minute or `MAX_BYTES`, or cannot be read.
     """
     name = os.fspath(path)
     given = _DESCRIPTOR.fullmatch(name)
-    # An end of a pipe that is here is not opened once more: that one would not see that the writer has gone.
+    # An own pipe is duplicated, not reopened: a reopened one would miss the writer's end.
     descriptor = os.open(path, _OPEN) if given is None else os.dup(int(given[1] or 0))
     try:
         return _joined(_chunks(descriptor, name), MAX_BYTES, name)
@@ -106,7 +106,7 @@ def read_stream(path: AnyPath, /) -> bytes:
 
 
 def read_standard_input() -> bytes:
-    """Read standard input to its end; what is typed at a terminal may take any time.
+    """Read standard input to its end; a terminal has no time limit.
 
     Raises:
         OSError: as `read_stream`.
@@ -141,11 +141,11 @@ def _chunks(descriptor: int, name: str) -> Iterator[bytes]:
         if not chunk:
             return
         yield chunk
-    raise TimeoutError(errno.ETIMEDOUT, f"nothing has written it to its end within {_TIMEOUT_S:g} s", name)
+    raise TimeoutError(errno.ETIMEDOUT, f"no end of the stream within {_TIMEOUT_S:g} s", name)
 
 
 def _has_more(descriptor: int, timeout_s: float) -> bool:
-    """Wait for bytes or the end of a stream; where the system cannot wait, reading does."""
+    """Wait for bytes or the end of a stream; without poll() the read itself blocks."""
     if not hasattr(select, "poll"):
         return True
     poll = select.poll()

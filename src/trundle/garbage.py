@@ -1,16 +1,16 @@
-"""Python's search for garbage, put off where there is none: what is loaded and read stays."""
+"""Garbage collection, reduced while loading."""
 
 import gc
 from collections.abc import Generator
 from contextlib import contextmanager
 
 _SELDOM = 200_000
-"""Objects between two searches: more than modules and an honest file make."""
+"""Threshold of allocations, above those of modules and ordinary files."""
 
 
 @contextmanager
 def no_garbage() -> Generator[None]:
-    """Search seldom, and never again among what is there at the end."""
+    """Collect rarely, and freeze the objects that exist at the end."""
     before = gc.get_threshold()
     gc.set_threshold(_SELDOM)
     try:

@@ -1,4 +1,4 @@
-"""Whose a folder is, on a machine with several users."""
+"""Ownership of folders on machines with several users."""
 
 import os
 from collections.abc import Mapping
@@ -6,10 +6,10 @@ from pathlib import Path
 
 
 def is_owned_by_user(folder: Path) -> bool:
-    """Tell whether a folder is this user's, and no other user but root can put something else in its place.
+    """True if a folder is this user's, and only root could replace it.
 
-    As OpenSSH looks at ~/.ssh: each folder above is ours or the system's, and not writable by all, unless it is sticky
-    as /tmp. Windows keeps a profile's folders apart by itself.
+    As OpenSSH checks ~/.ssh: each parent folder is ours or the system's, and not world-writable, unless it is sticky,
+    as /tmp. Windows separates profile folders by itself.
     """
     if not hasattr(os, "geteuid"):
         return True
@@ -29,6 +29,6 @@ def _is_protected(folder: Path, owners: set[int]) -> bool:
 
 
 def home_folder(environment: Mapping[str, str]) -> Path:
-    """This user's home: by HOME, else as the system has it; never a folder that all can write to."""
+    """Return this user's home folder, from HOME or the system; never a world-writable folder."""
     home = environment.get("HOME") or os.path.expanduser("~")
     return Path(home if os.path.isabs(home) else os.devnull)

@@ -1,4 +1,4 @@
-"""Where a page is served, and under which names: what a command is told; the rules are those of `access`."""
+"""Address and allowed names of a page; the rules are in `access`."""
 
 import ipaddress
 import re
@@ -8,23 +8,23 @@ from .diagnostics import UsageError
 
 _ORIGIN = re.compile(r"https?://[^][:/@;,'\s]+(?::\d{1,5})?/?")
 AUTHORITY = re.compile(r"(\[[0-9a-f:.%]+\]|[^][:/@\s]+)(?::\d{1,5})?")
-"""The host, and perhaps the port, of a URL in lower case; the host is its first group."""
+"""Host and optional port of a URL in lower case; the host is the first group."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AllowedNames:
-    """Hosts and origins served beside the usual ones: `--allow-host`, `--allow-origin`."""
+    """Hosts and origins served in addition: `--allow-host`, `--allow-origin`."""
 
     hosts: tuple[str, ...] = ()
-    """Names that the page is opened at: `robot.example`."""
+    """Host names of the page: `robot.example`."""
     origins: tuple[str, ...] = ()
     """Origins of other web pages: `https://robot.example:8443`."""
 
     def __post_init__(self) -> None:
-        """Check them.
+        """Validate the names.
 
         Raises:
-            UsageError: one is no name, or no origin.
+            UsageError: one is not a host name, or not an origin.
         """
         for host in self.hosts:
             if not AUTHORITY.fullmatch(host.lower()):
@@ -39,7 +39,7 @@ NONE_ALLOWED = AllowedNames()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PageAddress:
-    """Where a page is to be served, and to whom."""
+    """Address to serve a page at, and allowed names."""
 
     host: str = "127.0.0.1"
     port: int | None = None
@@ -48,14 +48,14 @@ class PageAddress:
 
 
 def is_loopback(host: str) -> bool:
-    """Tell whether a server bound there is reached from this machine only."""
+    """True if a server bound to the host is reachable from this machine only."""
     if is_address(host):
         return ipaddress.ip_address(host).is_loopback
     return host.lower() == "localhost"
 
 
 def is_address(name: str) -> bool:
-    """Tell an address from the name of a host."""
+    """True for an IP address, False for a host name."""
     try:
         ipaddress.ip_address(name)
     except ValueError:

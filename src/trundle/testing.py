@@ -1,4 +1,4 @@
-"""For people who test their robots: the pytest fixture `trundle_sim`, there as soon as Trundle is installed.
+"""Pytest fixture `trundle_sim` for tests of robots, available once Trundle is installed.
 
 def test_the_arm_holds_its_weight(trundle_sim):
     sim = trundle_sim("arm.urdf")
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 @pytest.fixture
 def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., Simulation]":
-    """Simulations of files, relative to the test's own file: `trundle_sim(file, seed=0)`.
+    """Return a function that loads a file relative to the test's own file: `trundle_sim(file, seed=0)`.
 
-    A warning of the reader fails nothing; it is in the simulation's `report`.
+    Warnings do not fail a test; they are in the simulation's `report`.
     """
 
     def make(file: str, *, seed: int = 0) -> "Simulation":

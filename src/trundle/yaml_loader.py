@@ -1,6 +1,6 @@
-"""Loads YAML of a file as plain data, in bounded time and memory.
+"""YAML as plain data, loaded in bounded time and memory.
 
-A few lines of `&a [*b, *b]` can stand for billions of values, whoever goes through them.
+A few lines of `&a [*b, *b]` can expand to billions of values.
 """
 
 import re
@@ -9,30 +9,30 @@ from typing import Any
 import yaml
 
 MAX_VALUES = 500_000
-"""Counted with aliases followed."""
+"""Most values with aliases expanded."""
 _MAX_NODES = 250_000
-"""Counted as written; each takes half a kilobyte while the text is read."""
+"""Most nodes as written; each takes half a kilobyte while reading."""
 _MAX_CHARACTERS = 16 * 1024 * 1024
 
 
 class BoundedLoader(yaml.SafeLoader):
-    """Plain data; what cannot be loaded is a YAMLError, whatever is wrong with it."""
+    """Loader of plain data; every fault is a YAMLError."""
 
     def __init__(self, stream: str) -> None:
         if len(stream) > _MAX_CHARACTERS:
             raise yaml.YAMLError(f"{len(stream)} characters of YAML; the most read is {_MAX_CHARACTERS}")
-        super().__init__(stream)  # looks at every character
+        super().__init__(stream)  # checks every character
         self._nodes = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
-        """Compose a node, unless there are too many."""
+        """Compose a node, up to the limit."""
         self._nodes += 1
         if self._nodes > _MAX_NODES:
             raise yaml.YAMLError(f"more than {_MAX_NODES} values")
         return super().compose_node(parent, index)
 
     def compose_scalar_node(self, anchor: Any) -> Any:
-        """Compose a text or number; one with a lone `\\ud800` could be neither sent nor written."""
+        r"""Compose a scalar; a lone `\ud800` in it could be neither sent nor written."""
         node = super().compose_scalar_node(anchor)
         try:
             node.value.encode()
@@ -42,7 +42,7 @@ class BoundedLoader(yaml.SafeLoader):
         return node
 
     def compose_document(self) -> Any:
-        """Compose a document and count what its aliases stand for."""
+        """Compose a document, with a limit on expanded aliases."""
         try:
             node = super().compose_document()
             if node is not None and _expanded_size(node, {}) > MAX_VALUES:
@@ -52,7 +52,7 @@ class BoundedLoader(yaml.SafeLoader):
         return node
 
     def construct_document(self, node: yaml.Node) -> Any:
-        """Make the values."""
+        """Construct the values."""
         try:
             return super().construct_document(node)
         except RecursionError:
@@ -67,13 +67,13 @@ def load_yaml(text: str, loader: type[BoundedLoader] = BoundedLoader) -> Any:
     """Load one document.
 
     Raises:
-        yaml.YAMLError: not YAML, too large, or no plain data.
+        yaml.YAMLError: not YAML, too large, or not plain data.
     """
     return yaml.load(text, loader)
 
 
 def one_line(error: yaml.YAMLError) -> str:
-    """Say in one line what is wrong, and where."""
+    """Return the error and its position in one line."""
     if not isinstance(error, yaml.MarkedYAMLError):
         return re.sub(r"\s+", " ", str(error)).strip()
     mark = error.problem_mark or error.context_mark
@@ -82,7 +82,7 @@ def one_line(error: yaml.YAMLError) -> str:
 
 
 def _expanded_size(node: yaml.Node, known: dict[int, int]) -> int:
-    """Count values with aliases followed; a node within itself is an error."""
+    """Count values with aliases expanded; a node that contains itself is an error."""
     size = known.get(id(node))
     if size == 0:
         raise yaml.YAMLError(f"line {node.start_mark.line + 1}: a value contains itself")

@@ -169,7 +169,7 @@ class TestThePipeOfACommandLine:
         os.mkfifo(tmp_path / "robot.urdf")
 
         assert main(["check", str(tmp_path / "robot.urdf")]) == 1
-        assert "cannot be read: nothing has written it to its end within 0.01 s" in capsys.readouterr().out
+        assert "cannot be read: no end of the stream within 0.01 s" in capsys.readouterr().out
 
     def test_a_xacro_comes_through_one(self, capfd: pytest.CaptureFixture[str]) -> None:
         ours, theirs = os.pipe()
