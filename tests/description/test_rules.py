@@ -402,7 +402,7 @@ def test_a_ring_that_no_joint_leads_to_is_left_out_of_a_urdf(tmp_path: Path) -> 
 
     assert robot is not None
     assert ([link.name for link in robot.links], robot.joints) == (["a"], ())
-    assert "links 'b', 'c' form a ring" in report.warnings[0]
+    assert "links 'b', 'c' form a loop" in report.warnings[0]
 
 
 def test_a_gazebo_block_for_nothing_says_so(tmp_path: Path) -> None:
