@@ -75,4 +75,4 @@ def test_a_robot_whose_every_mesh_is_missing_cannot_be_seen_and_the_last_line_sa
     empty = findings(tmp_path, lost.format("v", "v") + lost.format("w", "w")).splitlines()[-1]
 
     assert "nothing is visible: none of its meshes was found (lost/v.dae and 1 more)" in empty
-    assert "can be seen" not in findings(tmp_path, lost.format("v", "v") + box)
+    assert "is visible" not in findings(tmp_path, lost.format("v", "v") + box)
