@@ -43,7 +43,7 @@ def test_without_a_page_the_command_ends_and_says_what_ran_away(
 
 def test_reset_starts_anew_but_not_for_ever(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(world), *QUIET, "--on-instability", "reset"]) == 1
-    assert capsys.readouterr().err.count("the simulation starts anew") == 10
+    assert capsys.readouterr().err.count("the simulation is reset") == 10
 
 
 def test_pause_keeps_the_last_good_state_until_somebody_ends_it(
@@ -52,7 +52,7 @@ def test_pause_keeps_the_last_good_state_until_somebody_ends_it(
     threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     outcome = run(str(world), options("pause"))
     assert outcome.interrupted
-    assert "the simulation is paused where it last was sound, at 0.000 s" in capsys.readouterr().err
+    assert "the simulation is paused at its last stable state, at 0.000 s" in capsys.readouterr().err
     state = outcome.as_json()["models"][0]["links"][0]
     assert all(map(math.isfinite, [*state["pose"], *state["twist"]]))
 

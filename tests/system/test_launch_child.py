@@ -155,7 +155,7 @@ def test_what_it_cannot_launch_is_answered_and_it_goes_on(child, core, package: 
     assert call("launch", "<launch>")[:2][0] == -1
     assert call("launch", f"<launch>{command}</launch>") == [
         -1,
-        "ERROR: parameters are the parent's affair; a child sets none",
+        "ERROR: a child sets no parameters; its parent does",
         [[], []],
     ]
     assert "no ROS master answers" in call("launch", _XML.format("0", False))[1]

@@ -1,5 +1,5 @@
-"""The composition root: starts, paces and stops everything; alone knows everyone.
+"""Composition root: starts, paces and stops everything; the one room that imports all others.
 
-Each task is a module of its own (`run`, `launch`, `check`, …) and nothing is imported here: whoever checks a file must
-not wait for all that a launch needs.
+Each task is a module of its own (`run`, `launch`, `check`, …) and nothing is imported here: `check` must not load all
+that `launch` needs.
 """

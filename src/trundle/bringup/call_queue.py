@@ -1,4 +1,4 @@
-"""What other threads want done on the simulation's: functions, called between two strides in the order they came."""
+"""Queue of functions that other threads have called on the simulation's thread, between two strides."""
 
 from collections import deque
 from collections.abc import Callable
@@ -7,23 +7,23 @@ from trundle.ros import GraphLoop
 
 
 class CallQueue:
-    """A queue of functions, each under way on the graph until it is done."""
+    """FIFO of functions; each counts as pending work of the graph's loop until it has run."""
 
     def __init__(self, loop: GraphLoop) -> None:
         self._loop = loop
         self._waiting: deque[tuple[Callable[[], None], object]] = deque()
-        """Each with what ends its being under way."""
+        """(function, token of its pending work)."""
 
     def post(self, call: Callable[[], None]) -> None:
-        """Have a function called; from any thread."""
+        """Queue a function; from any thread."""
         self._waiting.append((call, self._loop.work.start()))
 
     def has_pending(self) -> bool:
-        """Whether one waits."""
+        """True if a function waits."""
         return bool(self._waiting)
 
     def run_pending(self) -> None:
-        """Call those that wait now."""
+        """Call the functions queued so far."""
         for _ in range(len(self._waiting)):
             call, token = self._waiting.popleft()
             try:
@@ -33,6 +33,6 @@ class CallQueue:
                 self._loop.work.finish(token)
 
     def clear(self) -> None:
-        """Forget those that wait: nobody is left to call them."""
+        """Drop the queued functions: their thread has ended."""
         while self._waiting:
             self._loop.work.finish(self._waiting.popleft()[1])

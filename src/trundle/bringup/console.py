@@ -1,4 +1,4 @@
-"""What a run tells its user while it goes: lines on stderr, each finding once."""
+"""Console output of a run: lines on stderr, each finding once."""
 
 import os
 import sys
@@ -9,7 +9,7 @@ from trundle.diagnostics import Diagnostics
 
 
 def say(text: str, stream: TextIO | None = None) -> None:
-    """Print a line, on stdout unless told otherwise; where its reader has gone, nodes still run and are stopped."""
+    """Print a line, by default on stdout; discard it if the pipe has no reader, so that the run ends cleanly."""
     there: TextIO = stream or sys.stdout
     try:
         print(text, file=there, flush=True)
@@ -27,19 +27,19 @@ class Console:
         self._log: Callable[[str], None] | None = None
 
     def log_to(self, log: Callable[[str], None]) -> None:
-        """Have a function take all lines from now on, too, and what was found until now."""
+        """Pass all further lines, and the findings shown so far, to a function too."""
         self._log = log
         for finding in self._report.findings[: self._shown]:
             log(str(finding))
 
     def line(self, text: str) -> None:
-        """Say one thing."""
+        """Print one line."""
         say(text, self._stream)
         if self._log is not None:
             self._log(text)
 
     def findings(self) -> None:
-        """Say what was found since the last call; notes are `trundle check`'s affair."""
+        """Print the findings since the last call; notes are left to `trundle check`."""
         new = self._report.findings[self._shown :]
         self._shown = len(self._report.findings)
         for finding in new:

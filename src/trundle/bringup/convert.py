@@ -1,4 +1,4 @@
-"""`trundle convert`: what was understood of a file, written out."""
+"""`trundle convert`: a description written in another format."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -26,21 +26,21 @@ def convert(
     start: Path,
     output: Path | None = None,
 ) -> str:
-    """Read a file and write it again.
+    """Read a description and write it in a format.
 
     Args:
         file: a path, a folder with model.config, model://NAME, or "-" for standard input.
         to: the format.
-        environment: says where packages and models are.
-        report: takes what was not understood or cannot be written.
-        start: packages are looked for around it too.
-        output: where to write, with copies of the meshes beside; None: only return the text.
+        environment: variables that locate packages and models.
+        report: takes what cannot be read or written.
+        start: packages are searched around it, too.
+        output: file to write, with copies of the meshes beside it; None: only return the text.
 
     Returns:
         The text.
 
     Raises:
-        DescriptionError: the file makes no sense, or not in that format.
+        DescriptionError: the file cannot be read, or not written in that format.
         UsageError: no such model, or the output cannot be written.
     """
     loaded = load_input(file, report, packages=Packages(environment, start=start), start=start)
@@ -64,7 +64,7 @@ def _written(
         case "sdf":
             return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
         case "mjcf":
-            from trundle.physics import compile_mjcf  # slow to load, and no other format needs them
+            from trundle.physics import compile_mjcf  # slow to load; no other format needs it
             from trundle.render import scene_from_world
 
             return compile_mjcf(

@@ -18,18 +18,18 @@ _IMAGES = frozenset({".bmp", ".dds", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".
 
 
 class FileCopies:
-    """Gives every file a place in `meshes` or `textures` beside the output, and puts it there when asked."""
+    """Assigns every file a path in `meshes` or `textures` beside the output; `copy` writes them."""
 
     def __init__(self, output: Path, report: Diagnostics) -> None:
         self._output = output
         self._report = report
         self._places: dict[Path, Path] = {}
-        """Of each file, relative to the output's folder."""
+        """File → path relative to the output's folder."""
         self._pictures: dict[Texture, tuple[Path, bytes] | None] = {}
-        """The same of images, and what is in them."""
+        """Texture → (relative path, PNG bytes); None: it cannot be decoded."""
 
     def relative_uri(self, path: Path | None, uri: str) -> str:
-        """A relative URI; that of a file that was not found stays as written."""
+        """Relative URI of a file; one that was not found keeps its URI."""
         if path is None:
             return written_uri(path, uri)
         path = path.resolve()
@@ -44,7 +44,7 @@ class FileCopies:
         return self._places[path].as_posix()
 
     def png_path(self, texture: Texture) -> str | None:
-        """A relative path of an image as PNG, which is all that MuJoCo reads; None: it cannot be decoded."""
+        """Relative path of an image as PNG, the one format that MuJoCo reads; None: it cannot be decoded."""
         if texture not in self._pictures:
             data = png_of(texture)
             name = texture.stem if isinstance(texture, Path) else "inside"
@@ -78,7 +78,7 @@ class FileCopies:
 
 
 def _companions(path: Path) -> list[Path]:
-    """What a mesh file names in its turn."""
+    """Material libraries and textures that a mesh file names."""
     if path.suffix.lower() in _IMAGES:
         return []
     found: list[Path] = []
@@ -89,7 +89,7 @@ def _companions(path: Path) -> list[Path]:
     try:
         found += [part.texture.resolve() for part in load_mesh(path).parts if isinstance(part.texture, Path)]
     except MeshError:
-        return found  # a part of it may be named that can be read
+        return found  # the material libraries may be readable all the same
     return [file for file in dict.fromkeys(found) if file.is_relative_to(path.parent.parent)]
 
 

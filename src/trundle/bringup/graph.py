@@ -1,4 +1,4 @@
-"""The ROS graph that a run takes part in: the one there is, or one started here."""
+"""ROS graph of a run: an existing one, or one started here."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -13,7 +13,7 @@ _LOCAL = frozenset({"localhost", "127.0.0.1", "::1", "0.0.0.0"})
 
 
 class Graph:
-    """A loop for this process's nodes, the master they register with, and that master itself if it is ours."""
+    """Loop of this process's nodes, URI of their master, and the master itself if it was started here."""
 
     def __init__(self, loop: GraphLoop, master_uri: str, core: Core | None, host: str) -> None:
         self.loop = loop
@@ -31,18 +31,18 @@ class Graph:
         rosout: bool = True,
         log_folder: Callable[[str], Path | None] | None = None,
     ) -> Self:
-        """Join the master that ROS_MASTER_URI names, else the default one; start it where none answers.
+        """Join the master of ROS_MASTER_URI, else the default one; start it if none answers.
 
         Args:
             environment: ROS_MASTER_URI is read from it.
             host: address that a master started here binds.
-            ports: with no ROS_MASTER_URI, where to start a new master, the first that is free (0: any), rather than
-                join the default one, so that ten runs side by side do not meet.
-            rosout: whether a master that is started here has /rosout beside it.
+            ports: without ROS_MASTER_URI, start a new master on the first free one (0: any) rather than join the
+                default one, so that ten runs side by side do not meet.
+            rosout: True if a master that is started here gets a /rosout node.
             log_folder: makes the folder for the logs of a master that is started here, from the run_id.
 
         Raises:
-            UsageError: ROS_MASTER_URI is no address, or names another machine, and nobody answers there.
+            UsageError: ROS_MASTER_URI is no address, or no master answers on the other machine that it names.
         """
         named = environment.get("ROS_MASTER_URI")
         uri = named or f"http://localhost:{DEFAULT_PORT}"
@@ -68,11 +68,11 @@ class Graph:
 
     @property
     def summary(self) -> str:
-        """One line that says which graph this is."""
+        """URI of the master, and whether it was started or joined, on one line."""
         return f"ROS master started: {self.master_uri}" if self.core is not None else _joined(self.master_uri)
 
     def close(self) -> None:
-        """Shut down every node here, then the master if it is ours."""
+        """Shut down every node here, then the master if it was started here."""
         try:
             if self.core is not None:
                 self.loop.run(self.core.stop(), timeout_s=2.0)
@@ -87,11 +87,11 @@ class Graph:
 
 
 def master_notice(environment: Mapping[str, str]) -> str | None:
-    """Say which graph ROS_MASTER_URI has `Graph.open` join, if a master answers there."""
+    """One line on the master of ROS_MASTER_URI, which `Graph.open` will join; None if none answers there."""
     uri = environment.get("ROS_MASTER_URI")
     try:
         return None if not uri or not _answers(uri) else f"{_joined(uri)}, which ROS_MASTER_URI names"
-    except RosError:  # `Graph.open` says what is wrong with it
+    except RosError:  # `Graph.open` reports it
         return None
 
 
@@ -111,7 +111,7 @@ def _start_core(loop: GraphLoop, new_core: Callable[..., Core], ports: Sequence[
     """Start a master at the first port that is free.
 
     Raises:
-        PortTakenError: none is.
+        PortTakenError: all are taken.
     """
     for port in ports:
         core = new_core(port=port)

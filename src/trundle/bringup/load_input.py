@@ -1,4 +1,4 @@
-"""A description by its name, or from a pipe or standard input."""
+"""Input of a description: by name, from a pipe or from standard input."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -16,12 +16,12 @@ class Piped(NamedTuple):
     """Contents that came through a pipe or standard input."""
 
     name: str
-    """As messages call it."""
+    """Name in messages."""
     data: bytes
 
 
 def read_piped(file: str) -> Piped | None:
-    """Read what is no file: standard input, "-", or a pipe; None: it is one, or nothing.
+    """Read standard input, "-", or a pipe; None: `file` is neither.
 
     Raises:
         DescriptionError: it cannot be read.
@@ -37,7 +37,7 @@ def read_piped(file: str) -> Piped | None:
 
 
 def report_workspace(file: str, packages: Packages, say: Callable[[str], None]) -> None:
-    """Say which workspace a package:// leads into, where ROS_PACKAGE_PATH does not name it."""
+    """Print the workspace that a package:// was found in, if ROS_PACKAGE_PATH does not name it."""
     scheme, _, rest = file.partition("://")
     folder = packages.find_package(rest.partition("/")[0]) if scheme == "package" else None
     workspace = None if folder is None else packages.workspace_of(folder)
@@ -52,13 +52,13 @@ def load_input(
 
     Args:
         file: as `trundle.description.load` takes it, or "-" for standard input.
-        report: takes everything worth saying.
-        packages: where URIs lead.
+        report: takes all findings.
+        packages: resolve URIs.
         start: relative URIs in standard input start here.
-        piped: what `file` holds, where that was read already.
+        piped: contents of `file`, if read already.
 
     Raises:
-        DescriptionError: of which nothing sensible can be made.
+        DescriptionError: the file cannot be read.
         UsageError: no such model.
     """
     piped = piped or read_piped(file)

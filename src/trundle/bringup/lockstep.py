@@ -1,4 +1,4 @@
-"""Flat out, time goes on only when the nodes of this process have done what there was to do: runs repeat."""
+"""Lockstep of a flat-out run: time advances only when this process's nodes have settled, so that runs repeat."""
 
 import threading
 import time
@@ -7,27 +7,27 @@ from collections.abc import Callable
 from trundle.ros import GraphLoop, StepRecorder
 
 _STARTING_PASSES = 50
-"""Starting nodes do more between two calls than running ones."""
+"""Passes of the idle loop that count as settled while nodes start: they do more between two calls."""
 START_S = 30.0
-"""How long nodes may take, in all, to start."""
+"""Timeout of starting all nodes [s]."""
 _REST_S = 10.0
 _TURN_S = 0.2
-"""How long a wait is at most before the simulation's thread looks whether it is to end."""
+"""Longest wait before the simulation's thread checks for the end [s]."""
 
 
 class Lockstep:
-    """Holds time at zero while a launch starts, at each step until all is done, and at the end."""
+    """Holds time at zero while a launch starts, at each step until the nodes have settled, and at the end."""
 
     def __init__(
         self, loop: GraphLoop, *, end_ns: int | None, recorder: StepRecorder | None, say: Callable[[str], None]
     ) -> None:
-        """Hold time.
+        """Hold time at zero.
 
         Args:
-            loop: of the nodes.
-            end_ns: where time stops for good [ns]; None: nowhere.
-            recorder: writes what was said after each step.
-            say: tells the user of a wait that was in vain.
+            loop: loop of the nodes.
+            end_ns: end of time [ns]; None: open.
+            recorder: writes the messages of each step.
+            say: prints that a wait timed out.
         """
         self._loop = loop
         self._end_ns = end_ns
@@ -36,13 +36,13 @@ class Lockstep:
         self._due = time.monotonic() + START_S
         self._begun = threading.Event()
         self.over = threading.Event()
-        """Set when the end is reached and everything up to it is written."""
+        """Set when the end is reached and recorded."""
 
     async def wait_started(self, is_ending: Callable[[], bool]) -> None:
-        """Wait, on the loop, until what was started so far has come to rest; in all, for half a minute at most.
+        """Wait, on the loop, until the nodes started so far have settled; in all, for at most 30 s.
 
         Args:
-            is_ending: whether to come back at once.
+            is_ending: True ends the wait.
         """
         remaining_s = max(0.0, self._due - time.monotonic())
         has_rested = await self._loop.idle(remaining_s, unless=is_ending, passes=_STARTING_PASSES)
@@ -50,31 +50,31 @@ class Lockstep:
             self._give_up()
 
     def start(self) -> None:
-        """Let time pass."""
+        """Let time advance."""
         self._begun.set()
 
     @property
     def is_ready(self) -> bool:
-        """Whether time may pass now."""
+        """True if time may advance now."""
         return self._begun.is_set() and not self.over.is_set()
 
     def target_ns(self, wanted_ns: int) -> int:
-        """How far time may go [ns]."""
+        """Time to advance to [ns]: at most the end."""
         return wanted_ns if self._end_ns is None else min(wanted_ns, self._end_ns)
 
     def wait_settled(
-        self, obey: Callable[[], None], is_called: Callable[[], bool], is_ending: Callable[[], bool]
+        self, run_calls: Callable[[], None], is_called: Callable[[], bool], is_ending: Callable[[], bool]
     ) -> None:
-        """Wait until the nodes have done what there was to do.
+        """Wait until the nodes have settled.
 
         Args:
-            obey: does what nodes asked the simulation for.
-            is_called: whether they have.
-            is_ending: whether to come back at once.
+            run_calls: runs the functions that nodes queued for the simulation.
+            is_called: True if there are such functions.
+            is_ending: True ends the wait.
         """
         due = time.monotonic() + _REST_S
         while not is_ending():
-            obey()
+            run_calls()
             if self._loop.wait_idle(_TURN_S, unless=is_called) and not is_called():
                 return
             if time.monotonic() > due:
@@ -82,7 +82,7 @@ class Lockstep:
                 return
 
     def record_step(self, time_ns: int) -> None:
-        """Write what was said up to a time [ns] at which all is settled."""
+        """Record the messages up to a time [ns] at which the nodes have settled."""
         if self._recorder is not None:
             self._recorder.write(time_ns)
         if self._end_ns is not None and time_ns >= self._end_ns:
@@ -92,6 +92,6 @@ class Lockstep:
         self._loop.work.abandon()
         if self._say is not None:
             self._say(
-                "a node keeps waiting while time stands still; time goes on, but another run may differ from this"
+                "a node does not settle while time is held; time goes on, but another run may differ from this one"
             )
             self._say = None

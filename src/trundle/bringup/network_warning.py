@@ -1,4 +1,4 @@
-"""Says what it means to listen beyond this machine."""
+"""Warning of listening beyond loopback."""
 
 from collections.abc import Callable
 
@@ -6,6 +6,6 @@ from trundle.page_address import is_loopback
 
 
 def warn_of_network(host: str, say: Callable[[str], None]) -> None:
-    """Say, once, that a host other than loopback opens the robot to everybody who reaches it."""
+    """Warn that a host other than loopback opens the robot to every machine that reaches it."""
     if not is_loopback(host):
-        say(f"listening on {host}: ROS 1 has no passwords; whoever reaches it can drive the robot")
+        say(f"listening on {host}: ROS 1 has no passwords; any machine that reaches it can drive the robot")

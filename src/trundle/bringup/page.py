@@ -1,4 +1,4 @@
-"""The browser page of a simulation: what it shows, and what a press on it does."""
+"""Browser page of a simulation: feeds it the state and handles its requests."""
 
 import math
 import time
@@ -16,15 +16,15 @@ from .ray_overlay import RayOverlay
 from .realtime_pacer import RealtimePacer
 
 _FRAME_NS = 33_000_000
-"""The page is fed 30 times a second of wall time."""
+"""Period of updates, in wall time [ns]."""
 _DRIVE_NS = 100_000_000
-"""10 Hz, as the tutorials' `rostopic pub -r 10`."""
+"""Period of cmd_vel [ns]: 10 Hz, as the tutorials' `rostopic pub -r 10`."""
 _SLIDER_TORQUE = 10.0
-"""What a joint moved by hand may use [N·m or N]."""
+"""Effort limit of a joint that a slider moves [N·m or N]."""
 
 
 class Driver(Protocol):
-    """Takes what the page's drive pad asks for."""
+    """Publisher of the drive pad's commands."""
 
     def drive(self, linear: float, angular: float) -> None:
         """Publish a velocity command [m/s, rad/s]."""
@@ -32,7 +32,7 @@ class Driver(Protocol):
 
 
 class SimulationPage:
-    """Feeds a viewer from one simulation, and does what its buttons ask."""
+    """Viewer of one simulation; handles its buttons, sliders and drive pad."""
 
     def __init__(
         self, viewer: Viewer, simulation: Simulation, driver: Driver | None, joints: list[tuple[str, str]]
@@ -41,8 +41,8 @@ class SimulationPage:
         self._driver = driver
         self._ray_overlay = RayOverlay(lambda: viewer.alive)
         self._numbers: dict[CameraSensor, int] = {}
-        """Of the cameras, as the page shows them."""
-        self._heard: set[CameraSensor] = set()
+        """Camera → its number on the page."""
+        self._listened: set[CameraSensor] = set()
         self._follow(simulation, joints)
         self._updated_ns = 0
         self._command = (0.0, 0.0)
@@ -59,7 +59,7 @@ class SimulationPage:
         """Start the page.
 
         Raises:
-            UsageError: the port asked for is taken.
+            UsageError: the port is taken.
         """
         layout = build_page_scene(simulation, _cameras(sensors), drive=driver is not None)
         viewer = Viewer.start(layout.scene, host=at.host, port=at.port, allowed=at.allowed, state=layout.first)
@@ -68,7 +68,7 @@ class SimulationPage:
         return page
 
     def reload(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        """Show it anew: models came or went."""
+        """Rebuild the scene after models came or went."""
         layout = build_page_scene(simulation, _cameras(sensors), drive=self._driver is not None)
         self._viewer.replace(layout.scene, state=layout.first)
         self._follow(simulation, layout.joints)
@@ -83,9 +83,9 @@ class SimulationPage:
     def _listen(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         self._ray_overlay.set_sensors(sensors)
         cameras = _cameras(sensors)
-        new = [camera for camera in cameras if camera not in self._heard]
+        new = [camera for camera in cameras if camera not in self._listened]
         self._numbers = {camera: number for number, camera in enumerate(cameras)}
-        self._heard.update(new)
+        self._listened.update(new)
         for camera in new:
             camera.listen(partial(self._show_picture, camera), enabled=partial(self._wants_picture, camera))
 
@@ -97,11 +97,11 @@ class SimulationPage:
 
     @property
     def url(self) -> str:
-        """Where the page is."""
+        """URL of the page."""
         return self._viewer.url
 
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
-        """Show where everything is now, if the page has not been fed just before."""
+        """Send the page the current state, at most 30 times per second unless `at_once`."""
         now = time.monotonic_ns()
         if not at_once and now - self._updated_ns < _FRAME_NS:
             return
@@ -119,7 +119,7 @@ class SimulationPage:
         )
 
     def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
-        """Do what was pressed since the last call; return whether the simulation is paused now."""
+        """Handle the requests since the last call; return True if the simulation is paused now."""
         for request in self._viewer.requests():
             match request:
                 case Play():
@@ -150,7 +150,7 @@ class SimulationPage:
         return paused
 
     def _repeat_command(self) -> None:
-        """Repeat a velocity that is not zero: many controllers stop a robot that hears no more."""
+        """Repeat a velocity that is not zero: many controllers stop the robot when commands cease."""
         now = time.monotonic_ns()
         if self._driver is None or self._drive_due_ns is None or now < self._drive_due_ns:
             return
@@ -158,7 +158,7 @@ class SimulationPage:
         self._drive_due_ns = now + _DRIVE_NS if any(self._command) else None
 
     def close(self) -> None:
-        """Take the page down."""
+        """Close the page."""
         self._viewer.close()
 
     def __enter__(self) -> Self:

@@ -1,4 +1,4 @@
-"""What the page of a simulation shows: its bodies, frames, cameras, and a slider for each joint that can move."""
+"""Scene of a simulation's page: bodies, frames, cameras, and a slider for each movable joint."""
 
 import math
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ from trundle.viewer import MAX_LINE_POINTS, CameraView, DrawnLine, FrameInfo, Jo
 
 _MAX_LINES = 200
 _WIDEST = 2.8
-"""[rad] The pyramid that stands for a fisheye, whose view has no straight edges."""
+"""Field of view of the pyramid that is drawn for a fisheye camera [rad]."""
 _SLIDER_RANGE = math.pi
-"""Of a joint without limits [rad or m]."""
+"""Slider range of a joint without limits [rad or m]."""
 _MOVABLE = frozenset({JointType.REVOLUTE, JointType.PRISMATIC})
 
 
@@ -32,14 +32,14 @@ class PageScene:
 
 
 def build_page_scene(simulation: Simulation, cameras: list[CameraSensor], *, drive: bool) -> PageScene:
-    """Lay out a page; `drive` is whether it has a pad that drives."""
+    """Build the scene of a page; `drive`: True if it has a drive pad."""
     world = simulation.world
     movable = [(model.name, joint) for model in world.models if not model.static for joint in model.joints]
     movable = [(name, joint) for name, joint in movable if _is_movable(joint)]
     names = slider_names([(model, joint.name) for model, joint in movable])
     scene = ViewerScene(
         title=f"{world.name} · Trundle",
-        # The page draws skins as they began: their bones stay in this process.
+        # The page draws skins in their first pose: bone poses are not sent to it.
         scene=replace(scene_from_world(world, simulation.report), skins=()),
         collisions=scene_from_world(world, simulation.report, collisions=True),
         frames=tuple(FrameInfo(f.frame, f.parent) for f in link_frames(world)),
@@ -71,7 +71,7 @@ def _is_movable(joint: Joint) -> bool:
 
 
 def slider_names(joints: list[tuple[str, str]]) -> list[str]:
-    """The joints' own names; with their model's in front where there are several models."""
+    """Names of joints, with the model's as prefix if there are several models."""
     several = len({model for model, _ in joints}) > 1
     return [f"{model}/{joint}" if several else joint for model, joint in joints]
 
@@ -87,7 +87,7 @@ def _slider(joint: Joint, name: str) -> JointSlider:
 
 
 def joint_indices(simulation: Simulation, joints: list[tuple[str, str]]) -> list[int]:
-    """Where each joint stands in `Snapshot.joint_positions`."""
+    """Index of each joint in `Snapshot.joint_positions`."""
     order = {
         (model.name, joint.name): i
         for i, (model, joint) in enumerate((m, j) for m in simulation.world.models for j in m.joints)
@@ -96,7 +96,7 @@ def joint_indices(simulation: Simulation, joints: list[tuple[str, str]]) -> list
 
 
 def _link_of_robot(simulation: Simulation) -> int | None:
-    """The first link of the moving model with the most joints, of equals the first: a ball or a door is no robot."""
+    """Index of the first link of the non-static model with most joints; the first of equals."""
     joints: dict[int, int] = {}
     first = 0
     for model in simulation.world.models:
@@ -107,7 +107,7 @@ def _link_of_robot(simulation: Simulation) -> int | None:
 
 
 def drawn_lines(simulation: Simulation) -> tuple[DrawnLine, ...]:
-    """What plugins have drawn; of too much, the first."""
+    """Lines that plugins have drawn; of too many points, the first."""
     drawn: list[DrawnLine] = []
     left = MAX_LINE_POINTS
     for line in islice(simulation.lines.values(), _MAX_LINES):

@@ -1,4 +1,4 @@
-"""`trundle play`: a recorded run on a page, at any speed."""
+"""`trundle play`: shows a state log on a page, at any speed."""
 
 import math
 import os
@@ -27,22 +27,22 @@ _FRAME_S = 1 / 30
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlayOptions:
-    """How to play."""
+    """Options of `trundle play`."""
 
     host: str = "127.0.0.1"
     port: int | None = None
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
     speed: float = 1.0
-    """Recorded seconds per second."""
+    """Recorded seconds per second of wall time."""
     paused: bool = False
 
 
 def play(file: Path, options: PlayOptions) -> int:
-    """Show a recording until somebody asks to stop; return the exit code.
+    """Show a state log until Ctrl-C; return the exit code.
 
     Raises:
-        TrundleError: it is no recording, or its world cannot be read.
+        TrundleError: the file is not a state log, or its world cannot be read.
     """
     log = read_state_log(file)
     if len(log.times) == 0:
@@ -76,7 +76,7 @@ class _Player:
         self._at_s = float(log.times[0])
 
     def run(self, stop: StopFlag) -> None:
-        """Go round and round."""
+        """Play in a loop until stopped."""
         then = time.monotonic()
         while not stop.wait(_FRAME_S):
             now = time.monotonic()

@@ -1,4 +1,4 @@
-"""Loads the plugins that a world and its models ask for."""
+"""Loader of the plugins of a world, its models, visuals and sensors."""
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain, count
@@ -35,14 +35,14 @@ def load_plugins(
     say: Callable[[str], None],
     models: Sequence[ModelHandle] | None = None,
 ) -> list[Plugin]:
-    """Load each model's plugins and hook them in; one that cannot be had is named, and the run goes on as in Gazebo.
+    """Load the models' plugins and hook them in; warn of one that fails to load and go on, as Gazebo does.
 
     Args:
-        simulation: what they act on.
-        make_node: makes a node for each; None: without ROS.
-        environment: says where plugins are.
-        say: is told what is loaded.
-        models: whose plugins; None: those of every model.
+        simulation: the plugins act on it.
+        make_node: makes each plugin's node; None: without ROS.
+        environment: variables that locate plugins.
+        say: prints which plugins are loaded.
+        models: of the plugins; None: all.
     """
     loaded: list[Plugin] = []
     for model in simulation.models if models is None else models:
@@ -100,7 +100,7 @@ def load_world_plugins(
     *,
     say: Callable[[str], None],
 ) -> None:
-    """Load the plugins that the world itself asks for; see `load_plugins`."""
+    """Load the plugins of the world itself; see `load_plugins`."""
     world = simulation.world
     for tag, node_name in _named(f"/{ros_name(world.name)}", world.plugins):
 
@@ -122,7 +122,7 @@ _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 
 def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diagnostics) -> list[_Sensor]:
-    """Have sensors' plugins publish what they measure, as their files say; return those without, in order."""
+    """Attach the sensors' plugins, which publish their readings; return the sensors without one, in order."""
     silent: list[_Sensor] = []
     for sensor in sensors:
         attached = 0
@@ -144,7 +144,7 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
 
 
 def _named(namespace: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
-    """Each plugin with the name of its node: of namesakes, the graph would end all but the last."""
+    """Each plugin with a unique node name: a second node of one name would shut the first down."""
     names: list[str] = []
     for tag in tags:
         name = f"{namespace}/{ros_name(tag.name)}"
@@ -159,13 +159,13 @@ def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _
     except TrundleError as error:
         who = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
         report.warn_error(error, tag.at, "the run goes on without it", who=who)
-    except Exception as error:  # a user's code may raise anything
+    except Exception as error:  # user code may raise anything
         report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
     return None
 
 
 def _hook_in(simulation: Simulation, plugin: Hooks, model: ModelHandle | None) -> None:
-    """Have the plugin called, as long as its model is there."""
+    """Register a plugin's hooks; they run until its model is deleted."""
 
     def is_there() -> bool:
         return model is None or any(handle is model for handle in simulation.models)

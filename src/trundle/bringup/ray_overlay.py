@@ -1,4 +1,4 @@
-"""What sensors with <visualize> see, as lines on the page: the rays of lidars, the cones of sonars."""
+"""Lines on the page of sensors with <visualize>: the rays of lidars, the cones of sonars."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -12,40 +12,40 @@ from trundle.spatial import Pose
 from trundle.viewer import DrawnLine
 
 _MAX_RAYS = 90
-"""Of one sensor: of more, every so many."""
+"""Rays drawn per sensor; of more, every n-th."""
 _RIM = 24
 _BLUE = (90, 150, 255)
 
 
 class RayOverlay:
-    """Keeps the last reading of each."""
+    """Keeper of each sensor's last reading."""
 
     def __init__(self, shown: Callable[[], bool]) -> None:
-        """Listen as long as somebody looks.
+        """Prepare; readings are taken only while the page is shown.
 
         Args:
-            shown: whether anybody does.
+            shown: True if a browser shows the page.
         """
         self._shown = shown
         self._ends: dict[RangeSensor | SonarSensor, NDArray[np.float64]] = {}
-        """(rays, 3) in the sensor's frame [m]; of a sonar in its beam's."""
-        self._heard: set[int] = set()
+        """Sensor → (rays, 3) end points in its frame [m]; a sonar's are in its beam's frame."""
+        self._listened: set[int] = set()
 
     def set_sensors(self, sensors: Iterable[CameraSensor | InstrumentSensor]) -> None:
-        """Draw these, and no others."""
+        """Set the sensors to draw."""
         seen = [each for each in sensors if isinstance(each, RangeSensor | SonarSensor) and each.sensor.visualize]
         self._ends = {sensor: self._ends.get(sensor, np.zeros((0, 3))) for sensor in seen}
         for sensor in seen:
-            if id(sensor) in self._heard:
+            if id(sensor) in self._listened:
                 continue
-            self._heard.add(id(sensor))
+            self._listened.add(id(sensor))
             if isinstance(sensor, RangeSensor):
                 self._listen_to_rays(sensor)
             else:
                 self._listen_to_sonar(sensor)
 
     def lines(self, snapshot: Snapshot) -> tuple[DrawnLine, ...]:
-        """Where the rays are now."""
+        """Rays at the current sensor poses."""
         return tuple(_fan(_place(sensor, snapshot), ends) for sensor, ends in self._ends.items() if len(ends))
 
     def _listen_to_rays(self, sensor: RangeSensor) -> None:
@@ -76,7 +76,7 @@ def _place(sensor: RangeSensor | SonarSensor, snapshot: Snapshot) -> Pose:
 
 
 def _fan(world_from_rays: Pose, ends: NDArray[np.float64]) -> DrawnLine:
-    """One strip that goes out along each ray and back."""
+    """One line strip that goes out along each ray and back."""
     strip = np.empty((2 * len(ends) + 1, 3), dtype=np.float32)
     strip[0::2] = world_from_rays.position
     strip[1::2] = [world_from_rays.transform_point((x, y, z)) for x, y, z in ends.tolist()]

@@ -1,6 +1,6 @@
-"""Keeps simulation time in step with the wall, or lets it run.
+"""Pacing of simulation time by the wall clock, or flat out.
 
-The only clockwork of a run: the simulator itself never looks at the wall clock.
+The simulator itself never reads the wall clock.
 """
 
 import sys
@@ -11,26 +11,26 @@ from collections.abc import Callable
 from trundle.spatial import NS_PER_S
 
 _STRIDE_WALL_NS = 20_000_000
-"""How long the simulation runs before requests are looked at again, as wall time."""
+"""Stride between two checks for requests, in wall time [ns]."""
 _STRIDE_FLAT_OUT_NS = 50_000_000
-"""Simulation time of a stride when nothing waits for the wall: fixed, so that runs repeat."""
+"""Stride of a flat-out run, in simulation time [ns]: fixed, so that runs repeat."""
 _LAG_FORGIVEN_NS = 200_000_000
-"""A run that cannot keep up does not hurry after more than this of lost time: it is slow, not jerky."""
-_TURN_S = 0.0005
-"""A tenth of what Python gives a thread."""
+"""Largest lag that is caught up [ns]; a slower run is slow, not jerky."""
+_GIL_INTERVAL_S = 0.0005
+"""A tenth of Python's default switch interval [s]."""
 
 
 def shorten_gil_interval() -> None:
-    """Have the threads of this process take turns often, so that stepping keeps its pace beside a busy one.
+    """Shorten the interpreter's switch interval, so that stepping keeps its pace beside a busy thread.
 
-    A thread that comes back from MuJoCo or a socket waits for its turn: five milliseconds each time by Python's
-    default, while the graph's thread reads, say, the megabytes of a hostile call.
+    A thread that comes back from MuJoCo or a socket waits for the GIL: 5 ms each time by default, while the graph's
+    thread reads, say, megabytes of a hostile call.
     """
-    sys.setswitchinterval(_TURN_S)
+    sys.setswitchinterval(_GIL_INTERVAL_S)
 
 
 class RealtimePacer:
-    """Says up to which simulation time to go next, and waits for the wall where that is early."""
+    """Computes the next simulation time to advance to, and sleeps while the wall clock is behind it."""
 
     def __init__(
         self,
@@ -44,7 +44,7 @@ class RealtimePacer:
         Args:
             speed: simulated seconds per second of wall time; None: flat out.
             wall_ns: the wall clock [ns].
-            sleep: waits so many seconds.
+            sleep: sleeps for seconds.
         """
         self._speed = speed
         self._wall_ns = wall_ns
@@ -58,17 +58,17 @@ class RealtimePacer:
         return self._speed
 
     def set_speed(self, speed: float | None) -> None:
-        """Go on at another speed from now."""
+        """Change the speed."""
         self._speed = speed
         self.restart()
 
     def restart(self) -> None:
-        """Forget the past: after a pause, a reset or a single step."""
+        """Pace from now on; after a pause, a reset or a single step."""
         self._anchor = None
         self._recent.clear()
 
     def next_target(self, time_ns: int) -> int:
-        """The simulation time [ns] to go to now; waits first if the wall has not got there."""
+        """Return the simulation time [ns] to advance to; sleep first if ahead of the wall clock."""
         now = self._wall_ns()
         self._recent.append((now, time_ns))
         if self._speed is None:
@@ -85,7 +85,7 @@ class RealtimePacer:
 
     @property
     def real_time_factor(self) -> float | None:
-        """Simulated over wall time during the last strides; None before there is any."""
+        """Simulated over wall time during the last 100 strides; None before the second."""
         if len(self._recent) < 2:
             return None
         (wall_0, sim_0), (wall_1, sim_1) = self._recent[0], self._recent[-1]

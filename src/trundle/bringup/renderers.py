@@ -1,4 +1,4 @@
-"""Which renderer draws: the one that was asked for, never another."""
+"""Renderers by name."""
 
 import os
 from collections.abc import Callable

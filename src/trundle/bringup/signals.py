@@ -1,4 +1,4 @@
-"""Ctrl-C, SIGTERM and the end of the terminal as a flag that a loop looks at."""
+"""SIGINT, SIGTERM and SIGHUP as a flag that loops poll."""
 
 import signal
 import threading
@@ -8,30 +8,30 @@ from queue import Empty, SimpleQueue
 from types import FrameType
 
 _HANG_UP = getattr(signal, "SIGHUP", signal.SIGTERM)
-"""Windows has none."""
+"""Windows has no SIGHUP."""
 _ENDS = (signal.SIGINT, signal.SIGTERM, _HANG_UP)
 
 
 class StopFlag:
-    """An event that a signal handler may set.
+    """Event that a signal handler may set.
 
-    `threading.Event` may not: a handler that runs while its own thread is inside `wait` waits for that thread's lock
-    for ever. A SimpleQueue's `put` is made to be called from anywhere.
+    `threading.Event` deadlocks there: a handler that runs while its own thread is inside `wait` waits for that thread's
+    lock. `SimpleQueue.put` is reentrant.
     """
 
     def __init__(self) -> None:
         self._asked: SimpleQueue[None] = SimpleQueue()
 
     def set(self) -> None:
-        """From a signal handler or any thread."""
+        """Set the flag; from a signal handler or any thread."""
         self._asked.put(None)
 
     def is_set(self) -> bool:
-        """Whether it was set, ever."""
+        """True if it was ever set."""
         return not self._asked.empty()
 
     def wait(self, seconds: float) -> bool:
-        """Return whether it is set, at once when it is, else after so many seconds."""
+        """Wait for the flag for at most so many seconds; return True if it is set."""
         try:
             self._asked.get(timeout=seconds)
         except Empty:
@@ -44,11 +44,11 @@ class StopFlag:
 def stop_flag() -> Generator[StopFlag]:
     """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a second SIGINT ends the process as usual."""
     flag = StopFlag()
-    if threading.current_thread() is not threading.main_thread():  # signals are the main thread's affair
+    if threading.current_thread() is not threading.main_thread():  # only the main thread may set signal handlers
         yield flag
         return
     before = {number: signal.getsignal(number) for number in _ENDS}
-    if before.get(_HANG_UP) == signal.SIG_IGN:  # `nohup` wants it so
+    if before.get(_HANG_UP) == signal.SIG_IGN:  # under `nohup`
         del before[_HANG_UP]
 
     def ask_to_stop(_number: int, _frame: FrameType | None) -> None:

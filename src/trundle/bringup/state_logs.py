@@ -10,7 +10,7 @@ from trundle.simulation import Simulation, Snapshot, StateRecorder
 
 
 def start_state_log(path: Path, simulation: Simulation, world: World, report: Diagnostics) -> StateRecorder:
-    """Begin a log with where everything is now; `world` is what whoever plays it sees.
+    """Start a log with the current state; `world` is the one that `trundle play` will show.
 
     Raises:
         OSError: it cannot be written.
@@ -23,7 +23,7 @@ def start_state_log(path: Path, simulation: Simulation, world: World, report: Di
 
 
 class RunRecorder:
-    """A hook that logs a run, as far as it can be written."""
+    """Hook that logs a run until a write fails."""
 
     period_ns = StateRecorder.period_ns
 
@@ -31,10 +31,10 @@ class RunRecorder:
         self._recorder = recorder
         self._say = say
         self.has_failed = False
-        """Whether it could not be written; nothing is written any more."""
+        """True after a failed write; no more is written."""
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Write where everything is, up to the first time that it cannot be."""
+        """Write the state, unless a write has failed."""
         if self.has_failed:
             return
         try:
@@ -44,12 +44,12 @@ class RunRecorder:
             self.has_failed = True
 
     def close(self) -> None:
-        """End the file."""
+        """Close the file."""
         self._recorder.close()
 
 
 class WorldRecorder:
-    """A hook that logs a world whose models come and go: each time they have, the next file begins."""
+    """Hook that logs a world whose models come and go; each change starts the next file."""
 
     period_ns = StateRecorder.period_ns
 
@@ -57,9 +57,9 @@ class WorldRecorder:
         """Record into `state.log`, then `state-2.log` and so on.
 
         Args:
-            simulation: recorded.
-            folder: is made; files of earlier recordings are written anew.
-            say: is told of each file, and when no more can be written.
+            simulation: the one to record.
+            folder: is made; files of earlier recordings are overwritten.
+            say: prints each file, and a failed write.
         """
         self._simulation = simulation
         self._folder = folder
@@ -69,7 +69,7 @@ class WorldRecorder:
         self._recorder: StateRecorder | None = None
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Write where everything is."""
+        """Write the state."""
         compiled = self._simulation.engine.compiled
         names = (compiled.link_names, compiled.joint_names)
         try:
@@ -83,7 +83,7 @@ class WorldRecorder:
             self._say(f"recording ends: {self._folder}: {error.strerror}")
 
     def close(self) -> None:
-        """End the file."""
+        """Close the file."""
         if self._recorder is not None:
             self._recorder.close()
             self._recorder = None

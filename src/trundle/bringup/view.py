@@ -1,4 +1,4 @@
-"""`trundle view`: any ROS graph in the browser."""
+"""`trundle view`: shows any ROS graph in the browser."""
 
 import asyncio
 import os
@@ -22,14 +22,14 @@ from .signals import stop_flag
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ViewOptions:
-    """What to show, and where."""
+    """Options of `trundle view`."""
 
     config: str | None = None
     """An .rviz file."""
     fixed_frame: str | None = None
     host: str = "127.0.0.1"
     port: int | None = None
-    """None: 8080 or the next free one."""
+    """Port of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
 
@@ -53,7 +53,7 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
     warn_of_network(options.host, show.line)
     with stop_flag() as stop, ExitStack() as open_things:
         loop = open_things.enter_context(GraphLoop())
-        # Anonymous, as the original's: a launch may have a node called rviz, which a second one would shut down.
+        # Anonymous, as rviz is: a second node of the name rviz would shut that of a launch down.
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         packages = Packages(env, start=Path.cwd())

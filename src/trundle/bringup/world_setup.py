@@ -1,4 +1,4 @@
-"""Puts what a file describes into a world that can be simulated."""
+"""Worlds to simulate, from any description."""
 
 import os
 from dataclasses import dataclass
@@ -13,28 +13,28 @@ from trundle.model import World, flattened
 from trundle.packages import Packages
 from trundle.simulation import Simulation, with_actors
 
-if TYPE_CHECKING:  # an SDF file starts without what reads URDF
+if TYPE_CHECKING:  # SDF does not load the URDF reader
     from trundle.robot import Robot
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedWorld:
-    """A world ready to compile, and the URDF it came from, if it came from one."""
+    """World ready to compile, and the URDF that it came from, if any."""
 
     world: World
-    """Nested models are part of the outer ones, as everything that simulates wants it."""
+    """Nested models are merged into the outer ones, as physics needs it."""
     written: World
-    """The same, nested as in the file."""
+    """The same world, nested as in the file."""
     robot: "Robot | None"
     urdf: str | None
-    """The expanded XML, what goes on the parameter /robot_description."""
+    """Expanded XML, for the parameter /robot_description."""
 
 
 def load_world(file: str, packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:
-    """Read a file; a robot alone is put on a ground plane under a sun, a world is taken as it is.
+    """Read a file; a robot or model is put on a ground plane under a sun, a world is taken as it is.
 
     Raises:
-        DescriptionError: the file cannot be made sense of.
+        DescriptionError: the file cannot be read.
     """
     loaded = load(file, report, packages=packages, seed=seed)
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
@@ -42,7 +42,7 @@ def load_world(file: str, packages: Packages, report: Diagnostics, *, seed: int 
 
 
 def load_simulation(file: str, *, seed: int = 0) -> Simulation:
-    """Read a file and compile it, with the process's environment; see `trundle.load`."""
+    """Read and compile a file, with os.environ; see `trundle.load`."""
     report = Diagnostics()
     stage = load_world(file, Packages(dict(os.environ), start=Path.cwd()), report, seed=seed)
     return Simulation(stage.world, report, seed=seed)

@@ -41,14 +41,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Draw one picture, or many."""
     from trundle.bringup.picture.render import PictureOptions, PictureRenderer
-    from trundle.bringup.picture.video import MOVING, simulated_frames, turntable, write_video
+    from trundle.bringup.picture.video import VIDEO_SUFFIXES, simulated_frames, turntable, write_video
     from trundle.diagnostics import Diagnostics, UsageError
 
-    moves = args.output.suffix.lower() in MOVING
+    moves = args.output.suffix.lower() in VIDEO_SUFFIXES
     if args.orbit and (args.camera or args.duration is not None):
         raise UsageError("--orbit goes once around everything: it takes neither --camera nor --duration")
     if (args.orbit or args.duration is not None) and not moves:
-        raise UsageError(f"that is a film: its file ends in {', '.join(MOVING)}, not in {args.output.suffix!r}")
+        raise UsageError(f"that is a film: its file ends in {', '.join(VIDEO_SUFFIXES)}, not in {args.output.suffix!r}")
     if moves and args.depth:
         raise UsageError("depth has 16 bits, which films have not; write a .png")
     report = Diagnostics()
@@ -67,7 +67,7 @@ def main(args: argparse.Namespace) -> int:
             if args.orbit
             else simulated_frames(studio, _VIDEO_S if args.duration is None else args.duration)
         )
-        write_video(frames, args.output, tell=_print_progress)
+        write_video(frames, args.output, report_progress=_print_progress)
         return 0
     try:
         studio.render().save(args.output)

@@ -1,1 +1,1 @@
-"""`trundle check`: what a file says, and what is doubtful about it."""
+"""`trundle check`: the contents of a file, and what is doubtful about them."""

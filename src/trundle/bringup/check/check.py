@@ -1,4 +1,4 @@
-"""`trundle check`: what a file says, and what is doubtful about it; nothing in it is run."""
+"""`trundle check`: the contents of a file, and what is doubtful about them; nothing in it is run."""
 
 import os
 import re
@@ -19,29 +19,29 @@ if TYPE_CHECKING:
 
 _LAUNCH = (".launch", ".launch.py", ".launch.xml", ".test")
 _LAUNCH_TAG = re.compile(rb"(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*+<launch[\s/>]", re.DOTALL)
-"""A document's start up to its root."""
+"""Start of an XML document, up to its root element."""
 _START_BYTES = 64 * 1024
 
 
 class Findings(Protocol):
-    """What was understood of a file."""
+    """Contents of a checked file."""
 
     def as_json(self) -> dict[str, object]:
-        """All of it."""
+        """Contents, as `check --json` prints them."""
         ...
 
     def sentence(self) -> str:
-        """How much it is."""
+        """Kind and counts, on one line."""
         ...
 
     def trees(self) -> "list[TreeNode]":
-        """The kinematic trees in it."""
+        """Kinematic trees of the file."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckResult:
-    """What checking a file found."""
+    """Contents and findings of one file."""
 
     file: str
     findings: Findings | None
@@ -49,38 +49,38 @@ class CheckResult:
     report: Diagnostics
 
     def trees(self) -> "list[TreeNode]":
-        """The kinematic trees of what was understood."""
+        """Kinematic trees; none if the file was refused."""
         return [] if self.findings is None else self.findings.trees()
 
     @property
     def is_refused(self) -> bool:
-        """Whether nothing sensible could be made of the file."""
+        """True if the file could not be read."""
         return self.findings is None
 
     def as_json(self) -> dict[str, object]:
-        """The resolved description and every finding."""
+        """Resolved description and every finding."""
         findings = [finding.as_json() for finding in self.report.findings]
         understood = {"kind": None, "models": []} if self.findings is None else self.findings.as_json()
         return {**understood, "diagnostics": findings}
 
     def text(self) -> str:
-        """Findings, worst first, and what was understood."""
+        """Findings, worst first, then kind and counts of the contents."""
         lines = self.report.worst_first()
         counts = Counter(finding.severity for finding in self.report.findings)
         plural = {"error": "errors", "warning": "warnings", "info": "notes"}
         singular = {"error": "error", "warning": "warning", "info": "note"}
-        told = [f"{n} {(singular if n == 1 else plural)[s]}" for s in plural if (n := counts[s])]
+        parts = [f"{n} {(singular if n == 1 else plural)[s]}" for s in plural if (n := counts[s])]
         verdict = "refused" if self.findings is None else self.findings.sentence()
-        return "\n".join([*lines, f"{self.file}: {verdict}; {', '.join(told) or 'nothing to remark'}"])
+        return "\n".join([*lines, f"{self.file}: {verdict}; {', '.join(parts) or 'nothing to remark'}"])
 
 
 def check(file: str, environment: Mapping[str, str], *, start: Path, collisions: bool = False) -> CheckResult:
-    """Read a file as far as it can be read, physics included.
+    """Read a file as far as possible, and check its physics.
 
     Args:
         file: a path, a folder with model.config, model://NAME, a launch file, or "-" for standard input.
-        environment: says where packages and models are.
-        start: packages are looked for around it too.
+        environment: variables that locate packages and models.
+        start: packages are searched around it, too.
         collisions: cut hollow meshes as physics does, which may take a minute.
     """
     report = Diagnostics()
@@ -106,7 +106,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path, collisions:
 
 
 def _is_launch(file: str, piped: Piped | None) -> bool:
-    """By the name of a file, else by the root element."""
+    """True by the file's name, or by its root element."""
     if piped is None and not os.path.isfile(file):
         return False
     return file.endswith(_LAUNCH) or _LAUNCH_TAG.match(_start_of(file) if piped is None else piped.data) is not None
@@ -116,5 +116,5 @@ def _start_of(file: str) -> bytes:
     try:
         with open_file(file) as opened:
             return opened.read(_START_BYTES)
-    except OSError:  # whoever reads all of it says so
+    except OSError:  # the reader reports it
         return b""

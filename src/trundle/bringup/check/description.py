@@ -21,25 +21,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class DescriptionFindings:
-    """What was read, and the same without nested models."""
+    """A description as read, and its world with nested models flattened."""
 
     loaded: LoadedDescription
     flat: World
 
     def as_json(self) -> dict[str, object]:
-        """As `check --json` prints it."""
+        """Contents, as `check --json` prints them."""
         from .json_output import description_json
 
         return description_json(self.loaded)
 
     def trees(self) -> "list[TreeNode]":
-        """Of each model."""
+        """Kinematic tree of each model."""
         from .kinematic_tree import kinematic_trees
 
         return kinematic_trees(self.loaded)
 
     def sentence(self) -> str:
-        """How many of what."""
+        """Kind and counts, on one line."""
         models = self.flat.models
         links = sum(len(model.links) for model in models)
         joints = sum(len(model.joints) for model in models)
@@ -60,18 +60,18 @@ def check_description(
     collisions: bool = False,
     piped: Piped | None = None,
 ) -> DescriptionFindings:
-    """Read a description and put it to use as far as shows what is wrong with it.
+    """Read a description, lint it and compile its physics.
 
     Args:
         file: as `trundle check` takes it.
-        packages: where URIs lead.
+        packages: resolve URIs.
         start: relative URIs in standard input start here.
-        report: takes everything worth saying.
+        report: takes all findings.
         collisions: cut hollow meshes as physics does, which may take a minute.
-        piped: what came through `file`, where that is no file.
+        piped: contents of `file` where it is a pipe.
 
     Raises:
-        DescriptionError: of which nothing sensible can be made.
+        DescriptionError: the file cannot be read.
         UsageError: no such model.
     """
     loaded = load_input(file, report, packages=packages, start=start, piped=piped)
@@ -85,7 +85,7 @@ def check_description(
 def _report_physics(flat: World, report: Diagnostics, *, collisions: bool) -> None:
     try:
         if not physics_accepts(flat):
-            from trundle.physics import compile_world  # slow to load, and most robots need none of its mending
+            from trundle.physics import compile_world  # slow to load, and most robots need no repair by it
 
             compile_world(flat, report, cut_meshes=collisions)
         report_wheels(flat, report)

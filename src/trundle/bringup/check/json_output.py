@@ -1,7 +1,7 @@
-"""What was understood of a file, as `trundle check --json` prints it.
+"""JSON of a description, as `trundle check --json` prints it.
 
-Every pose is [x y z roll pitch yaw] in its own model's frame; a limit that is none is null; values are as resolved
-from the file, before physics mends anything.
+Every pose is [x y z roll pitch yaw] in its own model's frame [m, rad]; an infinite limit is null; values are as
+resolved from the file, before physics repairs any.
 """
 
 import math
@@ -16,7 +16,7 @@ _NO_AXIS: dict[str, object] = {"axis": None, "lower": None, "upper": None, "effo
 
 
 def description_json(loaded: LoadedDescription) -> dict[str, object]:
-    """A world, a model or a URDF."""
+    """JSON of a world, a model or a URDF."""
     world = loaded.world
     result: dict[str, object] = {
         "kind": "world" if loaded.kind == "world" else "model",
@@ -47,7 +47,7 @@ def _model(model: Model) -> dict[str, object]:
 
 
 def _named_joints(model: Model) -> Iterator[tuple[Joint, str]]:
-    """Joints by names of their own: one called like a link, as SDF before 1.7 allows, gets `_joint` behind it."""
+    """Joints with unique names: one that has a link's name, as SDF before 1.7 allows, gets the suffix `_joint`."""
     taken = {link.name for link in model.links}
     for joint in model.joints:
         yield joint, f"{joint.name}_joint" if joint.name in taken else joint.name

@@ -1,4 +1,4 @@
-"""The links of a description as trees, joined by its joints."""
+"""Kinematic trees of a description: links as nodes, joints as edges."""
 
 from trundle.description import LoadedDescription
 from trundle.drawing.tree import TreeNode
@@ -7,7 +7,7 @@ from trundle.robot import Robot
 
 
 def kinematic_trees(loaded: LoadedDescription) -> list[TreeNode]:
-    """One tree for a URDF as written; for SDF one for each model, its free links below it."""
+    """One tree for a URDF as written; for SDF, one per model with its free links below it."""
     if loaded.robot is not None:
         return [_robot_tree(loaded.robot)]
     return [_model_tree(model) for model in flattened(loaded.world).models]

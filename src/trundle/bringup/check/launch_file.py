@@ -15,12 +15,12 @@ from ..load_input import Piped
 
 @dataclass(frozen=True, slots=True)
 class LaunchFindings:
-    """What a launch file asks for."""
+    """Nodes and parameters of a launch file."""
 
     plan: LaunchPlan
 
     def as_json(self) -> dict[str, object]:
-        """As `check --json` prints it."""
+        """Contents, as `check --json` prints them."""
         return {
             "kind": "launch",
             "nodes": [
@@ -48,7 +48,7 @@ class LaunchFindings:
         return []
 
     def sentence(self) -> str:
-        """How many of what."""
+        """Counts of nodes and parameters, on one line."""
         commands = sum(isinstance(param.value, ParamCommand) for param in self.plan.params)
         to_run = f", {commands} of them by a command" if commands else ""
         return f"a launch of {len(self.plan.nodes)} nodes with {len(self.plan.params)} parameters{to_run}"
@@ -57,10 +57,10 @@ class LaunchFindings:
 def check_launch(
     file: str, environment: Mapping[str, str], *, packages: Packages, report: Diagnostics, piped: Piped | None = None
 ) -> LaunchFindings:
-    """Read a launch file, or what came through a pipe in place of one.
+    """Read a launch file, or the text of a pipe.
 
     Raises:
-        DescriptionError: of which nothing sensible can be made.
+        DescriptionError: the file cannot be read.
     """
     if piped is not None:
         text = piped.data.decode(errors="replace")
@@ -72,7 +72,7 @@ def check_launch(
 
 
 def _plain(value: object) -> object:
-    """A parameter's value as JSON has it: bytes and numbers that are none become text."""
+    """JSON form of a parameter's value: bytes become hex, nan and inf text."""
     match value:
         case bytes():
             return value.hex()

@@ -1,4 +1,4 @@
-"""The window of the world behind /gazebo: a page, once somebody asks for it."""
+"""Page that takes gzclient's place, opened when a node asks for it."""
 
 from collections.abc import Callable, Sequence
 
@@ -13,14 +13,14 @@ from ..realtime_pacer import RealtimePacer
 
 
 class GzclientPage:
-    """What gzclient shows; all but `url`, `is_over` and `is_wanted` belongs to the simulation's thread."""
+    """Page of the world behind /gazebo; all but `url`, `is_over` and `is_wanted` belongs to the simulation's thread."""
 
     def __init__(self, at: PageAddress | None, say: Callable[[str], None]) -> None:
-        """Show nothing yet.
+        """Prepare; `open` serves the page.
 
         Args:
             at: address of the page; None: headless.
-            say: is told where the page is.
+            say: prints the page's URL.
         """
         self._at = at
         self._say = say
@@ -28,22 +28,22 @@ class GzclientPage:
 
     @property
     def url(self) -> str | None:
-        """Where the page is; None before it is served."""
+        """URL of the page; None before it is served."""
         page = self._page
         return None if page is None else page.url
 
     @property
     def is_over(self) -> bool:
-        """Whether there will be no page."""
+        """True if there will be no page."""
         return self._at is None
 
     @property
     def is_wanted(self) -> bool:
-        """Whether a page is still to be opened."""
+        """True if the page is still to be opened."""
         return self._at is not None and self._page is None
 
     def open(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor], node: Node) -> None:
-        """Open the page, unless it is open or cannot be; a node says why."""
+        """Open the page unless it is open; a failure is logged by the node."""
         if self._at is None or self._page is not None:
             return
         try:
@@ -55,19 +55,19 @@ class GzclientPage:
             self._say(f"see the simulation at {self._page.url}")
 
     def reload(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        """Show it anew: models or lights came or went."""
+        """Rebuild the scene after models or lights came or went."""
         if self._page is not None:
             self._page.reload(simulation, sensors)
 
     def update(self, pacer: RealtimePacer, *, paused: bool) -> bool:
-        """Do what was pressed, and show where everything is; return whether the simulation is paused now."""
+        """Handle the page's requests and send it the state; return True if the simulation is paused now."""
         if self._page is not None:
             paused = self._page.handle_requests(pacer, paused=paused)
             self._page.update(pacer, paused=paused)
         return paused
 
     def close(self) -> None:
-        """Take the page down."""
+        """Close the page."""
         if self._page is not None:
             self._page.close()
             self._page = None

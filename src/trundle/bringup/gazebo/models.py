@@ -1,4 +1,4 @@
-"""Reads the text of a spawned model."""
+"""Reader of a spawned model's text."""
 
 import re
 from pathlib import Path
@@ -16,15 +16,15 @@ _URDF = re.compile(r"<robot[\s>]")
 def read_spawned(
     xml: str, *, name: str, namespace: str, folder: Path, packages: Packages, report: Diagnostics
 ) -> tuple[Model, Robot | None]:
-    """Read the one model that an SDF or URDF text describes, and the URDF's own tree.
+    """Read the one model of an SDF or URDF text, and the URDF's own tree.
 
     Args:
         xml: the text; it is kept in a file, so that messages can name its lines.
-        name: what the model will be called.
-        namespace: becomes the robotNamespace of its plugins that have none, as in gazebo_ros; empty: of none.
-        folder: where the file goes.
-        packages: where URIs lead.
-        report: takes everything worth saying.
+        name: the model's name in the world.
+        namespace: robotNamespace of its plugins that have none, as in gazebo_ros; empty: leave them.
+        folder: of that file.
+        packages: resolve URIs.
+        report: takes all findings.
 
     Raises:
         TrundleError: no model, or several.
@@ -43,11 +43,11 @@ def read_spawned(
 
 
 def _in_namespace(xml: str, namespace: str) -> str:
-    """Write the namespace into every plugin that has none."""
+    """Write <robotNamespace> into every plugin that has none."""
     try:
         root = parse_xml(xml, name="", report=Diagnostics())
     except DescriptionError:
-        return xml  # the reader says what is wrong with it, and where
+        return xml  # the reader reports it with its line
     pending = [root]
     while pending:
         node = pending.pop()

@@ -1,4 +1,4 @@
-"""The plugins of the world behind /gazebo, and their nodes, as models come and go."""
+"""Plugins of the world behind /gazebo, and their nodes, as models come and go."""
 
 from collections.abc import Callable, Mapping
 
@@ -25,16 +25,16 @@ class GazeboPlugins:
         deliver: Callable[[Callable[[], None]], None],
         say: Callable[[str], None],
     ) -> None:
-        """Have none yet.
+        """Prepare; `load` loads the plugins.
 
         Args:
-            simulation: what they act on.
-            server: gzserver's node; theirs are of its distribution.
-            graph: where their nodes live.
-            env: says where plugins are.
+            simulation: the plugins act on it.
+            server: gzserver's node; the plugins' nodes get its distribution.
+            graph: of their nodes.
+            env: variables that locate plugins.
             clock: their nodes' time.
-            deliver: gets what their nodes hear to the simulation's thread.
-            say: is told what is loaded.
+            deliver: runs their nodes' callbacks on the simulation's thread.
+            say: prints which plugins are loaded.
         """
         self._simulation = simulation
         self._server = server
@@ -44,27 +44,27 @@ class GazeboPlugins:
         self._deliver = deliver
         self._say = say
         self._nodes: dict[str, list[Node]] = {}
-        """By model; the world's have no name."""
+        """Model → nodes of its plugins; "" is the world."""
 
     def load(self) -> None:
-        """Load those of every model, and then the world's."""
+        """Load the plugins of every model, then those of the world."""
         for model in self._simulation.models:
             self.load_model(model)
         load_world_plugins(self._simulation, lambda name: self._node(name, ""), self._env, say=self._say)
 
     def load_model(self, model: ModelHandle) -> None:
-        """Load those of a model."""
+        """Load the plugins of a model."""
         load_plugins(
             self._simulation, lambda name: self._node(name, model.name), self._env, say=self._say, models=[model]
         )
 
     def unload(self, model: str) -> None:
-        """End the nodes of a model that is gone."""
+        """Shut down the nodes of a deleted model."""
         for node in self._nodes.pop(model, []):
             self._graph.loop.run(node.shutdown(), timeout_s=_END_S)
 
     def close(self) -> None:
-        """Have every node end, without waiting; from any thread."""
+        """Shut down every node without waiting; from any thread."""
         for nodes in self._nodes.values():
             for node in nodes:
                 self._graph.loop.spawn(node.shutdown())

@@ -1,4 +1,4 @@
-"""The sensors of the world behind /gazebo, and their topics, as models come and go."""
+"""Sensors of the world behind /gazebo, and their topics, as models come and go."""
 
 from trundle.bridge import FrameNames, make_camera_topics, make_sensor_topics
 from trundle.diagnostics import Diagnostics
@@ -12,10 +12,10 @@ from ..renderers import RENDERERS, RendererName
 
 
 class GazeboSensors:
-    """Everything that measures, on the simulation's thread."""
+    """Sensors of one simulation; on its thread."""
 
     def __init__(self, simulation: Simulation, node: Node, renderer: RendererName, report: Diagnostics) -> None:
-        """Have nothing measure yet."""
+        """Prepare; `mount` starts sensors."""
         self._simulation = simulation
         self._node = node
         self._static_broadcaster = StaticTransformBroadcaster(node)
@@ -25,16 +25,16 @@ class GazeboSensors:
         self._endpoints: dict[str, list[Endpoint]] = {}
         """Model → topics and services of its sensors."""
         self._robots: dict[str, Robot] = {}
-        """Model → the URDF that it was spawned from."""
+        """Model → URDF that it was spawned from."""
         self.all: list[CameraSensor | InstrumentSensor] = []
-        """In the order in which they came."""
+        """All sensors, in the order in which they were mounted."""
 
     def mount(self, model: str | None = None, *, robot: Robot | None = None) -> None:
-        """Have the sensors of every model, or of one that came, measure; those that are there go on.
+        """Start the sensors of all models, or of one that was spawned; those running go on.
 
         Args:
-            model: that came; None: every one there is.
-            robot: the URDF that it came from. Of the only one, the links' frames are those of robot_state_publisher.
+            model: the spawned one; None: all.
+            robot: URDF that it came from. If it is the only one, the links' frames are robot_state_publisher's.
         """
         simulation = self._simulation
         if model is not None and robot is not None:
@@ -54,7 +54,7 @@ class GazeboSensors:
                 )
 
     def unmount(self, model: str) -> None:
-        """Have a model that is gone measure no more, and end its topics but those that others have, too."""
+        """Stop the sensors of a deleted model, and unregister its topics unless another model has them, too."""
         gone = [sensor for sensor in self.all if sensor.model.name == model]
         self.all = [sensor for sensor in self.all if sensor not in gone]
         for sensor in gone:

@@ -1,4 +1,4 @@
-"""The simulation of a launch: what gzserver opens, spawn_model fills and gzclient shows, on a thread of its own."""
+"""Simulation of a launch: opened by gzserver, filled by spawn_model, shown by gzclient, on a thread of its own."""
 
 import asyncio
 import os
@@ -39,7 +39,7 @@ _END_S = 2.0
 
 
 class GazeboWorld:
-    """Owns one simulation; see `trundle.nodes.Simulator` for what may be called from where."""
+    """Owner of one simulation; `trundle.nodes.Simulator` states which thread may call what."""
 
     def __init__(
         self,
@@ -55,19 +55,19 @@ class GazeboWorld:
         renderer: RendererName = "cpu",
         steps: Lockstep | None = None,
     ) -> None:
-        """Get ready; nothing is simulated before `open`.
+        """Prepare; `open` starts the simulation.
 
         Args:
-            graph: where its nodes live.
+            graph: of its nodes.
             start: a file of the launch; packages are searched around it, too.
-            env: says where packages, models and plugins are.
-            report: takes what files and physics leave to be said.
-            folder: takes the text of each spawned model, which messages name lines of.
-            say: tells the user a thing.
+            env: variables that locate packages, models and plugins.
+            report: takes findings of files and physics.
+            folder: keeps the text of each spawned model; messages name its lines.
+            say: prints a line.
             window: address of the page; None: headless.
             speed: times real time; None: flat out.
-            renderer: draws what cameras see.
-            steps: say when time may go on; None: always.
+            renderer: draws the cameras' images.
+            steps: holds time until the nodes are done; None: time is free.
         """
         self._graph = graph
         self._start = start
@@ -98,7 +98,7 @@ class GazeboWorld:
     async def open(
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
-        """Read a world and let it run."""
+        """Read a world and start simulating it."""
         self._record = (
             None if record is None else Path(record).expanduser() if record else self._folder.parent / "gazebo"
         )
@@ -145,7 +145,7 @@ class GazeboWorld:
             self._say("the world is paused; /gazebo/unpause_physics starts it")
 
     def _opened(self, world: str) -> str:
-        """The world that is asked for, or gzserver's empty one where no such file is."""
+        """The world asked for, or gzserver's empty one where there is no such file."""
         is_there = world.startswith(("model://", "file://")) or os.path.exists(os.path.expanduser(world))
         if is_there or self._packages.find_world(world) is not None:
             return world
@@ -158,11 +158,11 @@ class GazeboWorld:
         return _EMPTY_WORLD
 
     def post(self, call: Callable[[], None]) -> None:
-        """Have a function called between two strides."""
+        """Queue a function for the simulation's thread, between two strides."""
         self._calls.post(call)
 
     async def show(self, node: Node) -> int:
-        """Open the page, once there is something to show, and keep it until cancelled."""
+        """Open the page once there is a world, and keep it until cancelled."""
         while not node.closed.is_set():
             if self._window.is_wanted and self._simulation is not None:
                 self.post(lambda: self._window.open(self.simulation, self.sensors, node))
@@ -184,30 +184,30 @@ class GazeboWorld:
 
     @property
     def url(self) -> str | None:
-        """Where the page is; None before it is served."""
+        """URL of the page; None before it is served."""
         return self._window.url
 
     @property
     def is_over(self) -> bool:
-        """Whether there will be no page."""
+        """True if there will be no page."""
         return self._window.is_over
 
     @property
     def is_open(self) -> bool:
-        """Whether there is a world."""
+        """True if a world is open."""
         return self._thread is not None
 
     # -- on its thread
 
     @property
     def simulation(self) -> Simulation:
-        """The world as it is now."""
+        """The running simulation."""
         assert self._simulation is not None, "open() comes first"
         return self._simulation
 
     @property
     def sensors(self) -> Sequence[CameraSensor | InstrumentSensor]:
-        """Everything in it that measures."""
+        """Sensors of all models."""
         return self._measuring.all
 
     @property
@@ -222,16 +222,16 @@ class GazeboWorld:
 
     @property
     def is_lockstep(self) -> bool:
-        """Whether time waits for nodes, not they for it."""
+        """True if time waits for the nodes at each step."""
         return self._lockstep is not None
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still."""
+        """True if the simulation is paused."""
         return self._paused
 
     def set_paused(self, paused: bool) -> None:
-        """Stop time, or let it go on."""
+        """Pause, or go on."""
         self._paused = paused
         self._pacer.restart()
 
@@ -258,18 +258,18 @@ class GazeboWorld:
         self._reload_page()
 
     def edit(self, world: World) -> None:
-        """Go on with other gravity, masses, limits or lights."""
+        """Replace gravity, masses, limits or lights."""
         lights = self.simulation.world.lights
         self.simulation.edit(world)
         if world.lights != lights:
             self._reload_page()
 
     def set_speed(self, speed: float | None) -> None:
-        """Simulate so many seconds a second of the wall."""
+        """Set the real-time factor; None: flat out."""
         self._pacer.set_speed(speed)
 
     def reset(self, *, time: bool) -> None:
-        """Put everything back to where it came."""
+        """Put every model back to its initial state."""
         self.simulation.reset(time=time)
         self._clock.set(self.simulation.time_ns)
         self._pacer.restart()
@@ -312,10 +312,10 @@ class GazeboWorld:
             self._stop_stepping(f"{type(error).__name__}: {error}")
         self._clock.set(simulation.time_ns)
         if self._lockstep is None and self._pacer.speed is None:
-            self._graph.loop.flush_deliveries()  # who hears what when does not depend on how fast the machine is
+            self._graph.loop.flush_deliveries()  # delivery order does not depend on the machine's speed
 
     def _step_lockstep(self, simulation: Simulation, steps: Lockstep, until_ns: int) -> None:
-        """Go from instant to instant, and at each let the nodes do what it brings."""
+        """Advance hook by hook, and wait after each until the nodes have settled."""
         end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may have time reset amid this
         while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self._paused and not self._ending.is_set():
             simulation.stride(simulation.time_ns + left_ns)

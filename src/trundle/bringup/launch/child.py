@@ -1,6 +1,6 @@
-"""`trundle launch --child`: runs here what a roslaunch on another machine, the parent, wants to run here.
+"""`trundle launch --child`: runs the nodes that a roslaunch on another machine, the parent, has for this one.
 
-The parent starts it over ssh, and then speaks to it as to Debian's own: XML-RPC in both directions.
+The parent starts it over ssh, then both call each other over XML-RPC, as roslaunch and its children do.
 """
 
 import asyncio
@@ -31,10 +31,10 @@ from .session import LaunchSession
 
 
 def run_child(parent: ParentLaunch, options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
-    """Serve the parent until it ends us, every node has ended, or Ctrl-C; return 1 when a required node died.
+    """Serve the parent until its shutdown call, every node's end, or Ctrl-C; return 1 if a required node died.
 
     Raises:
-        UsageError: the parent cannot be reached, or does not know us.
+        UsageError: the parent cannot be reached, or does not know this child.
     """
     env = dict(os.environ if environment is None else environment)
     warn_of_network(options.host, Console(sys.stderr, Diagnostics()).line)
@@ -56,7 +56,7 @@ def run_child(parent: ParentLaunch, options: LaunchOptions, environment: Mapping
 
 
 class _Child:
-    """What the parent asks for, and the launches it had started."""
+    """XML-RPC server of the parent's calls, and the launches that they started."""
 
     def __init__(self, parent: ParentLaunch, options: LaunchOptions, env: Mapping[str, str], stop: StopFlag) -> None:
         self._parent = parent
@@ -65,28 +65,28 @@ class _Child:
         self._stop = stop
         self._launches = ExitStack()
         self._busy = threading.Lock()
-        """Held while nodes start or stop, on threads of their own."""
+        """Held while nodes start or stop on a thread of the pool."""
         self._running: list[RunningNodes] = []
         self._starts: dict[str, int] = {}
         self._codes: dict[str, int] = {}
-        """Of processes that have ended and were not started again."""
+        """Process → exit code, for those that ended and were not respawned."""
         self._is_ending = False
         self.is_shutdown_requested = False
 
     @property
     def is_over(self) -> bool:
-        """Whether something was launched, and nothing of it is left, or nothing may be."""
+        """True if all that was launched has ended, or a required node has."""
         if self._busy.locked() or not self._running:
             return False
         return self.required_died or (bool(self._starts) and all(nodes.is_over for nodes in self._running))
 
     @property
     def required_died(self) -> bool:
-        """Whether a required node's end ends everything."""
+        """True if a required node has ended."""
         return any(nodes.required_died for nodes in self._running)
 
     async def answer(self, method: str, arguments: list[Any]) -> object:
-        """Answer a call; other calls are answered while nodes start or stop."""
+        """Answer a call; nodes start and stop on another thread meanwhile."""
         match method, arguments:
             case "get_pid", []:
                 return 1, str(os.getpid()), os.getpid()
@@ -112,13 +112,13 @@ class _Child:
                 raise UnknownMethodError(f'method "{method}" is not supported with {len(arguments)} arguments')
 
     def stop_nodes(self) -> None:
-        """Stop what was launched, the last first; nothing is launched any more."""
+        """Stop all launches, the last first, and refuse new ones."""
         self._is_ending = True
         with self._busy:
             self._launches.close()
 
     def _launch(self, xml: str) -> tuple[int, str, list[list[str]]]:
-        """Start nodes; answer which came up, and which did not."""
+        """Start nodes; return (code, message, [names started, names not started])."""
         try:
             read = self._read(xml)
         except TrundleError as error:
@@ -147,7 +147,7 @@ class _Child:
         packages = Packages(self._env, start=here)
         plan = read_launch_text(xml, name=self._parent.uri, packages=packages, report=report, env=self._env)
         if plan.params or plan.clear_params or plan.steps:
-            raise UsageError("parameters are the parent's affair; a child sets none")
+            raise UsageError("a child sets no parameters; its parent does")
         show = Console(sys.stderr, report)
         return LoadedLaunch(
             plan=plan, params=(), packages=packages, start=here, env=self._env, report=report, show=show

@@ -1,4 +1,4 @@
-"""Time of a flat-out launch without a simulation: told on /clock, a tick once the nodes are done with the last."""
+"""/clock of a flat-out launch without a simulation: a tick once the nodes are done with the last."""
 
 import threading
 
@@ -7,7 +7,7 @@ from trundle.ros import Node
 from ..lockstep import Lockstep
 
 _TICK_NS = 10_000_000
-"""As often as Gazebo tells it."""
+"""Gazebo's period of /clock [ns]."""
 _IDLE_S = 0.005
 
 
@@ -15,11 +15,11 @@ class ClockPublisher:
     """Publishes /clock from a thread of its own, as fast as the nodes of this process can follow."""
 
     def __init__(self, node: Node, steps: Lockstep) -> None:
-        """Start; time stands still until the launch has begun.
+        """Start; time stays at zero until the launch has begun.
 
         Args:
-            node: who publishes.
-            steps: says when time may go on, and how far.
+            node: publishes /clock.
+            steps: holds time until the nodes are done.
         """
         self._loop = node.loop
         self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=10)
@@ -29,7 +29,7 @@ class ClockPublisher:
         self._thread.start()
 
     def close(self) -> None:
-        """Let time stand still."""
+        """Stop publishing."""
         self._ending.set()
         self._thread.join()
 

@@ -1,4 +1,4 @@
-"""When a launch that is given a time is over: also where its world ended, and with it the time."""
+"""End of a launch with --duration, even if its world, and ROS time with it, ended before."""
 
 import time
 from collections.abc import Callable
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDuration:
-    """Counts the nodes' time, and the wall's while no world is left to tell it."""
+    """Counts ROS time, and wall time once the world has ended."""
 
     def __init__(
         self,
@@ -22,14 +22,14 @@ class LaunchDuration:
         is_worldless: Callable[[], bool],
         say: Callable[[str], None],
     ) -> None:
-        """Start to count.
+        """Start counting.
 
         Args:
-            clock: of the nodes.
-            duration_s: after how much time the launch ends [s].
-            in_step: time starts at zero and its end is seen by who steps it, not here.
-            is_worldless: whether the world that told the time has ended.
-            say: tells the user that the wall's clock is taken.
+            clock: ROS time of the nodes.
+            duration_s: the launch ends after it [s].
+            in_step: time starts at zero, and the thread that steps it sees its end.
+            is_worldless: True if the world that published /clock has ended.
+            say: prints that the rest goes by wall time.
         """
         self._clock = clock
         self._in_step = in_step
@@ -40,13 +40,15 @@ class LaunchDuration:
         self._seen_ns = time.monotonic_ns()
 
     def is_over(self) -> bool:
-        """Look at the clocks; to be called often."""
+        """Return True if the time has passed; to be polled."""
         seen_ns = time.monotonic_ns()
         worldless = self._is_worldless()
         if worldless:
             self._stood_ns += seen_ns - self._seen_ns
             if self._say is not None:
-                self._say("the simulation has ended, and time with it; the rest of --duration goes by the wall's clock")
+                self._say(
+                    "the simulation has ended, and ROS time with it; the rest of --duration is counted in wall time"
+                )
                 self._say = None
         self._seen_ns = seen_ns
         return (worldless or not self._in_step) and self._clock.now_ns() + self._stood_ns >= self._end_ns

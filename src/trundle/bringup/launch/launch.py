@@ -1,4 +1,4 @@
-"""`trundle launch`: a launch file's parameters set and its nodes running, until they end or Ctrl-C."""
+"""`trundle launch`: sets a launch file's parameters and runs its nodes until they end or Ctrl-C."""
 
 import os
 import sys
@@ -21,17 +21,17 @@ from .request import LaunchRequest, read_request
 
 
 def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
-    """Launch; return the exit code: 0 when the time is over, 1 when a required node died or recording broke off.
+    """Launch; return the exit code: 0 at the end of --duration, 1 if a required node died or recording failed.
 
-    As roslaunch, it ends with its last node only where the master is another's.
+    As roslaunch, it ends with its last node only if the master was not started by it.
 
     Args:
-        words: of the command line: PKG FILE or FILE…, and NAME:=VALUE.
-        options: how.
-        environment: None: the process's own.
+        words: command line: PKG FILE or FILE…, and NAME:=VALUE.
+        options: of the launch.
+        environment: None: os.environ.
 
     Raises:
-        TrundleError: the files, or the request, are at fault.
+        TrundleError: an invalid file or request.
     """
     read = read_files(words, options, dict(os.environ if environment is None else environment))
     if read is None:
@@ -57,10 +57,10 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
 
 
 def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]) -> LoadedLaunch | None:
-    """Read what the command line names; None: it was to be printed, and has been.
+    """Read the files of the command line; None: --nodes or the like printed them, and nothing is to run.
 
     Raises:
-        TrundleError: the files, or the request, are at fault.
+        TrundleError: an invalid file or request.
     """
     if options.master_port is not None:
         env["ROS_MASTER_URI"] = f"http://localhost:{options.master_port}"
@@ -156,7 +156,7 @@ def _print_summary(plan: LaunchPlan, params: Sequence[LaunchParam], say: Callabl
 
 
 def _wait_for_master(env: Mapping[str, str], stop: StopFlag, say: Callable[[str], None]) -> bool:
-    """Wait until a master answers; False: somebody asked to stop first."""
+    """Wait until a master answers; return False if stopped first."""
     proxy = MasterProxy(env.get("ROS_MASTER_URI") or master_uri_from_env(), timeout_s=2.0)
     said = False
     while True:

@@ -1,4 +1,4 @@
-"""A launch file that was read; a module of its own, so that whoever only asks loads nothing that runs nodes."""
+"""A launch file as read; a module of its own, so that `--nodes` and the like load nothing that runs nodes."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,13 +13,13 @@ from ..console import Console
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedLaunch:
-    """A launch that was read: its commands have run, nothing of it is started."""
+    """A launch as read: its commands have run, no node is started."""
 
     plan: LaunchPlan
     params: Sequence[LaunchParam]
     packages: Packages
     start: Path
-    """What packages are searched around."""
+    """File or folder around which packages are searched."""
     env: Mapping[str, str]
     report: Diagnostics
     show: Console

@@ -1,4 +1,4 @@
-"""Where the programs of a launch log to, as in ROS: a folder for each run, and `latest` that leads to the last."""
+"""Log folders as in ROS: one per run, and the link `latest` to the last."""
 
 import contextlib
 import os
@@ -13,12 +13,12 @@ from trundle.ros import PYTHON_LOG_BACKUPS, PYTHON_LOG_BYTES, LogFile, python_lo
 
 
 def ros_home(env: Mapping[str, str]) -> Path:
-    """ROS_HOME, or ~/.ros; programs start there."""
+    """ROS_HOME, or ~/.ros; the working directory of nodes."""
     return Path(env.get("ROS_HOME") or home_folder(env) / ".ros")
 
 
 def log_folder(env: Mapping[str, str], run_id: str) -> Path:
-    """Make the folder of one run, by ROS_LOG_DIR and ROS_HOME.
+    """Make the log folder of one run, by ROS_LOG_DIR and ROS_HOME.
 
     Raises:
         UsageError: it cannot be made.
@@ -27,14 +27,14 @@ def log_folder(env: Mapping[str, str], run_id: str) -> Path:
     folder = parent / (run_id or "trundle")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if not is_owned_by_user(folder):  # in a folder for all, as /tmp, another user may have been first
+        if not is_owned_by_user(folder):  # in a shared folder such as /tmp, another user may have made it
             folder = Path(mkdtemp(prefix=f"{folder.name}-", dir=parent))
         ros_home(env).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(
             f"no log folder {folder}: {error.strerror}; set ROS_LOG_DIR to one that can be written"
         ) from None
-    with contextlib.suppress(OSError):  # a file system without links, or a folder that somebody else owns
+    with contextlib.suppress(OSError):  # a file system without links, or a folder of another user
         latest = parent / "latest"
         latest.unlink(missing_ok=True)
         latest.symlink_to(folder)
@@ -42,12 +42,12 @@ def log_folder(env: Mapping[str, str], run_id: str) -> Path:
 
 
 class LaunchLog(LogFile):
-    """roslaunch-HOST-PID.log: what one launch says of itself."""
+    """roslaunch-HOST-PID.log: messages of one launch."""
 
     def __init__(self, folder: Path) -> None:
         path = folder / f"roslaunch-{socket.gethostname()}-{os.getpid()}.log"
         super().__init__(path, most_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
 
     def write(self, text: str) -> None:
-        """Write what was said, with the time."""
+        """Write a message with its time."""
         super().write(python_log_line("roslaunch", text))

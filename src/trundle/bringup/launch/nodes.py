@@ -1,4 +1,4 @@
-"""Turns a launch file's nodes into jobs: processes, or stand-ins that run here."""
+"""Jobs of a launch file's nodes: processes, or stand-ins in this process."""
 
 import contextlib
 import shlex
@@ -34,17 +34,17 @@ from .logs import ros_home
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Launched:
-    """What became of one node of a launch."""
+    """One node of a launch, and how it runs."""
 
     node: LaunchNode
     kind: Literal["process", "stand-in", "missing", "failed"]
     what: str
-    """The program, what is stood in for, or why there is neither."""
+    """Path of the program, package/type of the stand-in, or why there is neither."""
     job: Job | None = None
     log_files: str = ""
 
     def failed(self) -> "Launched":
-        """The same, when it could not be started after all."""
+        """Copy of this, marked as not started."""
         return replace(self, kind="failed", job=None)
 
 
@@ -57,9 +57,9 @@ class NodeStarter:
     env: Mapping[str, str]
     report: Diagnostics
     host: NodeHost
-    """What stand-ins may use."""
+    """Interface of stand-ins to the launch."""
     tree: ProcessTree
-    """Started processes belong to it, and end with it."""
+    """Parent of the started processes; they end with it."""
     log_folder: Path
     output: Literal["screen", "log"] | None = None
     """Overrides what the launch file says."""
@@ -68,16 +68,16 @@ class NodeStarter:
     def prepare(
         self, node: LaunchNode, label: str, *, show: Callable[[str, str], None], more: tuple[str, ...] = ()
     ) -> Launched:
-        """Find what runs a node; where nothing can, a warning says so.
+        """Make a node's job; warn if nothing can run it.
 
         Args:
-            node: to be run.
-            label: what messages call it.
+            node: the one to run.
+            label: its name in messages.
             show: takes the label and a line of output.
-            more: words of a program's command line behind those of the launch file.
+            more: further arguments of a program, after those of the launch file.
 
         Raises:
-            DescriptionError: nothing can run it, and the launch requires it.
+            DescriptionError: nothing can run it, and it is required.
         """
         assert node.address is not None, "a launch with a node of no machine is refused"
         if not is_here(node.address, self.env):
@@ -111,7 +111,7 @@ class NodeStarter:
         return Launched(node=node, kind="missing", what=why)
 
     def policy(self, node: LaunchNode) -> RespawnPolicy:
-        """What the node's end means."""
+        """Respawn policy of a node."""
         required = node.required or self.all_required
         return RespawnPolicy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
 
@@ -158,7 +158,7 @@ class NodeStarter:
 
 
 def is_here(address: str, env: Mapping[str, str]) -> bool:
-    """Tell whether a machine of a launch file is this one, by any of its names."""
+    """Return True if a <machine>'s address is this machine, by any of its names."""
     names = {"", "localhost", "::1", socket.gethostname(), env.get("ROS_HOSTNAME"), env.get("ROS_IP")}
     return address in names or address.startswith("127.")
 
@@ -173,7 +173,7 @@ def _split(text: str, node: LaunchNode) -> list[str]:
 
 
 def _value(text: str) -> bool | int | float | str | list[object] | dict[str, object]:
-    """A `_name:=value` of a node's arguments: YAML where it is YAML, else the text."""
+    """Value of a node's `_name:=value` argument: as YAML, else the text."""
     try:
         value = load_yaml(text)
     except yaml.YAMLError:

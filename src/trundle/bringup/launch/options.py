@@ -1,4 +1,4 @@
-"""How to launch."""
+"""Options of a launch."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,11 +9,11 @@ from trundle.page_address import AllowedNames
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchOptions:
-    """What the command line may say; the defaults are those of `trundle launch`."""
+    """Options of `trundle launch`, with its defaults."""
 
     headless: bool = False
     duration_s: float | None = None
-    """ROS time; None: until every node has ended."""
+    """ROS time [s]; None: until every node has ended."""
     master_port: int | None = None
     view_port: int | None = None
     host: str = "127.0.0.1"
@@ -22,7 +22,7 @@ class LaunchOptions:
     renderer: Literal["cpu", "egl"] = "cpu"
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None
-    """Of every node, whatever the file says."""
+    """Output of every node; overrides the file's."""
     all_required: bool = False
     wait_for_master: bool = False
     summary: bool = True
@@ -31,17 +31,17 @@ class LaunchOptions:
     pid_file: Path | None = None
     interrupt_s: float = 15.0
     terminate_s: float = 2.0
-    """How long a node may take to end after SIGINT, then after SIGTERM [s]; the defaults are roslaunch's."""
+    """Timeouts of a node's end after SIGINT, then after SIGTERM [s]; the defaults are roslaunch's."""
     strict: bool = False
     quiet: bool = False
-    """Say only what goes wrong."""
+    """Print failures only."""
     distro: str | None = None
-    """Which distribution to be; None: what the master says it is, Noetic where it is started here."""
+    """ROS distribution; None: that of the master; Noetic if it is started here."""
     speed: float | None = 1.0
-    """Of a simulation, times real time; None: flat out."""
+    """Simulated seconds per second of wall time; None: flat out."""
     record: Path | None = None
-    """A bag to write every topic into."""
+    """Bag of every topic."""
     only: Literal["nodes", "files", "find-node", "args", "arguments", "params"] | None = None
-    """Print these and start nothing."""
+    """Part of the launch to print instead of starting it."""
     node: str = ""
-    """Which node `find-node` and `args` are about."""
+    """Node of `find-node` and `args`."""

@@ -1,4 +1,4 @@
-"""The pages that a launch's nodes open, and where they are."""
+"""Pages that a launch's nodes open, and their URLs."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -9,12 +9,12 @@ from trundle.nodes import CLIENTS, WINDOWS
 from .nodes import Launched
 
 _TIMEOUT_S = 20.0
-"""A world may take longer to read; its page is then told of on a line of its own."""
+"""A world may take longer to read; its page's URL is then printed on a line of its own."""
 _POLL_S = 0.05
 
 
 class OpeningPage(Protocol):
-    """A page that is served soon, or never."""
+    """A page that is being opened, or never will be."""
 
     @property
     def url(self) -> str | None: ...
@@ -25,12 +25,12 @@ class OpeningPage(Protocol):
 def opening_pages(
     launched: Sequence[Launched], graph: OpeningPage | None, world: OpeningPage | None
 ) -> Sequence[OpeningPage]:
-    """Which pages the started nodes open.
+    """Select the pages that the started nodes open.
 
     Args:
         launched: the nodes.
-        graph: the page of the graph, which windows open; None: headless.
-        world: the page of the simulated world, which gzclient or gazebo opens.
+        graph: page of the ROS graph, which rviz and the like open; None: headless.
+        world: page of the simulated world, which gzclient or gazebo opens.
     """
     started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
     expected = ((world, not CLIENTS.isdisjoint(started)), (graph, not WINDOWS.isdisjoint(started)))
@@ -38,7 +38,7 @@ def opening_pages(
 
 
 def await_urls(pages: Sequence[OpeningPage], is_ending: Callable[[], bool]) -> list[str]:
-    """Wait until each is served or will not be; return where they are."""
+    """Wait until each page is served or will not be; return the URLs."""
     deadline = time.monotonic() + _TIMEOUT_S
     while not is_ending() and time.monotonic() < deadline:
         if all(page.url is not None or page.is_over for page in pages):

@@ -1,4 +1,4 @@
-"""Puts a launch's parameters on the server: dump and delete, then clear and set, in roslaunch's order."""
+"""Parameters of a launch, set on the server: dump and delete, then clear and set, in roslaunch's order."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,10 +11,10 @@ from trundle.ros import Node, ParameterError
 
 
 async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]) -> None:
-    """Do all of it; before any node starts.
+    """Dump, delete, clear and set, before any node starts.
 
     Raises:
-        DescriptionError: a value that parameters cannot hold, or a file that cannot be written.
+        DescriptionError: an invalid parameter value, or a file that cannot be written.
     """
     await node.wait_registered()
     for step in plan.steps:
@@ -30,7 +30,7 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
         if await node.params.has(namespace):
             await node.params.delete(namespace)
     for param in params:
-        if param.value is None:  # the reader has said so
+        if param.value is None:  # the reader has reported it
             continue
         try:
             await node.params.set(param.name, param.value)

@@ -1,4 +1,4 @@
-"""The roslaunch that started us, on another machine: where it is, and what it is told."""
+"""Calls to the parent: the roslaunch on another machine that started this child."""
 
 import contextlib
 import socket
@@ -10,7 +10,7 @@ from trundle.diagnostics import UsageError
 from trundle.ros import MasterProxy, RosError, host_and_port
 
 _ANSWER_S = 10.0
-"""How long it may take to answer; roslaunch gives its children as long to register."""
+"""Timeout of a call; roslaunch gives its children as long to register."""
 _MAX_NEWS = 1000
 _CLOSING_S = 2.0
 _INFO, _ERROR = 2, 8
@@ -18,15 +18,15 @@ _INFO, _ERROR = 2, 8
 
 
 class ParentLaunch:
-    """Told in order what happens here; while it does not listen, nothing is held up. Also a context manager."""
+    """Queue of calls to the parent, sent in order by a thread, so that nothing waits for it. Also a context manager."""
 
     def __init__(self, name: str, uri: str, run_id: str) -> None:
         """Prepare.
 
         Args:
-            name: what it calls us.
-            uri: where it listens.
-            run_id: of the master, once there is one: children are started before it.
+            name: this child's name.
+            uri: of the parent's XML-RPC server.
+            run_id: of the master, which may start after its children.
         """
         self.uri = uri
         self.run_id = run_id
@@ -35,14 +35,14 @@ class ParentLaunch:
         self._thread = threading.Thread(target=self._send, name="news for the parent", daemon=True)
 
     def register(self, ours: str, bind: str) -> None:
-        """Tell it where to reach us.
+        """Register this child's address with the parent.
 
         Args:
-            ours: our address as it may call it.
-            bind: the address we listen at.
+            ours: URI of this child's XML-RPC server.
+            bind: address that the server listens at.
 
         Raises:
-            UsageError: it does not answer, does not know us, or is on another machine while we listen on loopback.
+            UsageError: it does not answer, does not know the name, or is on another machine while `bind` is loopback.
         """
         try:
             with socket.create_connection(host_and_port(self.uri), timeout=_ANSWER_S) as link:
@@ -56,15 +56,15 @@ class ParentLaunch:
             raise UsageError(f"no roslaunch at {self.uri} that takes {self._name!r} as its child: {error}") from None
 
     def log(self, text: str, *, error: bool = False) -> None:
-        """Have it print a line."""
+        """Send a line for the parent to print."""
         self._put((self._name, text, _ERROR if error else _INFO))
 
     def process_died(self, process: str, code: int) -> None:
-        """Tell it that a process has ended by itself."""
+        """Report that a process has ended by itself."""
         self._put((process, "", code))
 
     def _put(self, news: tuple[str, str, object] | None) -> None:
-        with contextlib.suppress(Full):  # it has not listened to a thousand
+        with contextlib.suppress(Full):  # the parent has not answered for a thousand calls
             self._news.put_nowait(news)
 
     def _send(self) -> None:
@@ -76,10 +76,10 @@ class ParentLaunch:
                 else:
                     self._call(name, "process_died", number)
             except RosError:
-                continue  # it is gone, or does not care; our nodes run on until it says otherwise
+                continue  # it has ended, or refuses the call; the nodes run on until its shutdown call
 
     def _call(self, first: str, method: str, *rest: object) -> None:
-        """Call it; each of its methods has a name as its first argument, as the master's have."""
+        """Call a method of the parent; as with the master's, its first argument is a name."""
         MasterProxy(self.uri, first, timeout_s=_ANSWER_S).call(method, *rest)
 
     def __enter__(self) -> Self:

@@ -1,4 +1,4 @@
-"""What `trundle launch` prints instead of launching; line for line what roslaunch prints."""
+"""Output of `trundle launch --nodes` and the like, line for line as roslaunch prints it."""
 
 import shlex
 from collections.abc import Mapping, Sequence
@@ -19,24 +19,24 @@ def node_names(plan: LaunchPlan) -> str:
 
 
 def file_names(plan: LaunchPlan) -> str:
-    """`--files`"""
+    """`--files`: every launch file read."""
     return "\n".join(str(file.absolute()) for file in plan.files)
 
 
 def node_file(plan: LaunchPlan, name: str) -> str:
-    """`--find-node`: the launch file that a node stands in.
+    """`--find-node`: the launch file that declares a node.
 
     Raises:
-        UsageError: there is no such node.
+        UsageError: no such node.
     """
     return _named(plan, name).at.file
 
 
 def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[str, str]) -> str:
-    """`--args`: the command line of a node, with the variables that it gets beside ours.
+    """`--args`: the command line of a node, with the environment variables that the launch adds.
 
     Raises:
-        UsageError: there is no such node, or nothing that could run it.
+        UsageError: no such node, or nothing can run it.
     """
     node = _named(plan, name)
     variables = [] if node.namespace == "/" else [("ROS_NAMESPACE", node.namespace)]
@@ -71,7 +71,7 @@ def arguments(declared: Sequence[LaunchArgument]) -> str:
 
 
 def summary(plan: LaunchPlan, params: Mapping[str, object]) -> str:
-    """What roslaunch shows before it starts anything: parameters in short, and nodes by namespace."""
+    """roslaunch's summary before it starts nodes: shortened parameters, and nodes by namespace."""
     lines = ["", "SUMMARY", _RULE]
     if plan.clear_params:
         lines += ["", "CLEAR PARAMETERS", *sorted(f" * {name.rstrip('/')}/" for name in plan.clear_params)]

@@ -1,4 +1,4 @@
-"""What `trundle launch` was asked for: which files, with which arguments."""
+"""Files and arguments of a `trundle launch` command line."""
 
 import os
 import sys
@@ -18,16 +18,16 @@ class LaunchRequest:
     files: tuple[Path, ...] = ()
     arguments: dict[str, str] = field(default_factory=dict[str, str])
     texts: tuple[tuple[str, str], ...] = ()
-    """(name, XML) of what came in on standard input and through pipes."""
+    """(name, XML) of standard input and pipes."""
     namespace: str = ""
-    """`__ns:=`, which everything is put in; empty: not said."""
+    """`__ns:=`, the namespace of all nodes; empty: not given."""
 
 
 def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
-    """Tell `PKG FILE` from `FILE…`, as roslaunch does: a first word that is a file is one; `-` is standard input.
+    """Read `PKG FILE` or `FILE…`, as roslaunch does: `FILE…` if the first word is a file; `-` is standard input.
 
     Raises:
-        UsageError: no such file or package, with what there is instead.
+        UsageError: no such file or package; the message lists those there are.
     """
     arguments: dict[str, str] = {}
     special: dict[str, str] = {}
@@ -35,7 +35,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
     for word in words:
         name, assigned, value = word.partition(":=")
         if assigned:
-            if name and value:  # roslaunch does not hear an empty one: the file's default holds
+            if name and value:  # roslaunch ignores an empty value: the file's default holds
                 (special if name.startswith("__") else arguments)[name] = value
         else:
             rest.append(word)
@@ -67,15 +67,15 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
 
 
 def _is_text(word: str) -> bool:
-    """Whether a word names standard input or a pipe."""
+    """True if a word names standard input or a pipe."""
     return word == "-" or is_stream(word)
 
 
 def _read(word: str) -> tuple[str, str]:
-    """A name for messages, and the text.
+    """Read a pipe; return (name for messages, text).
 
     Raises:
-        UsageError: there is no end of it.
+        UsageError: it cannot be read.
     """
     name = "<stdin>" if word in ("-", "/dev/stdin") else "<pipe>"
     try:

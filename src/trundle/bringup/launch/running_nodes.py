@@ -1,4 +1,4 @@
-"""The nodes of one launch under their supervisor, and what the terminal says of them."""
+"""Nodes of one launch under their supervisor, and the lines printed about them."""
 
 import asyncio
 from collections.abc import Awaitable, Callable, Sequence
@@ -14,11 +14,11 @@ from .nodes import Launched, NodeStarter
 _RULE = "=" * 80
 
 Listener: TypeAlias = Callable[[Event, str], None]
-"""Told what happened to a node, and the sentence that says so."""
+"""Takes an event of a node, and its printed line."""
 
 
 class RunningNodes:
-    """Starts, watches and stops; on the graph's loop."""
+    """Starts, watches and stops the nodes, on the graph's loop."""
 
     def __init__(
         self,
@@ -29,7 +29,7 @@ class RunningNodes:
         quiet: bool,
         listener: Listener,
     ) -> None:
-        """`quiet`: say only what goes wrong."""
+        """Prepare; `quiet`: print failures only."""
         self._starter = starter
         self._nodes = nodes
         self._timeouts = timeouts
@@ -41,12 +41,12 @@ class RunningNodes:
         self._worlds: set[str] = set()
         self._ended: set[str] = set()
         self.launched: list[Launched] = []
-        """What became of each node, in the file's order."""
+        """Nodes as started, in the file's order."""
 
     async def start(
         self, is_ending: Callable[[], bool], let_start: Callable[[Callable[[], bool]], Awaitable[None]] | None = None
     ) -> None:
-        """Start everything that can be started, unless the end comes first; wait for `let_start` after each node."""
+        """Start all nodes that can run, unless the end comes first; await `let_start` after each."""
         self._supervisor = Supervisor(self._print_event, timeouts=self._timeouts)
         for number, node in enumerate(self._nodes, start=1):
             if is_ending():
@@ -65,22 +65,22 @@ class RunningNodes:
         self._waiting = asyncio.create_task(self._supervisor.wait())
 
     async def stop(self) -> None:
-        """Stop everything, the last started first."""
+        """Stop all nodes, the last started first."""
         if self._supervisor is not None:
             await self._supervisor.stop()
 
     @property
     def is_over(self) -> bool:
-        """Whether every node has ended, or a required one."""
+        """True if every node has ended, or a required one."""
         return self._waiting is not None and self._waiting.done()
 
     @property
     def required_died(self) -> bool:
-        """Whether it was a required one's end that ended the launch."""
+        """True if a required node's end ended the launch."""
         return self.is_over and self._waiting is not None and self._waiting.result() is not None
 
     def is_worldless(self) -> bool:
-        """Whether a world was started, and every one that was has ended since."""
+        """True if worlds were started and all have ended."""
         return bool(self._worlds) and self._worlds <= self._ended
 
     def _print_event(self, event: Event) -> None:
@@ -107,7 +107,7 @@ class RunningNodes:
 
 
 def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
-    """A short table: what runs as a process, what here in place of the original, what is missing, where it is seen."""
+    """Table of the nodes by kind: process, stand-in, missing, failed; then the URLs of pages."""
     rows = [(entry.kind, entry.node.full_name, entry.what) for entry in launched]
     widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
     return "\n".join(
@@ -120,4 +120,4 @@ def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
 
 
 def _show_output(_name: str, line: str) -> None:
-    say(line)  # the original prints a node's own lines as they are
+    say(line)  # as roslaunch, without a prefix

@@ -1,4 +1,4 @@
-"""One launch from its graph to its nodes: opened, started, watched, closed."""
+"""One launch: its graph, parameters, recording, page, simulation and nodes."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from ..gazebo.world import GazeboWorld
 
 _START_S = 60.0
-"""Starting programs takes its time on a busy machine."""
+"""Starting programs takes long on a busy machine."""
 _SILENCE_S = 5.0
 _LAST_S = 13.0
-"""What stopping may take beyond the patience with each program."""
+"""Time to stop beyond the timeouts of each program [s]."""
 
 
 class LaunchSession:
@@ -55,11 +55,11 @@ class LaunchSession:
         """Join or start a graph and set the parameters.
 
         Args:
-            read: what to launch.
-            options: how.
+            read: the launch.
+            options: of the launch.
             ports: as `Graph.open`.
             rosout: as `Graph.open`.
-            listener: is told what happens to each node, on the graph's thread.
+            listener: takes each node's events, on the graph's thread.
         """
         self._read = read
         self._options = options
@@ -100,17 +100,17 @@ class LaunchSession:
             self._say(printing.summary(read.plan, values))
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         programs = self._programs()
-        tells_time = options.speed is None and not programs and self._may_publish_clock(launcher)
-        in_step = tells_time or (options.speed is None and _has_world(read.plan))
-        if tells_time or (in_step and not graph.loop.run(launcher.params.has("/use_sim_time"))):
+        publishes_clock = options.speed is None and not programs and self._may_publish_clock(launcher)
+        in_step = publishes_clock or (options.speed is None and _has_world(read.plan))
+        if publishes_clock or (in_step and not graph.loop.run(launcher.params.has("/use_sim_time"))):
             graph.loop.run(launcher.params.set("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
         recorder = None if options.record is None else self._record(options.record, in_step, programs)
         if in_step:
             end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
             self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
-            if tells_time:
-                show.line("no simulation tells the time: /clock is told here, as fast as the nodes can follow")
+            if publishes_clock:
+                show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
                 self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
         if not options.headless:
             from trundle.viewer import GraphPage  # a launch without a page does not wait for it
@@ -138,7 +138,7 @@ class LaunchSession:
         )
 
     def _record(self, file: Path, in_step: bool, programs: Sequence[str]) -> StepRecorder | None:
-        """Write every topic into a bag; return who does it where that is done in step with the nodes."""
+        """Record every topic into a bag; return the recorder if it writes in lockstep with the nodes."""
         graph = self.graph
         if in_step and not programs:
             steps = StepRecorder(graph.loop, file, complain=self._complain)
@@ -148,7 +148,11 @@ class LaunchSession:
             )
             return steps
         if self._options.speed is None:
-            why = f"{', '.join(programs)} run as programs of their own" if programs else "time is told by others"
+            why = (
+                f"{', '.join(programs)} run as programs of their own"
+                if programs
+                else "another program publishes /clock"
+            )
             self._read.show.line(f"{file} will differ from run to run: {why}")
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
@@ -164,14 +168,14 @@ class LaunchSession:
         self._read.show.line(why)
 
     def _may_publish_clock(self, launcher: Node) -> bool:
-        """Whether nobody else does: a simulation, a graph that was there, or a bag that will be played."""
+        """True if nothing else publishes it: a simulation, a graph joined, or a bag to be played."""
         graph = self.graph
         if _has_world(self._read.plan) or graph.core is None:
             return False
         return graph.loop.run(launcher.params.get("/use_sim_time", False)) is not True
 
     def _programs(self) -> list[str]:
-        """Names of the nodes that are programs of their own."""
+        """Names of the nodes that run as processes."""
         read, find = self._read, self._read.packages.find_package
         return [
             n.name for n in read.plan.nodes if isinstance(find_node(n.package, n.type, find, env=read.env), Executable)
@@ -179,17 +183,17 @@ class LaunchSession:
 
     @property
     def has_master(self) -> bool:
-        """Whether the graph's master ends with this launch, which stays for it as roslaunch does."""
+        """True if the master was started here: as roslaunch, the launch then outlives its last node."""
         return self.graph.core is not None
 
     @property
     def is_over(self) -> bool:
-        """Whether the time that a flat-out launch is given has passed, and all of it is recorded."""
+        """True if a flat-out launch has reached its --duration and recorded it."""
         return self._lockstep is not None and self._lockstep.over.is_set()
 
     @property
     def is_lockstep(self) -> bool:
-        """Whether time waits for nodes."""
+        """True if time waits for the nodes at each step."""
         return self._lockstep is not None
 
     def _simulator(self, logs: Path) -> Simulator:
@@ -214,17 +218,17 @@ class LaunchSession:
         return gazebo
 
     def _window_port(self) -> int | None:
-        """Of the simulation's page: beside that of rviz and its like it is the next one."""
+        """Port of the simulation's page: the next one if rviz or the like has a page, too."""
         port = self._options.view_port
         is_beside = any((node.package, node.type) in WINDOWS for node in self._read.plan.nodes)
         return port + 1 if port and is_beside else port
 
     def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
-        """Start nodes, unless the end comes first, and say what runs."""
+        """Start nodes, unless the end comes first, and print the table of them."""
         loop, options = self.graph.loop, self._options
         timeouts = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(
-            self.starter, nodes, timeouts=timeouts, quiet=options.quiet, listener=self._heard
+            self.starter, nodes, timeouts=timeouts, quiet=options.quiet, listener=self._on_event
         )
         steps = self._lockstep
         loop.run(running.start(is_ending, None if steps is None else steps.wait_started), timeout_s=_START_S + START_S)
@@ -241,7 +245,7 @@ class LaunchSession:
         say(text)
         self._log.write(text)
 
-    def _heard(self, event: Event, text: str) -> None:
+    def _on_event(self, event: Event, text: str) -> None:
         self._log.write(text)
         self._listener(event, text)
 
@@ -263,11 +267,11 @@ class LaunchSession:
 
 
 _SHOWN = ("/rosdistro", "/rosversion")
-"""Parameters of the core that roslaunch's summary shows."""
+"""Core parameters that roslaunch's summary shows."""
 
 
 class ClockWarning:
-    """Says once that simulated time is waited for and nobody tells it, which makes every node stand still."""
+    """Warns once if /use_sim_time is true and nothing publishes /clock, which stops every node's time."""
 
     def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
         self._clock = clock
@@ -275,7 +279,7 @@ class ClockWarning:
         self._due = time.monotonic() + _SILENCE_S
 
     def check(self) -> None:
-        """See whether there is a time by now."""
+        """Warn if no time has come for 5 s; to be polled."""
         if self._say is None or self._clock.now_ns() > 0:
             self._say = None
         elif time.monotonic() > self._due:
@@ -288,5 +292,5 @@ def _simulates(plan: LaunchPlan) -> bool:
 
 
 def _has_world(plan: LaunchPlan) -> bool:
-    """Whether a node of it runs Gazebo's world, and so tells the time; a spawner alone may be for another's."""
+    """True if one of its nodes runs Gazebo's world, and so publishes /clock; a spawner alone does not."""
     return any((node.package, node.type) in WORLDS for node in plan.nodes)

@@ -1,4 +1,4 @@
-"""How to run the tests of a launch file, beside how to launch it."""
+"""Options of `trundle test` beside those of the launch."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,21 +6,21 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchTestOptions:
-    """What the command line may say; the defaults are rostest's."""
+    """Options of `trundle test`, with rostest's defaults."""
 
     junit: Path | None = None
-    """Takes the results of all tests; None: a file where rostest leaves them."""
+    """File of all results; None: rostest's own path."""
     text: bool = False
-    """Tests print what they find, and leave no files unless `junit` names one."""
+    """Print results rather than write them, unless `junit` names a file."""
     package: str | None = None
-    """Whose results they are; None: the package that the file lies in."""
+    """Package of the results; None: the one that holds the file."""
     package_folder: Path | None = None
-    """What the file's path counts from in the name of its results; None: the package's folder."""
+    """Folder that the file's path is relative to in the results' name; None: the package's."""
     results_name: str | None = None
-    """Of the results, with or without ending; None: from the file's path."""
+    """Name of the results, with or without suffix; None: from the file's path."""
     results_folder: Path | None = None
-    """Has a folder for each package; None: ROS_TEST_RESULTS_DIR, or test_results in ROS_HOME."""
+    """Parent of each package's folder; None: ROS_TEST_RESULTS_DIR, or test_results in ROS_HOME."""
     reuse_master: bool = False
-    """Run on the graph of ROS_MASTER_URI, rather than on one of the tests' own."""
+    """Run on the graph of ROS_MASTER_URI rather than on a new one."""
     clear: bool = False
-    """Delete the parameters that are on that graph, before each test."""
+    """Delete that graph's parameters before each test."""

@@ -1,4 +1,4 @@
-"""Results of tests: as a test program wrote them, and as JUnit XML."""
+"""Results of tests: read from a test program's XML, written as JUnit XML."""
 
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
@@ -16,9 +16,9 @@ class CaseResult:
     name: str
     seconds: float = 0.0
     problem: str = ""
-    """Empty where it passed."""
+    """Reason of the failure; empty: it passed."""
     is_error: bool = False
-    """Whether it could not be run, rather than failed."""
+    """True if it could not be run, rather than failed."""
 
     @property
     def verdict(self) -> str:
@@ -28,13 +28,13 @@ class CaseResult:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SuiteResult:
-    """One <test>, with the cases of its program."""
+    """Cases of one <test>."""
 
     name: str
     seconds: float
     cases: tuple[CaseResult, ...]
     did_run: bool = True
-    """Whether its program ended in time, and left results."""
+    """True if its program ended in time and left results."""
 
     @property
     def failures(self) -> int:
@@ -48,7 +48,7 @@ class SuiteResult:
 
 
 def read_result(file: Path, name: str) -> list[CaseResult]:
-    """Read the XML of gtest, unittest or pytest; one that is broken is an error of the test `name`."""
+    """Read the XML of gtest, unittest or pytest; a malformed file is an error of the test `name`."""
     try:
         root = read_xml(file)
     except DescriptionError as error:
@@ -96,5 +96,5 @@ def write_junit(file: Path, suites: Sequence[SuiteResult]) -> None:
 
 
 def _printable(text: str) -> str:
-    """Without the control characters that XML forbids."""
+    """Replace control characters, which XML forbids, by "?"."""
     return "".join(char if char >= " " or char in "\t\n" else "?" for char in text)

@@ -29,16 +29,16 @@ def run_tests(
     *,
     environment: Mapping[str, str] | None = None,
 ) -> int:
-    """Run every test; return rostest's exit code: 0 when all passed, 1 when one did not run, 2 when a case failed.
+    """Run every test; return rostest's exit code: 0: all passed, 1: one did not run, 2: a case failed.
 
     Args:
-        words: of the command line: PKG FILE or FILE…, and NAME:=VALUE.
-        options: how to launch.
-        how: to test.
-        environment: None: the process's own.
+        words: command line: PKG FILE or FILE…, and NAME:=VALUE.
+        options: of the launch.
+        how: options of the tests.
+        environment: None: os.environ.
 
     Raises:
-        TrundleError: the files, or the request, are at fault.
+        TrundleError: an invalid file or request.
     """
     if how.clear and not how.reuse_master:
         raise UsageError("--clear is only valid with --reuse-master: a test's own graph has no parameters yet")
@@ -77,7 +77,7 @@ def run_tests(
 def _run(
     read: LoadedLaunch, options: LaunchOptions, how: LaunchTestOptions, test: LaunchTest, folder: Path
 ) -> SuiteResult:
-    """Try a test, whose program leaves its results in a folder, as often as it allows; the last result counts."""
+    """Run a test, and retry it as often as it allows; the last result counts. Its program writes into `folder`."""
     name = f"{test.node.package}.{test.name}"
     for left in range(test.retries, -1, -1):
         started = time.monotonic()
@@ -97,14 +97,14 @@ def _run(
 @dataclass(frozen=True, slots=True)
 class _Ended:
     code: int | None
-    """None: the time was over."""
+    """Exit code; None: timed out."""
     output: list[str]
 
 
 def _attempt(
     session: LaunchSession, test: LaunchTest, result: Path, *, text: bool
 ) -> tuple[bool, Sequence[CaseResult]]:
-    """Return whether the program ran to its end and left results, and those."""
+    """Run a test's program; return (True if it ended in time and left results, its cases)."""
 
     def did_not_run(problem: str, *, is_error: bool = True) -> tuple[bool, Sequence[CaseResult]]:
         return False, [CaseResult(name=test.name, problem=problem, is_error=is_error)]
@@ -153,7 +153,7 @@ def _answering_master(env: Mapping[str, str]) -> str:
 
 
 def _clear_params(master: MasterProxy) -> None:
-    """Delete what is on the graph, but for what its master and other launches have there of themselves."""
+    """Delete the graph's parameters, except those of its master and of other launches."""
     for name in master.call("getParamNames"):
         if name not in _KEPT and not name.startswith("/roslaunch/"):
             master.call("deleteParam", name)
@@ -163,7 +163,7 @@ _KEPT = ("/run_id", "/rosversion", "/rosdistro")
 
 
 def _results_folder(env: Mapping[str, str], how: LaunchTestOptions, package: str) -> Path:
-    """Where rostest has results of a package's tests, too."""
+    """Make rostest's results folder of a package."""
     base = how.results_folder or env.get("ROS_TEST_RESULTS_DIR") or ros_home(env) / "test_results"
     folder = Path(base).absolute() / package
     try:
@@ -176,7 +176,7 @@ def _results_folder(env: Mapping[str, str], how: LaunchTestOptions, package: str
 
 
 def _package_of(read: LoadedLaunch, how: LaunchTestOptions) -> str:
-    """The package that is named, else the one whose folder the file lies in, else that of the first test."""
+    """Package given, else the one whose folder holds the file, else that of the first test."""
     if how.package is not None:
         return how.package
     homes = {folder.resolve(): name for name, folder in read.packages.ros_packages().items()}
@@ -185,7 +185,7 @@ def _package_of(read: LoadedLaunch, how: LaunchTestOptions) -> str:
 
 
 def _name_of(read: LoadedLaunch, how: LaunchTestOptions) -> str:
-    """As rostest calls a file's results: its path in the package, without slashes and ending."""
+    """rostest's name of a file's results: its path in the package, with "_" for slashes and no suffix."""
     if how.results_name is not None:
         return Path(how.results_name).stem
     home = how.package_folder or read.packages.find_package(_package_of(read, how))

@@ -1,4 +1,4 @@
-"""How low things reach."""
+"""Lowest point of a shape."""
 
 import math
 
@@ -9,8 +9,8 @@ from trundle.spatial import Pose
 
 
 def lowest_point(geometry: ShapeGeometry, world_from_shape: Pose) -> float:
-    """The height of a shape's lowest point [m]; of an endless plane, infinity."""
-    # How much of each of the shape's axes points up or down.
+    """Height of a shape's lowest point in the world [m]; infinity for a plane."""
+    # World's z in the shape's frame: the share of each of its axes that points up.
     x, y, z = world_from_shape.inverse().transform_vector((0.0, 0.0, 1.0))
     match geometry:
         case Box(size):

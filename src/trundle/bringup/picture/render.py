@@ -1,4 +1,4 @@
-"""Pictures of what a file describes, from a camera of its own or from a good side."""
+"""Pictures of a description, from one of its cameras or in a three-quarter view."""
 
 import math
 from collections.abc import Mapping
@@ -28,64 +28,64 @@ from .urdf_preview import add_robot
 
 DEFAULT_SIZE = (800, 600)
 _FOV = 0.6
-"""A long lens: little distortion, as in a product picture [rad]."""
+"""Horizontal field of view [rad]: a long lens, with little perspective."""
 _FROM = (math.radians(-38.0), math.radians(16.0))
-"""Azimuth and elevation of a three-quarter view: on the side that Gazebo's sun shines on."""
+"""Azimuth and elevation of the three-quarter view [rad]: on the side that Gazebo's sun shines on."""
 _MARGIN = 1.08
 _STUDIO_LIGHT, _BACKDROP = (0.6, 0.6, 0.6, 1.0), (0.95, 0.95, 0.95, 1.0)
-"""Brighter than worlds are: a camera of the file sees those as they are."""
+"""RGBA, brighter than most worlds; a camera of the file sees the world's own."""
 _SAMPLES = 2
-"""Pictures are drawn twice as large and averaged: smooth edges."""
+"""Supersampling per axis, against jagged edges."""
 _MAX_PX = 3840 * 2160
 _GOLDEN = 0.61803398875
 _COLOURS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
 _PALETTE = np.round(np.array(_COLOURS) * 255.0).astype(np.uint8)
-"""Black for nothing, then colours that differ much from one to the next."""
+"""(256, 3) RGB: black for the background, then colours that differ much from one to the next."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureOptions:
-    """What to draw, and from where."""
+    """Options of a picture."""
 
     camera: str | None = None
-    """A camera sensor's name; None: a view of everything that is not the ground."""
+    """Camera sensor's name; None: a three-quarter view of everything but planes."""
     size: tuple[int, int] | None = None
-    """Width and height [px]; None: the camera's, or 800 by 600."""
+    """Width and height [px]; None: the camera's, or 800 × 600."""
     content: Literal["colour", "depth", "segmentation"] = "colour"
-    """Depth is in millimetres, 16 bit, 0 where nothing is; segmentation has a colour for each visual."""
+    """Depth is uint16 in millimetres, 0 for the background; segmentation has a colour per visual."""
     at_s: float = 0.0
-    """Of simulated time."""
+    """Simulated time of the picture [s]."""
     renderer: RendererName = "cpu"
 
 
 class PictureRenderer:
-    """A file that is ready to be drawn."""
+    """Renderer of one file."""
 
     def __init__(
         self, file: str, environment: Mapping[str, str], report: Diagnostics, *, start: Path, options: PictureOptions
     ) -> None:
-        """Read a file, and simulate it until the picture is to be taken.
+        """Read a file and simulate it up to the picture's time.
 
         Args:
-            file: as for `trundle run`.
-            environment: says where packages and models are.
-            report: takes findings.
-            start: packages are looked for around it too.
-            options: what to draw.
+            file: as `trundle run` takes it.
+            environment: variables that locate packages and models.
+            report: takes all findings.
+            start: packages are searched around it, too.
+            options: of the picture.
 
         Raises:
-            DescriptionError: the file is at fault.
-            UsageError: no such camera, or a picture too large to draw.
+            DescriptionError: the file cannot be read.
+            UsageError: no such camera, or too large a picture.
         """
         packages = Packages(environment, start=start)
         stage = load_world(file, packages, report)
         self._content = options.content
         self.empty_reason = empty_reason(stage.world)
-        """Why the picture is empty, or not what would be simulated, if it is so."""
+        """Reason why the picture is empty, or drawn from the URDF without physics; None: neither."""
         self.simulation = Simulation(stage.world, report)
         scene = scene_from_world(stage.world, report)
         self._written: NDArray[np.float64] = np.zeros((0, 7))
-        """Poses of bodies that are drawn and not simulated."""
+        """(N, 7) poses of bodies that are drawn and not simulated."""
         robot = stage.robot if options.camera is None and not _is_seen(stage.world) else None
         if robot is not None and any(link.visuals for link in robot.links):
             self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
@@ -122,13 +122,13 @@ class PictureRenderer:
         self._sunk_m = min([0.0, *heights])
 
     def _poses(self, snapshot: Snapshot) -> NDArray[np.float64]:
-        """Where everything is drawn; the ground that was added is low enough not to hide what is written below it."""
+        """Poses to draw; the added ground plane is lowered to the lowest point, so that it hides nothing."""
         poses = np.concatenate([snapshot.poses, self._written])
         poses[self._ground, 2] += self._sunk_m
         return poses
 
     def render(self, *, turned_rad: float = 0.0) -> Image.Image:
-        """Draw what is there now; the view of everything may have gone around, counter-clockwise from above."""
+        """Draw the current state; `turned_rad` turns the three-quarter view about z, counter-clockwise from above."""
         snapshot = self.simulation.snapshot()
         self._renderer.update(self._poses(snapshot))
         update_skins(self._renderer, self._scene, self.simulation.animation_state)
@@ -161,7 +161,7 @@ class PictureRenderer:
 
 
 def _is_seen(world: World) -> bool:
-    """Whether there is a visual that was not added to what the file says."""
+    """True if a model of the file, not the added ground, has a visual."""
     return any(link.visuals for model in world.models if not model.added for link in model.links)
 
 
@@ -174,7 +174,7 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
 
 
 def _corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(N, 3) points that a view of everything but endless planes must hold [m]."""
+    """(N, 3) corners of all shapes but planes, in the world [m]."""
     points = [
         (pose_from_row(poses[shape.body]) @ shape.body_from_shape).transform_point(corner)
         for shape in scene.shapes
@@ -184,7 +184,7 @@ def _corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _good_side(cloud: NDArray[np.float64], lens: Intrinsics, turned_rad: float) -> Pose:
-    """A three-quarter view that holds all points."""
+    """Pose in the world of a camera whose three-quarter view holds all points."""
     middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2
     azimuth, elevation = _FROM[0] + turned_rad, _FROM[1]
     away = np.array(

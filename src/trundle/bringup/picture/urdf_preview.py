@@ -1,4 +1,4 @@
-"""A URDF that cannot be simulated, as it is written: links without mass are left out of a simulation."""
+"""Preview of a URDF that cannot be simulated, such as one whose links have no mass."""
 
 import numpy as np
 from msgspec.structs import replace
@@ -14,12 +14,12 @@ from .lowest_point import lowest_point
 
 
 def add_robot(scene: Scene, robot: Robot, packages: Packages, report: Diagnostics) -> tuple[Scene, NDArray[np.float64]]:
-    """Stand a robot on the ground of a scene, its joints at zero.
+    """Add a robot to a scene, on the ground, its joints at zero.
 
     Returns:
-        the scene with the robot's links as further bodies; (links, 7) their poses in the world.
+        the scene with the robot's links as further bodies; their (links, 7) poses in the world.
     """
-    from trundle.viewer import robot_scene  # the page's own: a simulation that draws everything does not load it
+    from trundle.viewer import robot_scene  # slow to load; other pictures do not need it
 
     drawn = robot_scene(robot, packages, report)
     poses = root_from_links(robot, {})

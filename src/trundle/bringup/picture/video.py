@@ -1,4 +1,4 @@
-"""Pictures one after another, as a file that moves."""
+"""Videos: frames of a simulation or a turntable, and their files."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -13,21 +13,21 @@ from .render import PictureRenderer
 
 FRAMES_PER_S = 25
 _TURN_S = 8.0
-"""Once around everything."""
+"""Time of one turn [s]."""
 _PILLOW = {".webp": "WEBP", ".gif": "GIF", ".apng": "PNG"}
-MOVING = (".mp4", *_PILLOW)
-"""How the names of films end."""
+VIDEO_SUFFIXES = (".mp4", *_PILLOW)
+"""Suffixes of video files."""
 
 
 def turntable(studio: PictureRenderer) -> Iterator[Image.Image]:
-    """Once around what stands still."""
+    """Yield frames of one turn around a scene at rest."""
     count = int(_TURN_S * FRAMES_PER_S)
     for i in range(count):
         yield studio.render(turned_rad=2.0 * math.pi * i / count)
 
 
 def simulated_frames(studio: PictureRenderer, duration_s: float) -> Iterator[Image.Image]:
-    """What happens from now on, in real time."""
+    """Yield frames of the simulation from now on, at real-time speed."""
     start_ns = studio.simulation.time_ns
     for i in range(max(round(duration_s * FRAMES_PER_S), 1)):
         behind_s = (start_ns - studio.simulation.time_ns) * 1e-9 + i / FRAMES_PER_S
@@ -36,37 +36,37 @@ def simulated_frames(studio: PictureRenderer, duration_s: float) -> Iterator[Ima
         yield studio.render()
 
 
-def write_video(frames: Iterator[Image.Image], output: Path, *, tell: Callable[[int], None]) -> None:
-    """Write frames to a file, in the format that its name says.
+def write_video(frames: Iterator[Image.Image], output: Path, *, report_progress: Callable[[int], None]) -> None:
+    """Write frames to a file, in the format of its suffix.
 
     Args:
         frames: all of one size.
-        output: ends in one of `MOVING`.
-        tell: is told how many are done.
+        output: ends in one of `VIDEO_SUFFIXES`.
+        report_progress: takes the number of frames done.
 
     Raises:
-        UsageError: it cannot be written, or the package for it is not there.
+        UsageError: it cannot be written, or its package is not installed.
     """
     try:
         if output.suffix.lower() == ".mp4":
-            _write_mp4(frames, output, tell)
+            _write_mp4(frames, output, report_progress)
         else:
-            _write_pillow(frames, output, tell)
+            _write_pillow(frames, output, report_progress)
     except (OSError, ValueError) as error:
         raise UsageError(f"cannot write {output}: {error}") from None
 
 
-def _write_pillow(frames: Iterator[Image.Image], output: Path, tell: Callable[[int], None]) -> None:
+def _write_pillow(frames: Iterator[Image.Image], output: Path, report_progress: Callable[[int], None]) -> None:
     kept: list[Image.Image] = []
     for frame in frames:
         kept.append(frame)
-        tell(len(kept))
+        report_progress(len(kept))
     first, *rest = kept
     duration_ms = 1000 // FRAMES_PER_S
     first.save(output, _PILLOW[output.suffix.lower()], save_all=True, append_images=rest, duration=duration_ms, loop=0)
 
 
-def _write_mp4(frames: Iterator[Image.Image], output: Path, tell: Callable[[int], None]) -> None:
+def _write_mp4(frames: Iterator[Image.Image], output: Path, report_progress: Callable[[int], None]) -> None:
     try:
         import av
     except ImportError:
@@ -80,5 +80,5 @@ def _write_mp4(frames: Iterator[Image.Image], output: Path, tell: Callable[[int]
             if done == 1:
                 stream.height, stream.width = even.shape[:2]
             container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(even), format="rgb24")))
-            tell(done)
+            report_progress(done)
         container.mux(stream.encode())

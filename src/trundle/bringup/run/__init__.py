@@ -1,1 +1,1 @@
-"""`trundle run`: one world, simulated, seen and heard until its time is over."""
+"""`trundle run`: simulates one world, with its page, ROS interface and recording."""

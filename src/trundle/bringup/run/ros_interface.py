@@ -1,4 +1,4 @@
-"""The ROS side of a simulation: its node, clock, frames, images and parameters on the graph."""
+"""ROS interface of a simulation: its node, clock, frames, sensor topics and parameters on the graph."""
 
 from collections.abc import Mapping, Sequence
 from typing import Self
@@ -23,7 +23,7 @@ NODE_NAME = "/trundle"
 
 
 class SimulationClock(SimClock):
-    """The simulation's own time, exact at every instant; who sleeps is woken when a stride is over."""
+    """Simulation time, exact at every step; sleeping nodes wake at the end of a stride."""
 
     def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
         super().__init__(loop)
@@ -35,7 +35,7 @@ class SimulationClock(SimClock):
 
 
 class RosInterface:
-    """Everything of one simulation that other ROS nodes see."""
+    """Node, topics and parameters of one simulation."""
 
     def __init__(
         self,
@@ -77,7 +77,7 @@ class RosInterface:
         *,
         host: str,
     ) -> Self:
-        """Join or start a graph and put the simulation on it."""
+        """Join or start a graph and advertise the simulation on it."""
         graph = Graph.open(environment, host=host, ports=(DEFAULT_PORT, 0))
         try:
             return cls(graph, simulation, cameras, sensors, stage)
@@ -87,11 +87,11 @@ class RosInterface:
 
     @property
     def graph(self) -> Graph:
-        """The ROS graph that the simulation is part of."""
+        """ROS graph of the simulation."""
         return self._graph
 
     def make_node(self, name: str) -> Node:
-        """A node on simulation time, whose callbacks run on the simulation's thread between two steps."""
+        """Make a node on simulation time, whose callbacks run on the simulation's thread between two steps."""
         simulation = self._simulation
         return Node(
             name,
@@ -103,18 +103,18 @@ class RosInterface:
         )
 
     def tick(self, *, wait: bool) -> None:
-        """Let the nodes here know that a stride is over.
+        """Set the nodes' clock at the end of a stride.
 
         Args:
-            wait: until every message published so far has reached the nodes of this process. Flat-out runs do, so
-                that who hears what before which step does not depend on how fast the machine is.
+            wait: wait until every message published so far has reached the nodes of this process. Flat-out runs do,
+                so that delivery order does not depend on the machine's speed.
         """
         self.clock.set(self._simulation.time_ns)
         if wait:
             self._graph.loop.flush_deliveries()
 
     def drive(self, linear: float, angular: float) -> None:
-        """Publish a velocity command [m/s, rad/s], as the page's drive pad asks."""
+        """Publish a velocity command [m/s, rad/s] of the page's drive pad."""
         if self._cmd_vel is None:
             self._cmd_vel = self.node.advertise("/cmd_vel", "geometry_msgs/Twist")
         self._cmd_vel.publish({"linear": {"x": linear}, "angular": {"z": angular}})

@@ -1,4 +1,4 @@
-"""`trundle run`: one world, simulated, seen and heard until its time is over."""
+"""`trundle run`: simulates one world, with its page, ROS interface and recording."""
 
 import os
 import sys
@@ -35,47 +35,46 @@ if TYPE_CHECKING:  # a run without a page or a graph starts without their module
 
 OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MAX_RESETS = 10
-"""A world that blows up so often will do so again."""
+"""Resets after which --on-instability reset exits."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunOptions:
-    """How to run; the defaults are those of `trundle run`."""
+    """Options of `trundle run`, with its defaults."""
 
     headless: bool = False
     host: str = "127.0.0.1"
     port: int | None = None
-    """Of the page; None: 8080 or the next free one."""
+    """Port of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
     duration_s: float | None = None
-    """Simulation time; None: until interrupted."""
+    """Simulation time [s]; None: until interrupted."""
     speed: float | None = 1.0
-    """Times real time; None: flat out."""
+    """Simulated seconds per second of wall time; None: flat out."""
     paused: bool = False
     seed: int = 0
     ros: bool = True
     sensors: bool = True
     renderer: RendererName = "cpu"
-    """What draws the pictures of cameras: our own renderer, or OpenGL over EGL."""
+    """Renderer of cameras: Trundle's own, or OpenGL over EGL."""
     strict: bool = False
     record: Path | None = None
-    """Where to write a state log."""
+    """State log to write."""
     on_instability: OnInstability | None = None
-    """What to do when the physics blows up; None: pause where there is a page to look at it, exit where there is none.
-    """
+    """Reaction to unstable physics; None: pause if there is a page, else exit."""
 
 
 def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = None) -> RunResult:
-    """Simulate what a file describes.
+    """Simulate a description.
 
     Args:
         file: a path, a folder with model.config, model://NAME, or package://NAME/FILE.
-        options: how.
-        environment: None: the process's own.
+        options: of the run.
+        environment: None: os.environ.
 
     Raises:
-        TrundleError: the file, or the request, is at fault.
+        TrundleError: an invalid file or request.
     """
     env = dict(os.environ if environment is None else environment)
     report = Diagnostics(strict=options.strict)
@@ -90,7 +89,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
     report_workspace(file, packages, show.line)
     with no_garbage():
         stage = load_world(file, packages, report, seed=options.seed)
-        simulation = Simulation(stage.world, report, seed=options.seed)  # nothing is open yet: Ctrl-C ends it at once
+        simulation = Simulation(
+            stage.world, report, seed=options.seed
+        )  # nothing is open yet: Ctrl-C ends the process at once
     with stop_flag() as stop, ExitStack() as open_things:
         cameras = mount_cameras(simulation, RENDERERS[options.renderer])
         sensors = mount_sensors(simulation)
@@ -154,10 +155,10 @@ def _simulate(
     *,
     recorder: "RunRecorder | None",
 ) -> float:
-    """Step until the time is over, recording breaks off or somebody asks to stop; return the wall time it took [s].
+    """Step until the end of --duration, a failed recording or Ctrl-C; return the wall time taken [s].
 
     Raises:
-        SimulationUnstableError: the physics blew up, and that is to be the end.
+        SimulationUnstableError: the physics is unstable, and the option is to exit.
     """
     end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
     pacer = RealtimePacer(options.speed)
@@ -191,13 +192,13 @@ def _simulate(
 def _recover(
     simulation: Simulation, options: RunOptions, error: SimulationUnstableError, times: int, say: Callable[[str], None]
 ) -> bool:
-    """Do what was asked for when the physics blows up; return whether the simulation is paused now."""
+    """React to unstable physics by --on-instability; return True if the simulation is paused now."""
     match options.on_instability or ("exit" if options.headless else "pause"):
         case "pause":
-            say(f"{error}; the simulation is paused where it last was sound, at {simulation.time_ns / NS_PER_S:.3f} s")
+            say(f"{error}; the simulation is paused at its last stable state, at {simulation.time_ns / NS_PER_S:.3f} s")
             return True
         case "reset" if times <= _MAX_RESETS:
-            say(f"{error}; the simulation starts anew")
+            say(f"{error}; the simulation is reset")
             simulation.reset()
             return False
         case _:

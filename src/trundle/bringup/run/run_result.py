@@ -1,4 +1,4 @@
-"""Where a run ended: the final state and how fast it got there."""
+"""Result of a run: the final state, and the speed."""
 
 import itertools
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class ModelJson(TypedDict):
 
 
 class RunResultJson(TypedDict):
-    """What `run --json` prints."""
+    """Output of `run --json`."""
 
     time: float
     steps: int
@@ -48,19 +48,19 @@ class RunResultJson(TypedDict):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """The end of a run."""
+    """Final state and figures of a run."""
 
     world: World
     snapshot: Snapshot
     steps: int
     simulated_s: float
-    """Over all of the run, as are the steps; a reset sets the time of the snapshot back."""
+    """Over the whole run [s], as are the steps; a reset sets only the snapshot's time back."""
     wall_s: float
     images: int
-    """Camera pictures finished."""
+    """Number of camera images rendered."""
     report: Diagnostics
     interrupted: bool
-    """By Ctrl-C or SIGTERM."""
+    """True if Ctrl-C or SIGTERM ended it."""
     recording_broke_off: bool
 
     @property
@@ -74,7 +74,7 @@ class RunResult:
         return self.simulated_s / self.wall_s if self.wall_s > 0 else None
 
     def as_json(self) -> RunResultJson:
-        """The final state; lists are in file order, poses and twists in the world frame."""
+        """Final state; lists are in file order, poses and twists in the world frame."""
         return {
             "time": self.time_s,
             "steps": self.steps,
@@ -90,7 +90,7 @@ class RunResult:
         return [state.model(model, Pose())[0] for model in self.world.models]
 
     def summary(self) -> str:
-        """A few lines for a person: time, speed, images, and where each model stands that can move."""
+        """Lines to print: time, speed, images, and the pose of each model that is not static."""
         factor = self.real_time_factor
         speed = "" if factor is None else f", {factor:.3g} times real time"
         spent = f"{self.simulated_s:.3f} s simulated in {self.wall_s:.2f} s{speed}"
@@ -107,7 +107,7 @@ class RunResult:
 
 
 class _State:
-    """Reads a snapshot off in its own order: a model's links and joints, then those of the models nested in it."""
+    """Reader of a snapshot in its order: a model's links and joints, then those of its nested models."""
 
     def __init__(self, snapshot: Snapshot) -> None:
         self._snapshot = snapshot
@@ -115,7 +115,7 @@ class _State:
         self._joint = itertools.count()
 
     def model(self, model: Model, world_from_outer: Pose) -> tuple[ModelJson, Pose]:
-        """A model's state, and where its frame is."""
+        """State of a model, and its pose in the world."""
         links = [self._link_state(link) for link in model.links]
         joints = [self._joint_state(joint) for joint in model.joints]
         world_from_model = world_from_outer @ model.world_from_model
@@ -123,7 +123,7 @@ class _State:
             first = Pose.from_rpy(*links[0]["pose"])
             world_from_model = first @ model.links[0].model_from_link.inverse()
         nested = [self.model(inner, world_from_model) for inner in model.models]
-        if nested and not model.links:  # it rides on the first link of the models in it
+        if nested and not model.links:  # its frame follows the first nested model
             world_from_model = nested[0][1] @ model.models[0].world_from_model.inverse()
         entry: ModelJson = {
             "name": model.name,
@@ -148,7 +148,7 @@ class _State:
 
 
 def _one_or_all(axes: list[float]) -> float | list[float]:
-    """A joint of one degree of freedom, or of none, has a number; one of several has a list."""
+    """Number for a joint of at most one degree of freedom, else a list."""
     if len(axes) > 1:
         return axes
     return axes[0] if axes else 0.0
