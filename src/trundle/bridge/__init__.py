@@ -1,4 +1,4 @@
-"""Where the wings meet: snapshots and readings become messages on topics, /clock and tf."""
+"""Snapshots and sensor readings as ROS messages: sensor topics, /clock, joint_states and tf."""
 
 import lazy_loader
 

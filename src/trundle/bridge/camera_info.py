@@ -1,4 +1,4 @@
-"""What camera_info says."""
+"""sensor_msgs/CameraInfo of a camera."""
 
 import math
 
@@ -9,17 +9,17 @@ from trundle.sensors import CameraSensor, radius_of
 from trundle.spatial import Pose
 
 _ALIGNED = 1e-6
-"""Sine of half the angle between cameras that count as looking the same way, and [m] in the same plane."""
+"""Tolerance of parallel cameras: sine of half the angle between them, and distance [m] of their image planes."""
 _TERMS = 4
-"""Coefficients of ROS' model `equidistant`: θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)."""
+"""Number of coefficients of ROS' model `equidistant`: θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)."""
 
 
 def camera_info_message(camera: CameraSensor) -> dict[str, object]:
-    """The picture's size, and D, K, R and P.
+    """Make image size, D, K, R and P.
 
-    A pinhole has gazebo_ros's principal point (w + 1)/2, (h + 1)/2 unless the file has <intrinsics>. Of a multicamera's
-    cameras, P's fourth column says where each is from the first one, if they look the same way. A wide lens is told by
-    the model `equidistant`, whose coefficients are fitted to it.
+    A pinhole has gazebo_ros's principal point (w + 1)/2, (h + 1)/2 unless the file has <intrinsics>. P's fourth column
+    holds the baseline of a multicamera's parallel cameras to the first. A wide-angle lens gets the model `equidistant`,
+    with fitted coefficients.
     """
     optics = camera.optics
     pinhole = optics.intrinsics or _pinhole(camera)
@@ -29,11 +29,11 @@ def camera_info_message(camera: CameraSensor) -> dict[str, object]:
         model = "equidistant"
         pinhole, coefficients = _wide(optics.lens, optics.horizontal_fov_rad, pinhole, optics.width_px)
     right, down = _baseline(camera)
-    told = optics.projection
-    if told is None:
+    given = optics.projection
+    if given is None:
         p = [pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, 0.0 - pinhole.fx * right, 0.0 - pinhole.fy * down]
     else:
-        p = [told.fx, told.fy, told.cx, told.cy, told.tx, told.ty]
+        p = [given.fx, given.fy, given.cx, given.cy, given.tx, given.ty]
     return {
         "height": optics.height_px,
         "width": optics.width_px,
@@ -52,7 +52,7 @@ def _pinhole(camera: CameraSensor) -> PixelIntrinsics:
 
 
 def _wide(lens: Lens, fov_rad: float, pinhole: PixelIntrinsics, width_px: int) -> tuple[PixelIntrinsics, list[float]]:
-    """A focal length and coefficients by least squares over what the picture's width shows."""
+    """Fit focal length and coefficients by least squares over the angles within the image's width."""
     angles = np.linspace(0.01, max(min(lens.cutoff_rad, fov_rad / 2), 0.02), 200)
     radii = radius_of(lens, fov_rad, angles) * width_px / 2
     sound = np.isfinite(radii)
@@ -66,7 +66,7 @@ def _wide(lens: Lens, fov_rad: float, pinhole: PixelIntrinsics, width_px: int) -
 
 
 def _baseline(camera: CameraSensor) -> tuple[float, float]:
-    """How far the camera is to the right of the multicamera's first, and below it [m]."""
+    """Offset of the camera to the right of the multicamera's first one, and below it [m]; zero if not parallel."""
     first: Pose = camera.sensor.cameras[0].sensor_from_camera
     first_from_camera = first.inverse() @ camera.optics.sensor_from_camera
     ahead, left, up = first_from_camera.position

@@ -1,4 +1,4 @@
-"""What cameras see, and their calibration, on ROS topics."""
+"""Topics of cameras: images, camera_info, point clouds, detections."""
 
 from collections.abc import Callable, Iterable
 from typing import TypeAlias
@@ -22,42 +22,44 @@ from .image_messages import depth_image, image_encoder, labels_image, point_clou
 
 _HALF_TURN = 1.5707963267948966
 CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HALF_TURN))
-"""SDF's cameras look along x with z up; ROS images have z forward, x right, y down (REP 103)."""
+"""Pose of the optical frame (z forward, x right, y down; REP 103) in SDF's camera frame (x forward, z up)."""
 _Make: TypeAlias = Callable[[CameraReading], dict[str, object]]
 _Output: TypeAlias = tuple[str, str, _Make]
-"""Topic, type and what makes its messages, without their header."""
+"""Topic, type, and function from a reading to the message without its header."""
 
 
 def make_camera_topics(
     node: Node, static_broadcaster: StaticTransformBroadcaster, cameras: Iterable[CameraSensor], names: FrameNames
 ) -> None:
-    """Put everything that cameras see on topics of its own."""
+    """Advertise the topics of cameras."""
     for camera in cameras:
         CameraTopics(node, static_broadcaster, camera, names)
 
 
 class CameraTopics:
-    """`<model>/<link>/<sensor>/image_raw`, `camera_info` and more by the camera's kind, each made only for
+    """`<model>/<link>/<sensor>/image_raw`, `camera_info` and more by the camera's type; messages are made only for
     subscribers."""
 
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, camera: CameraSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the optical frame.
+        """Advertise, and send the optical frame.
 
         Args:
-            node: publishes.
-            static_broadcaster: the node's one broadcaster for /tf_static.
-            camera: what to publish.
-            names: of the frames.
+            node: publishes the topics.
+            static_broadcaster: of the node's /tf_static.
+            camera: the sensor to publish.
+            names: names of frames.
         """
         model, link = camera.model, camera.link
         carrier = names.link(model, link.name)
         part = f"/{camera.optics.name}" if camera.optics.name else ""
-        told = camera.optics.optical_frame
-        there = names.find_link(model, told) if told else None
+        optical_frame = camera.optics.optical_frame
+        there = names.find_link(model, optical_frame) if optical_frame else None
         self.frame = there or (
-            ros_name(told) if told else names.sensor(model, link.name, camera.sensor, rest=f"{part}_optical")
+            ros_name(optical_frame)
+            if optical_frame
+            else names.sensor(model, link.name, camera.sensor, rest=f"{part}_optical")
         )
         optical = camera.link_from_camera @ CAMERA_FROM_OPTICAL
         if there is None:
@@ -87,7 +89,7 @@ class CameraTopics:
 
 
 def _outputs(camera: CameraSensor) -> list[_Output]:
-    """What a camera publishes; the first is what it is for."""
+    """Outputs of a camera, the main one first."""
     calibration = camera_info_message(camera)
     info: _Output = ("camera_info", "sensor_msgs/CameraInfo", lambda _: calibration)
     colours: _Output = ("image_raw", "sensor_msgs/Image", image_encoder(camera.optics.format))

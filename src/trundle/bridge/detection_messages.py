@@ -1,4 +1,4 @@
-"""What bounding box cameras found, as vision_msgs, without headers."""
+"""Detections of bounding box cameras as vision_msgs, without headers."""
 
 from trundle.sensors import CameraReading, SeenBox
 from trundle.spatial import Pose, quaternion_from_rpy
@@ -8,12 +8,12 @@ _OPTICAL_FROM_CAMERA = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_H
 
 
 def boxes_2d(reading: CameraReading) -> dict[str, object]:
-    """vision_msgs/Detection2DArray, in pixels."""
+    """vision_msgs/Detection2DArray, in the image [px]."""
     return {"detections": [_detection_2d(box, reading.time_ns) for box in reading.boxes or ()]}
 
 
 def boxes_3d(reading: CameraReading) -> dict[str, object]:
-    """vision_msgs/Detection3DArray, in the optical frame."""
+    """vision_msgs/Detection3DArray, in the optical frame [m]."""
     return {"detections": [_detection_3d(box, reading.time_ns) for box in reading.boxes or ()]}
 
 

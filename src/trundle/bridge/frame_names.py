@@ -1,7 +1,7 @@
-"""How the simulation's names appear on the ROS graph.
+"""tf frames and topics of a simulation's links and sensors.
 
-SDF names may hold what ROS names may not (`::`, spaces, leading digits): `trundle.names.ros_name` maps them.
-docs/decisions/0002 says why a single robot's links keep their plain names.
+SDF names may have characters that ROS names may not (`::`, spaces, leading digits): `trundle.names.ros_name` maps
+them. docs/decisions/0002: why a single robot's links keep their plain names.
 """
 
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ from trundle.robot import Robot
 
 WORLD_FRAME = "world"
 _NO_TOPIC = ("__default__", "__default_topic__")
-"""What old files write where they mean none."""
+"""Values of <topic> in old files that mean the default topic."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkFrame:
-    """One link's place in the tf tree."""
+    """One link in the tf tree."""
 
     frame: str
     parent: str
@@ -27,43 +27,43 @@ class LinkFrame:
     parent_link: int | None
     """None: the parent is the world."""
     is_moving: bool
-    """Whether the transform from the parent changes as time passes."""
+    """True if its transform from the parent can change."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrameNames:
-    """What links and sensors are called in tf."""
+    """Frame names of links and sensors."""
 
     plain: bool = False
-    """A link has its own name, as robots that are given alone have it; else it is `<model>/<link>`."""
+    """True: a frame is its link's name, as for a single robot; False: `<model>/<link>`."""
     lumped: frozenset[str] = frozenset()
-    """Links of the URDF, which are on the graph though some are not simulated."""
+    """Links of the URDF, including those that were lumped into others and are not simulated."""
 
     @classmethod
     def from_world(cls, world: World, robot: Robot | None = None) -> Self:
-        """Those of a world that `run` was given, or of the robot in it."""
+        """Names for `trundle run`: of its world, or of the single robot in it."""
         return cls(plain=_has_plain_frames(world), lumped=_links_of(robot))
 
     @classmethod
     def from_robot(cls, robot: Robot) -> Self:
-        """Those of the one URDF of a launch, whose links robot_state_publisher sends."""
+        """Names for the one URDF of a launch, whose frames robot_state_publisher sends."""
         return cls(plain=True, lumped=_links_of(robot))
 
     def link(self, model: Model, link: str) -> str:
-        """A link's frame."""
+        """Frame of a link."""
         return ros_name(link) if self.plain else f"{ros_name(model.name)}/{ros_name(link)}"
 
     def sensor(self, model: Model, place: str, sensor: Sensor, *, rest: str = "") -> str:
-        """A sensor's own frame, which is no other sensor's and no link's.
+        """Frame of a sensor, different from those of other sensors and of links.
 
-        Its place comes before its name where the model has several sensors of that name, and `_sensor` comes behind
-        where a link is called so.
+        The name has the link or joint as prefix if several sensors of the model share it, and the suffix `_sensor`
+        if a link has it.
 
         Args:
-            model: whose it is.
-            place: the link or joint that it is on.
-            sensor: with its name.
-            rest: what follows that.
+            model: of the sensor.
+            place: link or joint that the sensor is on.
+            sensor: the sensor.
+            rest: suffix.
         """
         own = ros_name(sensor.name)
         everywhere = [each for owner in (*model.links, *model.joints) for each in owner.sensors]
@@ -73,7 +73,7 @@ class FrameNames:
         return f"{frame}_sensor" if is_taken else frame
 
     def find_link(self, model: Model, name: str) -> str | None:
-        """The frame of a link that is called so, also of one of the URDF that is not simulated."""
+        """Frame of a link of that name, also of one of the URDF that is not simulated; None: no such link."""
         frames = {name, self.link(model, name)}
         links = {self.link(model, link.name) for link in model.links} | self.lumped
         return next((frame for frame in sorted(frames) if frame in links), None)
@@ -84,17 +84,17 @@ def _links_of(robot: Robot | None) -> frozenset[str]:
 
 
 def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main: str, part: str = "") -> str:
-    """The topic of one of a sensor's outputs: `/<model>/<place>/<sensor>/<output>`, unless the file has a <topic>.
+    """Topic of a sensor's output: `/<model>/<place>/<sensor>/<output>`, unless the file has a <topic>.
 
-    A <topic> is where the main output goes; camera_info goes beside it, as in gz, and everything else below it.
+    A <topic> is that of the main output; camera_info goes beside it, as in gz, other outputs below it.
 
     Args:
-        model: whose it is.
-        place: the link or joint that it is on.
-        sensor: with its name, and its topic if it has one.
-        output: what is published: imu, scan, image_raw, …
-        main: the output that the sensor is for.
-        part: which of a multicamera's cameras.
+        model: of the sensor.
+        place: link or joint that the sensor is on.
+        sensor: the sensor.
+        output: imu, scan, image_raw, …
+        main: the sensor's main output.
+        part: camera of a multicamera.
     """
     parts = (part,) if part else ()
     given = sensor.topic.strip().removeprefix("~").strip("/")
@@ -109,17 +109,17 @@ def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main:
 
 
 def global_topic(name: str) -> str:
-    """The topic of a name in a file: global, whether it begins with a slash or not."""
+    """Global topic of a name in a file, with or without a leading slash."""
     return f"/{ros_name(name.strip().removeprefix('~').strip('/'))}"
 
 
 def _has_plain_frames(world: World) -> bool:
-    """Whether one robot was given alone: all else was put around it by `run`."""
+    """True if the file is a single robot, around which `run` added all else."""
     return len([model for model in world.models if not model.added]) == 1 and any(m.added for m in world.models)
 
 
 def link_frames(world: World) -> list[LinkFrame]:
-    """Every link of the world as a frame, in the order of `Snapshot.poses`."""
+    """Frames of all links of the world, in the order of `Snapshot.poses`."""
     names = FrameNames.from_world(world)
     frames: list[LinkFrame] = []
     for model in world.models:

@@ -1,4 +1,4 @@
-"""Pictures of every kind as messages, without their headers."""
+"""Images and point clouds as messages, without their headers."""
 
 from collections.abc import Callable
 
@@ -9,30 +9,30 @@ from trundle.render import coloured_points
 from trundle.sensors import CameraReading, CameraSensor, pixels_in
 
 _FLOAT32 = 7
-"""sensor_msgs/PointField's number for it."""
+"""sensor_msgs/PointField.FLOAT32"""
 _KELVIN_STEP = 0.01
-"""[K] What gz's thermal cameras count in."""
+"""Unit of gz's thermal cameras [K]."""
 
 
 def image_encoder(format_: str) -> Callable[[CameraReading], dict[str, object]]:
-    """What makes sensor_msgs/Image of colours in one of SDF's formats."""
+    """Return the function that makes colour sensor_msgs/Image in one of SDF's pixel formats."""
     return lambda reading: _image(*pixels_in(format_, reading.rgb))
 
 
 def depth_image(reading: CameraReading) -> dict[str, object]:
-    """sensor_msgs/Image of distances [m]."""
+    """sensor_msgs/Image of depths [m], 32FC1."""
     assert reading.depth is not None
     return _image(reading.depth, "32FC1")
 
 
 def labels_image(reading: CameraReading) -> dict[str, object]:
-    """sensor_msgs/Image of labels, or of 65536 times the label plus the instance's number."""
+    """sensor_msgs/Image of labels (mono8), or of 65536 · label + instance (32SC1)."""
     assert reading.labels is not None
     return _image(reading.labels, "mono8" if reading.labels.dtype == np.uint8 else "32SC1")
 
 
 def thermal_image(reading: CameraReading) -> dict[str, object]:
-    """sensor_msgs/Image of temperatures [0.01 K]."""
+    """sensor_msgs/Image of temperatures [0.01 K], mono16."""
     assert reading.temperatures is not None
     counts = np.clip(np.rint(reading.temperatures / _KELVIN_STEP), 0, 65535)
     return _image(counts.astype(np.uint16), "mono16")
@@ -45,8 +45,8 @@ def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
 
 
 def point_cloud_encoder(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
-    """What makes sensor_msgs/PointCloud2: a point for each pixel, in its colour, in the optical frame; one without
-    depth is not a number."""
+    """Return the function that makes sensor_msgs/PointCloud2: a coloured point per pixel in the optical frame [m]; NaN
+    where there is no depth."""
     right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.projection.slopes())
     fields = [
         {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}

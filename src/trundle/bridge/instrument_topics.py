@@ -1,4 +1,4 @@
-"""Readings of instruments as messages: barometers, compasses, sonars, radios."""
+"""Topics of instruments: barometers, altimeters, magnetometers, sonars, logical cameras, radios."""
 
 from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.sensors import (
@@ -23,11 +23,11 @@ from .frame_names import WORLD_FRAME, FrameNames
 from .sensor_frames import output_topic, send_sensor_frame
 
 _ULTRASOUND = 0
-"""sensor_msgs/Range's number for it."""
+"""sensor_msgs/Range.ULTRASOUND"""
 
 
 class PressureTopic:
-    """sensor_msgs/FluidPressure on `…/air_pressure`, and what moving adds on `…/air_speed`."""
+    """sensor_msgs/FluidPressure: static pressure on `…/air_pressure`, dynamic pressure on `…/air_speed`."""
 
     def __init__(
         self,
@@ -36,7 +36,7 @@ class PressureTopic:
         sensor: AirPressureSensor | AirSpeedSensor,
         names: FrameNames,
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._topic = node.advertise(
             output_topic(sensor, sensor.sensor.type), "sensor_msgs/FluidPressure", queue_size=10
@@ -49,7 +49,7 @@ class PressureTopic:
 
 
 class AltimeterTopics:
-    """geometry_msgs/Vector3Stamped, world axes: the height above the start on `…/altitude`, its change on
+    """geometry_msgs/Vector3Stamped in world axes: z above the start [m] on `…/altitude`, its rate [m/s] on
     `…/vertical_velocity`."""
 
     def __init__(self, node: Node, sensor: AltimeterSensor) -> None:
@@ -72,7 +72,7 @@ class MagnetometerTopic:
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: MagnetometerSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._topic = node.advertise(output_topic(sensor, "magnetic_field"), "sensor_msgs/MagneticField", queue_size=10)
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
@@ -89,7 +89,7 @@ class SonarTopic:
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: SonarSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the beam's frame."""
+        """Advertise, and send the beam's frame."""
         self._frame = send_sensor_frame(sensor, sensor.link_from_beam, static_broadcaster, names)
         self._topic = node.advertise(output_topic(sensor, "range"), "sensor_msgs/Range", queue_size=5)
         self._sensor = sensor
@@ -109,12 +109,12 @@ class SonarTopic:
 
 
 class LogicalCameraTopic:
-    """tf2_msgs/TFMessage on `…/models`: each model in view by its name, placed in the logical camera's frame."""
+    """tf2_msgs/TFMessage on `…/models`: the pose of each model in view, in the logical camera's frame."""
 
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: LogicalCameraSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._topic = node.advertise(output_topic(sensor, "models"), "tf2_msgs/TFMessage", queue_size=5)
         sensor.listen(self._publish, enabled=lambda: self._topic.has_subscribers)
@@ -133,7 +133,7 @@ class LogicalCameraTopic:
 
 
 class WirelessTopics:
-    """diagnostic_msgs/DiagnosticArray: the transmitters heard on `…/nodes`, the tags that are near on `…/tags`."""
+    """diagnostic_msgs/DiagnosticArray: the transmitters received on `…/nodes`, the tags in range on `…/tags`."""
 
     def __init__(
         self,
@@ -142,7 +142,7 @@ class WirelessTopics:
         sensor: WirelessSensor | RfidSensor,
         names: FrameNames,
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         type_ = "diagnostic_msgs/DiagnosticArray"
         match sensor:

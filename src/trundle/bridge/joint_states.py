@@ -14,7 +14,7 @@ class JointStatesTopic:
     """Publishes `joint_states` for every joint of one degree of freedom, in file order."""
 
     period_ns = 20_000_000
-    """50 Hz"""
+    """50 Hz."""
 
     def __init__(self, node: Node, model: ModelHandle, *, topic: str = "/joint_states") -> None:
         """Advertise the joints of one model."""
@@ -24,7 +24,7 @@ class JointStatesTopic:
         self._publisher = node.advertise(topic, "sensor_msgs/JointState", queue_size=5)
 
     def has_subscribers(self) -> bool:
-        """Whether anybody listens."""
+        """True if there is a subscriber."""
         return self._publisher.has_subscribers
 
     def after_step(self, snapshot: Snapshot) -> None:

@@ -1,4 +1,4 @@
-"""The true pose of every link on /tf and /tf_static."""
+"""True poses of all links on /tf and /tf_static."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from .frame_names import LinkFrame, link_frames
 
 
 class LinkTransforms:
-    """Broadcasts each link relative to its parent; what cannot move goes out once, on /tf_static."""
+    """Broadcasts each link's pose in its parent; rigid ones go out once, on /tf_static."""
 
     period_ns = 20_000_000
     """50 Hz, robot_state_publisher's default."""
@@ -20,13 +20,13 @@ class LinkTransforms:
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, world: World, start: Snapshot
     ) -> None:
-        """Send what cannot move, and get ready for the rest.
+        """Send the static transforms, and prepare the others.
 
         Args:
-            node: publishes.
-            static_broadcaster: the node's one broadcaster for /tf_static.
+            node: publishes /tf.
+            static_broadcaster: of the node's /tf_static.
             world: names the frames.
-            start: where everything is now.
+            start: the initial state.
         """
         frames = link_frames(world)
         self._moving = [frame for frame in frames if frame.is_moving]
@@ -38,11 +38,11 @@ class LinkTransforms:
         static_broadcaster.send_transform(*_transforms(fixed, poses, start.time_ns))
 
     def enabled(self) -> bool:
-        """Whether anything moves and anybody listens."""
+        """True if there are moving frames and subscribers."""
         return bool(self._moving) and self._broadcaster.has_subscribers
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Send every frame that moves."""
+        """Send the transforms of moving frames."""
         poses = relative_poses(snapshot.poses, self._parents, self._children)
         self._broadcaster.send_transform(*_transforms(self._moving, poses, snapshot.time_ns))
 

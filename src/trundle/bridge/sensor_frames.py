@@ -1,4 +1,4 @@
-"""Where sensors are on the graph: their frames and their topics."""
+"""Frames and topics of sensors."""
 
 from trundle.ros import StaticTransformBroadcaster, Transform
 from trundle.sensors import InstrumentSensor
@@ -10,7 +10,7 @@ from .frame_names import FrameNames, sensor_topic
 def send_sensor_frame(
     sensor: InstrumentSensor, link_from_sensor: Pose, static_broadcaster: StaticTransformBroadcaster, names: FrameNames
 ) -> str:
-    """Put the sensor's own frame on its link; return its name."""
+    """Send the static transform of the sensor's frame on its link; return the frame."""
     frame = names.sensor(sensor.model, sensor.parent_name, sensor.sensor)
     carrier = names.link(sensor.model, sensor.link.name)
     place, turn = link_from_sensor.position, link_from_sensor.quaternion
@@ -19,5 +19,5 @@ def send_sensor_frame(
 
 
 def output_topic(sensor: InstrumentSensor, output: str, *, main: str | None = None) -> str:
-    """The topic of one of its outputs; see `sensor_topic`."""
+    """Topic of one of a sensor's outputs; see `sensor_topic`."""
     return sensor_topic(sensor.model, sensor.parent_name, sensor.sensor, output, main=main or output)

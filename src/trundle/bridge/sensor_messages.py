@@ -1,4 +1,4 @@
-"""Readings as messages, without their headers."""
+"""Readings of sensors as messages, without their headers."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from trundle.sensors import (
 from trundle.spatial import NS_PER_S, Vector3, Wrench
 
 _FLOAT32 = 7
-"""sensor_msgs/PointField's number for it."""
+"""sensor_msgs/PointField.FLOAT32"""
 
 
 def imu_message(reading: ImuReading) -> dict[str, object]:
@@ -44,7 +44,7 @@ def scan_message(reading: RangeReading, period_s: float) -> dict[str, object]:
 
 
 def points_message(reading: RangeReading) -> dict[str, object]:
-    """sensor_msgs/PointCloud2 in the sensor's frame, without the rays that found nothing."""
+    """sensor_msgs/PointCloud2 in the sensor's frame [m], without the rays that hit nothing."""
     ranges = reading.ranges.reshape(-1)
     seen = np.isfinite(ranges)
     places = directions_of(reading.scan)[seen] * ranges[seen, None]
@@ -82,7 +82,7 @@ def wrench_message(reading: ForceTorqueReading) -> dict[str, object]:
 
 
 def contacts_message(reading: ContactReading) -> dict[str, object]:
-    """gazebo_msgs/ContactsState in the world frame; one state for each step and pair of collisions."""
+    """gazebo_msgs/ContactsState in the world frame; one state per step and pair of collisions."""
     found: dict[tuple[int, str, str], list[ContactRecord]] = {}
     for touch in reading.contacts:
         found.setdefault((touch.time_ns, touch.own, touch.other), []).append(touch)

@@ -1,5 +1,5 @@
-"""Readings on ROS topics of their own: `<model>/<link>/<sensor>/imu`, `…/scan` or `…/points`, `…/fix`,
-`…/contacts`, `<model>/<joint>/<sensor>/wrench`."""
+"""Topics of sensor readings: `<model>/<link>/<sensor>/imu`, `…/scan` or `…/points`, `…/fix`, `…/contacts`,
+`<model>/<joint>/<sensor>/wrench`."""
 
 from collections.abc import Iterable
 
@@ -39,13 +39,13 @@ from .sensor_frames import output_topic, send_sensor_frame
 from .sensor_messages import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
 _MAX_S = 1e30
-"""Between two scans, in a message."""
+"""Largest LaserScan.scan_time [s]."""
 
 
 def make_sensor_topics(
     node: Node, static_broadcaster: StaticTransformBroadcaster, sensors: Iterable[InstrumentSensor], names: FrameNames
 ) -> None:
-    """Put every sensor's readings on topics of its own."""
+    """Advertise the topics of sensors."""
     for sensor in sensors:
         match sensor:
             case ImuSensor():
@@ -78,7 +78,7 @@ class ImuTopic:
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: ImuSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._imu = node.advertise(output_topic(sensor, "imu"), "sensor_msgs/Imu", queue_size=10)
         sensor.listen(self._publish, enabled=lambda: self._imu.has_subscribers)
@@ -88,12 +88,12 @@ class ImuTopic:
 
 
 class ScanTopic:
-    """sensor_msgs/LaserScan on `…/scan` for one row of rays, sensor_msgs/PointCloud2 on `…/points` for several."""
+    """sensor_msgs/LaserScan on `…/scan` of one row of rays, sensor_msgs/PointCloud2 on `…/points` of several."""
 
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: RangeSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._period_s = min(1.0 / sensor.rate_hz, _MAX_S)
         if sensor.scan.vertical.values == 1:
@@ -117,7 +117,7 @@ class FixTopic:
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: GpsSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         self._frame = send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
         self._sensor = sensor
         self._fix = node.advertise(output_topic(sensor, "fix"), "sensor_msgs/NavSatFix", queue_size=5)
@@ -129,12 +129,12 @@ class FixTopic:
 
 
 class WrenchTopic:
-    """geometry_msgs/WrenchStamped on `<model>/<joint>/<sensor>/wrench`, in the frame that the sensor names."""
+    """geometry_msgs/WrenchStamped on `<model>/<joint>/<sensor>/wrench`, in the sensor's <frame>."""
 
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, sensor: ForceTorqueSensor, names: FrameNames
     ) -> None:
-        """Advertise, and place the sensor's frame."""
+        """Advertise, and send the sensor's frame."""
         own = send_sensor_frame(sensor, sensor.link_from_sensor, static_broadcaster, names)
         parent = sensor.joint.parent
         self._frame = {

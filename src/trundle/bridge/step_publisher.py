@@ -1,4 +1,4 @@
-"""What a simulation tells again and again: at every step where each message counts, else a hundred times a second."""
+"""Periodic publishing: at every step if a subscriber needs each message, else at 100 Hz."""
 
 from collections.abc import Callable
 
@@ -6,25 +6,25 @@ from trundle.ros import Publisher
 from trundle.simulation import Simulation, Snapshot
 
 _MIN_PERIOD_NS = 10_000_000
-"""Ours: every tenth step of Gazebo's. Time as it steps costs Python at each, and stand-ins take only the newest."""
+"""Every tenth step of Gazebo's: each call costs Python, and stand-ins use only the newest message [ns]."""
 
 
 class StepPublisher:
-    """Has a function called with the snapshot as often as the listeners of a topic need it.
+    """Calls a function with the snapshot as often as the subscribers of a topic need it.
 
-    gazebo_ros tells at every step whatever somebody listens to (GazeboRosApiPlugin::publishSimTime,
-    publishModelStates, publishLinkStates); whoever listens in another process gets that.
+    gazebo_ros publishes at every step if there is a subscriber (GazeboRosApiPlugin::publishSimTime, publishModelStates,
+    publishLinkStates); subscribers in other processes get the same here.
     """
 
     QUEUE_SIZE = 100
-    """Ten in gazebo_ros, which waits for the wall before each step; here many follow one another at once."""
+    """10 in gazebo_ros, which sleeps before each step; here many steps follow one another at once."""
 
-    def __init__(self, topic: Publisher, tell: Callable[[Snapshot], None]) -> None:
+    def __init__(self, topic: Publisher, publish: Callable[[Snapshot], None]) -> None:
         self._topic = topic
-        self._publish = tell
+        self._publish = publish
 
     def attach(self, simulation: Simulation) -> None:
-        """Begin; what nobody listens to costs no stride."""
+        """Start publishing; without subscribers, it does not shorten strides."""
         simulation.add_hook(_Tick(self._publish), period_ns=_MIN_PERIOD_NS, enabled=self._is_sparing)
         simulation.add_hook(_Tick(self._publish), enabled=lambda: self._topic.needs_every_message)
 
@@ -33,5 +33,5 @@ class StepPublisher:
 
 
 class _Tick:
-    def __init__(self, tell: Callable[[Snapshot], None]) -> None:
-        self.after_step = tell
+    def __init__(self, publish: Callable[[Snapshot], None]) -> None:
+        self.after_step = publish
