@@ -54,8 +54,8 @@ def test_what_a_controller_cannot_use_is_named(tmp_path: Path) -> None:
 
     said = " ".join(sim.report.warnings)
     assert "no controller type 'torque'; types: force, position, velocity" in said
-    assert "no joint that moves matches 'elbow'; joints here: 'weld', 'hinge'" in said
-    assert "'(' is no regular expression" in said
+    assert "no movable joint matches 'elbow'; joints here: 'weld', 'hinge'" in said
+    assert "'(' is not a regular expression" in said
 
 
 def test_the_simple_arm_swings_by_cosines(tmp_path: Path) -> None:
@@ -105,7 +105,7 @@ def test_without_a_graph_there_are_no_keys_and_that_is_said(tmp_path: Path) -> N
     sim = load(tmp_path, ARM + KEYS.format(""))
 
     (warning,) = sim.report.warnings
-    assert warning.endswith("plugin 'p' waits for keys, and without ROS there is no topic to bring them")
+    assert warning.endswith("plugin 'p' takes keys from a ROS topic, which --no-ros leaves out")
 
 
 def test_a_pid_law_clamps_its_integral_and_its_command() -> None:

@@ -185,5 +185,5 @@ def test_a_wheel_that_lacks_something_is_named(tmp_path: Path) -> None:
 
     said = " ".join(sim.report.warnings)
     assert "<wheel_normal_force> must be above 0 N, got 0" in said
-    assert "link 'base' hangs from 0 joints with an axis; one is needed" in said
+    assert "link 'base' is the child of 0 joints with an axis; one is needed" in said
     assert "no link 'x'" in said

@@ -115,7 +115,7 @@ def load_world_plugins(
             _hook_in(simulation, plugin, None)
     if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
         report = simulation.report
-        report.info(world.at, "the wind pushes nothing: as in Gazebo, that takes libWindPlugin.so in the world")
+        report.info(world.at, "there is no wind force: as in Gazebo, that takes libWindPlugin.so in the world")
 
 
 _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")

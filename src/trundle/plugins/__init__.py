@@ -1,4 +1,4 @@
-"""The simulator driven from ROS, and publishing to it: Gazebo plugins by their file names."""
+"""Gazebo plugins in Python, by their file names."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Finds the plugin that a <plugin filename="…"> asks for.
+"""Finder of the plugin of a <plugin filename="…">.
 
 In this order: Trundle's own by Gazebo's file name; installed ones (entry points of the group
 "trundle.plugins", named by file name); a Python file of the user's: `librp2w.so` means `rp2w.py` beside the
@@ -77,7 +77,7 @@ BUILTIN: dict[str, str] = {
     "libunitreeDrawForcePlugin.so": "trundle.plugins.unitree.draw_force:DrawForce",
     "libwarthog_suspension_plugin.so": "trundle.plugins.warthog_suspension:WarthogSuspension",
 }
-"""File name → "module:Class", imported only when a model asks."""
+"""File name → "module:Class", imported on use."""
 
 _SENSORS = "trundle.plugins.gazebo_ros"
 SENSOR_PLUGINS: dict[str, str] = {
@@ -100,12 +100,12 @@ SENSOR_PLUGINS: dict[str, str] = {
     "libhector_gazebo_ros_sonar.so": "trundle.plugins.hector_gazebo.sonar:attach",
     "libunitreeFootContactPlugin.so": "trundle.plugins.unitree.foot_contact:attach",
 }
-"""File name → "module:function", of the plugins that publish what a sensor measures."""
+"""File name → "module:function" of sensor plugins, which publish a sensor's readings."""
 
 _OF_MODELS = {"librealsense_gazebo_plugin.so": "trundle.plugins.realsense:find_attach"}
-"""File name → "module:function", of a model's plugins that publish what its sensors measure."""
+"""File name → "module:function" of model plugins that publish the readings of the model's sensors."""
 
-_LOOKS = frozenset(
+_COSMETIC = frozenset(
     {
         "libAmbientOcclusionVisualPlugin.so",
         "libBlinkVisualPlugin.so",
@@ -115,7 +115,7 @@ _LOOKS = frozenset(
         "libgazebo_ros_video.so",
     }
 )
-"""Of Gazebo's visuals, those that alter nothing but how they are drawn."""
+"""Visual plugins of Gazebo that change only how a visual is drawn."""
 
 GROUP = "trundle.plugins"
 
@@ -124,31 +124,31 @@ _Kind = TypeVar("_Kind", bound=Hooks)
 
 
 def find_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[Plugin], str]:
-    """Return the class of a model's plugin and where it came from.
+    """Return the class of a model's plugin, and its origin for messages.
 
     Raises:
-        DescriptionError: there is none, with where was looked; or the user's file does not load, with its line.
+        DescriptionError: not found, with the folders searched; or the user's file does not load, with its line.
     """
     return _find(tag, environment, Plugin)
 
 
 def find_visual_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[VisualPlugin], str]:
-    """Return the class of a visual's plugin and where it came from; see `find_plugin`."""
+    """Return the class of a visual's plugin and its origin; see `find_plugin`."""
     return _find(tag, environment, VisualPlugin)
 
 
 def is_cosmetic(tag: PluginTag) -> bool:
-    """Whether a visual's plugin is one of Gazebo's that is not run: it alters nothing but how the visual is drawn."""
-    return _base_name(tag) in _LOOKS
+    """True if a visual's plugin is one of Gazebo's that change only how it is drawn, and so is not run."""
+    return _base_name(tag) in _COSMETIC
 
 
 def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[WorldPlugin], str]:
-    """Return the class of a world's plugin and where it came from; see `find_plugin`."""
+    """Return the class of a world's plugin and its origin; see `find_plugin`."""
     return _find(tag, environment, WorldPlugin)
 
 
 def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
-    """The function that publishes a sensor's readings as a plugin does; None: there is none of this name."""
+    """Function that publishes a sensor's readings as its plugin does; None: no such plugin."""
     target = SENSOR_PLUGINS.get(_base_name(tag))
     return None if target is None else _imported(target)
 
@@ -156,7 +156,7 @@ def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, PluginTag, Diagn
 def find_model_sensor_plugin(
     tag: PluginTag, sensor: str
 ) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
-    """The function that publishes a sensor's readings as a plugin of its model does; None: it does not."""
+    """Function that publishes a sensor's readings as a plugin of its model does; None: the plugin does not."""
     target = _OF_MODELS.get(_base_name(tag))
     return None if target is None else _imported(target)(tag, sensor)
 
@@ -195,7 +195,7 @@ def _misplaced(tag: PluginTag, owner: str) -> DescriptionError:
 
 
 def python_file_name(filename: str) -> str:
-    """`librp2w.so` → `rp2w.py`, the file in which a user writes the plugin anew."""
+    """`librp2w.so` → `rp2w.py`, the file of a user's Python plugin in its place."""
     stem = PurePosixPath(filename).stem
     if filename.endswith(".so"):
         stem = stem.removeprefix("lib")
@@ -220,7 +220,7 @@ def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
     assert spec is not None, path
     assert spec.loader is not None, path
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # dataclasses and pickle look their module up
+    sys.modules[name] = module  # dataclasses and pickle look it up
     try:
         spec.loader.exec_module(module)
     except Exception as error:
@@ -240,12 +240,12 @@ def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
 
 
 def describe(error: Exception) -> str:
-    """An exception of a user's plugin in a few words."""
+    """Type and text of an exception."""
     return f"{type(error).__name__}: {error}"
 
 
 def _culprit(path: Path, error: Exception) -> Source:
-    """The deepest line of the user's own file that the error came through."""
+    """Deepest line of the user's own file in the traceback."""
     if isinstance(error, SyntaxError):
         return Source(str(path), error.lineno)
     line: int | None = None

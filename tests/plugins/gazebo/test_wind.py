@@ -92,7 +92,7 @@ def test_without_a_factor_nothing_is_pushed_and_that_is_said(tmp_path: Path) -> 
 
     assert speed(sim, "light") == (0.0, 0.0, 0.0)
     (warning,) = sim.report.warnings
-    assert warning.endswith("needs a <force_approximation_scaling_factor> above 0; the wind pushes nothing")
+    assert warning.endswith("needs a <force_approximation_scaling_factor> above 0; there is no wind force")
 
 
 def test_wind_that_no_plugin_blows_and_plugins_in_the_wrong_place_are_named(tmp_path: Path) -> None:

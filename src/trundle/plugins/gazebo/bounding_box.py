@@ -1,4 +1,4 @@
-"""How large a link is, from the shapes it touches with: what Gazebo's native drive plugins measure wheels by."""
+"""Bounding box of a link's collisions, by which Gazebo's native drive plugins measure wheels."""
 
 import itertools
 
@@ -19,7 +19,7 @@ from trundle.spatial import Vector3
 
 
 def bounding_box(link: Link) -> Vector3:
-    """Lengths of the box around all collisions along the link's axes [m]; zero without any."""
+    """Side lengths of the box around all collisions, along the link's axes [m]; zero without any."""
     corners = [corner for collision in link.collisions for corner in _corners(collision)]
     if not corners:
         return (0.0, 0.0, 0.0)
@@ -34,7 +34,7 @@ def _corners(collision: Collision) -> list[Vector3]:
 
 
 def _extent(geometry: Geometry) -> tuple[Vector3, Vector3]:
-    """Least and greatest coordinates [m] of a shape in its own frame."""
+    """Lower and upper corner of a shape's bounding box, in its own frame [m]."""
     match geometry:
         case Box(size):
             half = (size[0] / 2, size[1] / 2, size[2] / 2)
@@ -57,7 +57,7 @@ def _mesh_extent(geometry: MeshFile) -> tuple[Vector3, Vector3]:
     assert geometry.path is not None
     try:
         mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
-    except MeshError:  # said when physics read it
+    except MeshError:  # physics has reported it
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     vertices = mesh.scaled(geometry.scale).vertices
     low, high = vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()

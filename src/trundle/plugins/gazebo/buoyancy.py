@@ -1,4 +1,4 @@
-"""libBuoyancyPlugin.so: everything is under water."""
+"""libBuoyancyPlugin.so: buoyancy of a submerged model."""
 
 import math
 from dataclasses import dataclass
@@ -13,23 +13,23 @@ from ..plugin import Plugin
 from .bounding_box import bounding_box
 
 _WATER = 999.1026
-"""[kg/m³] Gazebo's default fluid."""
+"""Gazebo's default density [kg/m³]."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Volume:
     link: LinkHandle
     volume: float
-    """[m³]"""
+    """Volume [m³]."""
     centre: Vector3
-    """In the link's frame [m]."""
+    """Centre of volume in the link's frame [m]."""
 
 
 class Buoyancy(Plugin):
-    """Lifts every link by the weight of the fluid it displaces: −ρ·V·g at the centre of its volume.
+    """Applies −ρ·V·g to every link at its centre of volume.
 
     Parameters: <fluid_density> [kg/m³] (999.1026) and for any <link name="…"> its <center_of_volume> [m] and <volume>
-    [m³]; the others' come from their collisions. There is no surface and no drag, as in Gazebo.
+    [m³]; other links' come from their collisions. There is no water surface and no drag, as in Gazebo.
     """
 
     def __init__(self, volumes: list[_Volume], density: float) -> None:
@@ -56,7 +56,7 @@ class Buoyancy(Plugin):
         return cls([each for each in volumes if each.volume > 0.0], density)
 
     def before_step(self, sim: Simulation) -> None:
-        """Lift."""
+        """Apply the buoyancy."""
         gx, gy, gz = sim.world.physics.gravity
         for each in self._volumes:
             mass = self._density * each.volume
@@ -65,7 +65,7 @@ class Buoyancy(Plugin):
 
 
 def _of_collisions(link: Link) -> tuple[float, Vector3]:
-    """Volume [m³] of all collisions, overlaps counted twice as Gazebo does, and its centre in the link's frame."""
+    """Volume of all collisions [m³], overlaps counted twice as in Gazebo, and its centre in the link's frame [m]."""
     parts = [(_volume(collision), collision.link_from_collision.position) for collision in link.collisions]
     total = sum(volume for volume, _ in parts)
     if total <= 0.0:
@@ -89,6 +89,6 @@ def _volume(collision: Collision) -> float:
             return 4 / 3 * math.pi * radius**3
         case Ellipsoid((a, b, c)):
             return 4 / 3 * math.pi * a * b * c
-        case _:  # of a mesh Gazebo takes the bounding box
+        case _:  # Gazebo uses a mesh's bounding box
             x, y, z = bounding_box(Link(name="", at=collision.at, collisions=(collision,)))
             return x * y * z

@@ -1,4 +1,4 @@
-"""libDiffDrivePlugin.so: two driven wheels, as Gazebo's own plugin drives them."""
+"""libDiffDrivePlugin.so: differential drive of two wheels."""
 
 from typing import Self
 
@@ -13,10 +13,10 @@ from .velocity_command import VelocityCommand
 
 
 class DiffDrive(Plugin):
-    """`/<model>/vel_cmd` in; wheel speeds out.
+    """Wheel speeds from `/<model>/vel_cmd`.
 
-    Parameters: <left_joint>, <right_joint> (required), <torque> [N·m] (5). The wheels' distance is that of their
-    joints' anchors, their radius half the largest side of the left wheel's bounding box. The left wheel gets
+    Parameters: <left_joint>, <right_joint> (required), <torque> [N·m] (5). The wheel separation is that of the
+    joints' anchors, the radius half the largest side of the left wheel's bounding box. The left wheel gets
     v + ω·separation/2 and the right one v − ω·separation/2: the opposite of ROS' sense, as in Gazebo.
     """
 
@@ -26,7 +26,7 @@ class DiffDrive(Plugin):
         self._right = model.joint(parameters.string("right_joint"))
         self._torque = parameters.number("torque", default=5.0, report=sim.report)
         parameters.report_unread(sim.report)
-        self._separation = _apart(
+        self._separation = _distance(
             model_from_joint(model.model, self._left.joint), model_from_joint(model.model, self._right.joint)
         )
         self._radius = max(bounding_box(model.link(self._left.joint.child).link)) / 2 or 1.0
@@ -38,16 +38,16 @@ class DiffDrive(Plugin):
         return cls(model, node, tag, sim)
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep both wheels at their speeds."""
+        """Set both wheels' speeds."""
         del sim
         half = self._command.yaw_rate * self._separation / 2
         self._left.command_velocity((self._command.speed + half) / self._radius, max_effort=self._torque)
         self._right.command_velocity((self._command.speed - half) / self._radius, max_effort=self._torque)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._command.stop()
 
 
-def _apart(one: Pose, other: Pose) -> float:
+def _distance(one: Pose, other: Pose) -> float:
     return sum((a - b) ** 2 for a, b in zip(one.position, other.position, strict=True)) ** 0.5

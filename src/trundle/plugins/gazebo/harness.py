@@ -1,4 +1,4 @@
-"""libHarnessPlugin.so: a robot hung from a winch until it is let go."""
+"""libHarnessPlugin.so: a model that hangs from a winch until it is detached."""
 
 from typing import Self
 
@@ -18,16 +18,16 @@ from ..plugin import Plugin
 
 _PID = (("p", "p"), ("i", "i"), ("d", "d"), ("i_min", "i_min"), ("i_max", "i_max"), ("low", "cmd_min"))
 _STILL = 1e-6
-"""[m/s] What is slower is holding on."""
+"""Winch velocity [m/s] below which the position is held."""
 
 
 class Harness(Plugin):
-    """Joins links of the model with the world, winds, and lets go.
+    """Joins links of the model to the world, drives the winch and detaches.
 
     Parameters: any number of <joint>, as in a model; <winch> with <joint>, <pos_pid> and <vel_pid> (p, i, d, i_max,
     i_min, cmd_max, cmd_min, all 0); <detach>: the joint that opens. `/<model>/harness/velocity` (std_msgs/Float32) is
-    how fast the winch winds [m/s], 0 holds; `/<model>/harness/detach` (std_msgs/Bool) lets go, once. The speed loop
-    only ever pulls up, as in Gazebo.
+    the winch's velocity [m/s], 0 holds; `/<model>/harness/detach` (std_msgs/Bool) detaches, once. The velocity loop
+    only pulls up, as in Gazebo.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
@@ -58,7 +58,7 @@ class Harness(Plugin):
         return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Wind, or hold."""
+        """Drive the winch, or hold its position."""
         if self._winch is None:
             return
         dt = sim.step_ns / 1e9
@@ -68,20 +68,20 @@ class Harness(Plugin):
         self._winch.command_effort(pull + self._position.command(error, dt))
 
     def reset(self) -> None:
-        """Hold where the winch begins; what was let go stays so."""
+        """Hold the winch at zero; what was detached stays detached."""
         self._target = self._target_speed = 0.0
         self._position.reset()
         self._speed.reset()
 
     def set_winch_velocity(self, speed: float) -> None:
-        """Wind at a speed [m/s]; 0 holds."""
+        """Set the winch's velocity [m/s]; 0 holds."""
         self._target_speed = speed
         if abs(speed) < _STILL and self._winch is not None:
             self._target = self._winch.position
             self._position.reset()
 
     def detach(self) -> None:
-        """Open the joint; afterwards nothing winds any more."""
+        """Remove the joint; the winch stops for good."""
         if self._opens is not None:
             self._sim.detach(self._opens.name)
             self._opens = self._winch = None
@@ -96,7 +96,7 @@ class Harness(Plugin):
     def _named(
         self, node: XmlNode | None, tag: str, model: ModelHandle, plugin: PluginTag, report: Diagnostics
     ) -> JointHandle:
-        """The joint that a tag names; without one, the first, which is said."""
+        """Joint that a tag names; if there is none, warn and return the first."""
         name = "" if node is None else node.string(tag)
         for joint in self._joints:
             if joint.name == f"{model.name}::{name}":
@@ -107,7 +107,7 @@ class Harness(Plugin):
 
 
 def _in_world(joint: Joint, model: ModelHandle) -> Joint:
-    """A joint of a model as one between models."""
+    """Joint of a model, with names and axes in the world."""
 
     def named(link: str) -> str:
         return link if link == "world" else f"{model.name}::{link}"
@@ -126,7 +126,7 @@ def _in_world(joint: Joint, model: ModelHandle) -> Joint:
 
 
 def _read_pid(node: XmlNode | None, report: Diagnostics) -> Pid:
-    """Gains and limits; what is not given is 0, the command's limits as well."""
+    """Gains and limits; all default to 0, the command's limits as well."""
     pid = Pid(high=0.0)
     if node is not None:
         for name, tag in (*_PID, ("high", "cmd_max")):

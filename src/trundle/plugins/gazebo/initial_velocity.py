@@ -1,4 +1,4 @@
-"""libInitialVelocityPlugin.so: a model that starts in motion."""
+"""libInitialVelocityPlugin.so: initial velocity of a model."""
 
 from typing import Self
 
@@ -11,7 +11,7 @@ from ..plugin import Plugin
 
 
 class InitialVelocity(Plugin):
-    """Gives each free link's origin <linear> [m/s], and it <angular> [rad/s], world axes, before the first step."""
+    """Sets <linear> [m/s] and <angular> [rad/s], in world axes, of each free link before the first step."""
 
     period_ns = 1 << 62  # once, at the start
 
@@ -31,12 +31,12 @@ class InitialVelocity(Plugin):
         return cls(model, Twist(linear, angular))
 
     def before_step(self, sim: Simulation) -> None:
-        """Set it going, once."""
+        """Set the velocity, once."""
         del sim
         if self._is_due:
             self._is_due = False
             self._model.set_link_twists(self._twist)
 
     def reset(self) -> None:
-        """Start again."""
+        """Set the velocity again at the next step."""
         self._is_due = True

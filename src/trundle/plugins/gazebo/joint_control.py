@@ -1,4 +1,4 @@
-"""libJointControlPlugin.so: joints that are told once, in the file, what to do."""
+"""libJointControlPlugin.so: constant targets of joints."""
 
 import re
 from typing import Self
@@ -15,11 +15,11 @@ _TYPES = ("force", "position", "velocity")
 
 
 class JointControl(Plugin):
-    """Gives joints efforts, positions or speeds.
+    """Commands efforts, or PID loops of position or velocity.
 
     Parameters, of any number of <controller type="force|position|velocity">: <joint> (a name or regular expression,
-    any number), <target> [N·m or N, rad or m, rad/s or m/s], <pid_gains> p i d (1 0.1 0.01; the integral gives at
-    most 1). What several controllers give one joint adds up.
+    any number), <target> [N·m or N, rad or m, rad/s or m/s], <pid_gains> p i d (1 0.1 0.01; the integral term is at
+    most 1). Efforts of several controllers on one joint add up.
     """
 
     def __init__(self, model: ModelHandle, tag: PluginTag, sim: Simulation) -> None:
@@ -36,19 +36,19 @@ class JointControl(Plugin):
         return cls(model, tag, sim)
 
     def before_step(self, sim: Simulation) -> None:
-        """Push."""
+        """Apply the efforts."""
         for joint in self._joints.values():
             joint.update(sim)
 
     def reset(self) -> None:
-        """Forget what was integrated; the targets are the file's, and stay."""
+        """Reset the integrals; the targets stay."""
         for joint in self._joints.values():
             joint.reset()
 
     def _read(self, controller: XmlNode, sim: Simulation) -> None:
         report, kind = sim.report, controller.attribute("type")
         if kind not in _TYPES:
-            report.warn(controller.at, f"no controller type {kind!r}; types: {', '.join(_TYPES)}; it is left out")
+            report.warn(controller.at, f"no controller type {kind!r}; types: {', '.join(_TYPES)}; it is ignored")
             controller.mark_all_read()
             return
         target = None
@@ -56,7 +56,7 @@ class JointControl(Plugin):
             target = controller.number("target", default=0.0, report=report)
         gains = controller.vector("pid_gains", default=(1.0, 0.1, 0.01), report=report)
         if kind == "force" and controller.find("pid_gains") is not None:
-            report.warn(controller.at, "a force controller has no use for <pid_gains>; they are left out")
+            report.warn(controller.at, "a force controller does not use <pid_gains>; they are left out")
         for name in controller.all("joint"):
             for joint in self._matching(name, sim):
                 pid = gazebo_pid()
@@ -74,10 +74,10 @@ class JointControl(Plugin):
         try:
             pattern = re.compile(name.text)
         except (re.error, RecursionError, OverflowError) as error:
-            sim.report.warn(name.at, f"{name.text!r} is no regular expression ({error}); it is left out")
+            sim.report.warn(name.at, f"{name.text!r} is not a regular expression ({error}); it is left out")
             return []
         found = [joint for joint in self._model.joints if joint.axes and pattern.fullmatch(joint.name)]
         if not found:
             there = ", ".join(repr(joint.name) for joint in self._model.joints) or "none"
-            sim.report.warn(name.at, f"no joint that moves matches {name.text!r}; joints here: {there}")
+            sim.report.warn(name.at, f"no movable joint matches {name.text!r}; joints here: {there}")
         return [self._joints.setdefault(joint.name, ControlledJoint(joint)) for joint in found]

@@ -1,4 +1,4 @@
-"""What stands between commands for joints and the joints in Gazebo: efforts that last, and PID loops."""
+"""Gazebo's joint controller: lasting efforts and PID loops of one joint."""
 
 from dataclasses import dataclass, field
 
@@ -7,7 +7,7 @@ from trundle.simulation import JointHandle, Simulation
 
 
 def gazebo_pid() -> Pid:
-    """The gains that every joint has in Gazebo until somebody sets others."""
+    """Default gains of a joint in Gazebo."""
     return Pid(p=1.0, i=0.1, d=0.01, i_min=-1.0, i_max=1.0)
 
 
@@ -18,7 +18,7 @@ class _Loop:
 
 
 class ControlledJoint:
-    """The first axis of one joint; effort, position and velocity may be commanded together, and add up."""
+    """First axis of one joint; commanded effort, position and velocity loops add up."""
 
     def __init__(self, joint: JointHandle) -> None:
         self.joint = joint
@@ -28,23 +28,23 @@ class ControlledJoint:
         self._is_idle = True
 
     def command_effort(self, effort: float) -> None:
-        """Push with it [N·m or N] from now on."""
+        """Set the lasting effort [N·m or N]."""
         self._effort = effort
 
     def apply_effort(self, effort: float) -> None:
-        """Push with it [N·m or N] for one step."""
+        """Add an effort [N·m or N] for one step."""
         self._once += effort
 
     def command_position(self, target: float | None, pid: Pid | None = None) -> None:
-        """Go to a position [rad or m], by other gains where they are given."""
+        """Set the target position [rad or m]; None keeps the target, or the gains."""
         self._position = _Loop(pid or self._position.pid, self._position.target if target is None else target)
 
     def command_velocity(self, target: float | None, pid: Pid | None = None) -> None:
-        """Keep a speed [rad/s or m/s], by other gains where they are given."""
+        """Set the target velocity [rad/s or m/s]; None keeps the target, or the gains."""
         self._velocity = _Loop(pid or self._velocity.pid, self._velocity.target if target is None else target)
 
     def update(self, sim: Simulation) -> None:
-        """Push for the coming step."""
+        """Apply the effort of the coming step."""
         dt = sim.step_ns / 1e9
         effort, self._once = self._once, 0.0
         wanted = effort != 0.0
@@ -58,12 +58,12 @@ class ControlledJoint:
         self._is_idle = not wanted
 
     def clear(self) -> None:
-        """Forget every command."""
+        """Clear all commands."""
         self._effort = self._position.target = self._velocity.target = None
         self.reset()
 
     def reset(self) -> None:
-        """Forget every error; commands stay."""
+        """Reset the PID loops; commands stay."""
         self._once = 0.0
         self._position.pid.reset()
         self._velocity.pid.reset()

@@ -1,4 +1,4 @@
-"""libJointTrajectoryPlugin.so: the arm of Gazebo's simple_arm_gripper swings."""
+"""libJointTrajectoryPlugin.so: swings the arm of Gazebo's simple_arm_gripper."""
 
 import math
 from typing import Self
@@ -15,13 +15,13 @@ _SWINGS = {
     "arm_wrist_lift_joint": (-0.35, 0.45, 0.5),
     "arm_wrist_roll_joint": (0.0, -2.9, 3.0),
 }
-"""Joint → middle [rad or m], amplitude, rate [rad/s] of a cosine."""
+"""Joint → mean [rad or m], amplitude [rad or m] and angular frequency [rad/s] of its cosine."""
 
 
 class JointTrajectory(Plugin):
-    """Puts four joints, by their names, where cosines of the simulation's time say; it has no parameters.
+    """Sets four joints, by name, to cosines of simulation time; no parameters.
 
-    Gazebo moves simple_arm_gripper alone so; here any model that has such joints.
+    Gazebo moves only simple_arm_gripper; here any model that has such joints.
     """
 
     def __init__(self, joints: list[tuple[JointHandle, float, float, float]]) -> None:
@@ -34,13 +34,13 @@ class JointTrajectory(Plugin):
         found = [(joint, *_SWINGS[name]) for joint in model.joints if (name := joint.name.split("::")[-1]) in _SWINGS]
         found = [each for each in found if each[0].is_driven]
         if not found:
-            what = f"plugin {tag.name!r} moves the joints {', '.join(_SWINGS)} alone; the model has none of them"
+            what = f"plugin {tag.name!r} moves the joints {', '.join(_SWINGS)} only; the model has none of them"
             sim.report.warn(tag.at, what)
         tag.node.report_unread(sim.report)
         return cls(found)
 
     def before_step(self, sim: Simulation) -> None:
-        """Put them there."""
+        """Set the positions."""
         time_s = sim.time_ns / 1e9
         for joint, middle, amplitude, rate in self._joints:
             joint.set_position(middle + amplitude * math.cos(rate * time_s))

@@ -1,6 +1,6 @@
-"""Keys that drive: where Gazebo's window sent `~/keyboard/keypress`, the ROS graph has a topic of the same name.
+"""Keyboard topic `/keyboard/keypress`, in place of `~/keyboard/keypress` of Gazebo's window.
 
-A key is a std_msgs/Int32: the character's number, or Qt's for others (16777234 left, …35 up, …36 right, …37 down).
+A key is a std_msgs/Int32: its character code, or Qt's key code (16777234 left, …35 up, …36 right, …37 down).
 """
 
 from collections.abc import Callable
@@ -13,9 +13,9 @@ KEYS_TOPIC = "/keyboard/keypress"
 
 
 def subscribe_keys(node: Node | None, tag: PluginTag, press: Callable[[int], None], report: Diagnostics) -> None:
-    """Have a function called with each key; where none can come, that is said."""
+    """Call a function with each key; warn if there is no node."""
     if node is None:
-        report.warn(tag.at, f"plugin {tag.name!r} waits for keys, and without ROS there is no topic to bring them")
+        report.warn(tag.at, f"plugin {tag.name!r} takes keys from a ROS topic, which --no-ros leaves out")
         return
 
     def on_message(message: Message) -> None:

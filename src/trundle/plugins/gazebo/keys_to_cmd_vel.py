@@ -1,4 +1,4 @@
-"""libKeysToCmdVelPlugin.so: a robot driven from the keyboard."""
+"""libKeysToCmdVelPlugin.so: velocity commands from keys."""
 
 import math
 from typing import Self
@@ -18,15 +18,15 @@ _KEYS = {
     "left": (37, 16777234),
     "right": (39, 16777236),
 }
-"""Return and space, and the arrows as browsers and as Qt number them."""
+"""Key codes: return and space; the arrows of browsers and of Qt."""
 
 
 class KeysToCmdVel(Plugin):
-    """Turns keys into speeds on <cmd_vel_topic> (~/cmd_vel, of which ~ is / here), as geometry_msgs/Pose.
+    """Turns keys into geometry_msgs/Pose on <cmd_vel_topic> (~/cmd_vel, with / for ~ here): x is speed, yaw the rate.
 
-    Further parameters: <max_linear_vel> 1, <min_linear_vel> −max [m/s], <linear_increment> 0.5 [m/s] a press,
+    Further parameters: <max_linear_vel> 1, <min_linear_vel> −max [m/s], <linear_increment> 0.5 [m/s] per press,
     <max_angular_vel> 1, <angular_increment> 0.5 [rad/s], <key_controls> with any number of <stop>, <accelerate>,
-    <decelerate>, <left> and <right>: the keys' numbers. As in Gazebo left is the negative yaw.
+    <decelerate>, <left> and <right>: key codes. As in Gazebo, left is negative yaw.
     """
 
     def __init__(self, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
@@ -49,7 +49,7 @@ class KeysToCmdVel(Plugin):
                 keys = [int(child.as_number(default=0.0, report=report)) for child in controls.all(what)]
                 self._keys.update(dict.fromkeys(keys, what))
                 if not keys:
-                    report.warn(controls.at, f"<key_controls> has no <{what}>; no key does that")
+                    report.warn(controls.at, f"<key_controls> has no <{what}>; no key is bound to it")
         parameters.report_unread(report)
         self.speed = self.turning = 0.0
         self._topic = None
@@ -66,7 +66,7 @@ class KeysToCmdVel(Plugin):
         return plugin
 
     def on_key(self, key: int) -> None:
-        """Obey a key."""
+        """Handle a key."""
         match self._keys.get(key):
             case "stop":
                 self.speed = self.turning = 0.0
@@ -86,7 +86,7 @@ class KeysToCmdVel(Plugin):
             self._topic.publish({"position": {"x": self.speed}, "orientation": turn})
 
     def reset(self) -> None:
-        """Begin from standing."""
+        """Set both speeds to zero."""
         self.speed = self.turning = 0.0
 
     def _clamped(self, speed: float) -> float:

@@ -1,4 +1,4 @@
-"""libKeysToJointsPlugin.so: a key for each thing a joint may do."""
+"""libKeysToJointsPlugin.so: joint commands from keys."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -25,11 +25,11 @@ class _Key:
 
 
 class KeysToJoints(Plugin):
-    """Moves joints by keys; see `trundle.plugins.gazebo.key_topic` for where they come from.
+    """Commands joints by keys, from the topic of `trundle.plugins.gazebo.key_topic`.
 
     Parameters, of any number of <map key="…" scale="…" type="…" kp="0" ki="0" kd="0">: <joint>. Type position: each
-    press moves the target by scale [rad or m] from where the joint is; velocity: scale is the target [rad/s or m/s];
-    force: one step of effort [N·m or N]. The integral gives nothing, as in Gazebo, which leaves its limits at zero.
+    press sets the target to the joint's position plus scale [rad or m]; velocity: scale is the target [rad/s or m/s];
+    force: one step of effort [N·m or N]. The integral term is zero, as in Gazebo, which leaves its limits at zero.
     """
 
     def __init__(self, model: ModelHandle, tag: PluginTag, sim: Simulation) -> None:
@@ -47,7 +47,7 @@ class KeysToJoints(Plugin):
         return plugin
 
     def on_key(self, key: int) -> None:
-        """Obey a key."""
+        """Handle a key."""
         for each in self._keys.get(key, ()):
             match each.kind:
                 case "position":
@@ -58,12 +58,12 @@ class KeysToJoints(Plugin):
                     each.joint.apply_effort(each.scale)
 
     def before_step(self, sim: Simulation) -> None:
-        """Push."""
+        """Apply the efforts."""
         for joint in self._joints.values():
             joint.update(sim)
 
     def reset(self) -> None:
-        """Forget what was pressed."""
+        """Clear the commands."""
         for joint in self._joints.values():
             joint.clear()
 
@@ -76,11 +76,11 @@ class KeysToJoints(Plugin):
             numbers = {name: float(values[name] or 0.0) for name in values if name != "type"}
             joint = model.joint(node.string("joint"))
         except (ValueError, UsageError) as error:
-            report.warn(node.at, f"<map>: {error}; it is left out")
+            report.warn(node.at, f"<map>: {error}; it is ignored")
             return
         if missing or kind not in ("position", "velocity", "force") or not joint.axes:
             what = f"needs {', '.join(missing)}" if missing else f"type {kind!r} of a joint with {len(joint.axes)} axes"
-            report.warn(node.at, f"<map>: {what}; it is left out")
+            report.warn(node.at, f"<map>: {what}; it is ignored")
             return
         controlled = self._joints.setdefault(joint.name, ControlledJoint(joint))
         pid = Pid(p=numbers["kp"], i=numbers["ki"], d=numbers["kd"])

@@ -1,4 +1,4 @@
-"""libLiftDragPlugin.so: what air does to a wing, rotor blade or sail."""
+"""libLiftDragPlugin.so: lift and drag of a wing, rotor blade or sail."""
 
 import math
 from typing import Self
@@ -11,19 +11,19 @@ from trundle.spatial import Vector3, Wrench, add, cross, dot, multiply, normaliz
 from ..plugin import Plugin
 
 _SLOWEST = 0.01
-"""[m/s] Below it Gazebo's plugin does nothing."""
+"""Airspeed [m/s] below which Gazebo's plugin applies nothing."""
 
 
 class LiftDrag(Plugin):
-    """Pushes <link_name> at <cp> by its speed through still air.
+    """Applies lift and drag in still air to <link_name> at <cp>.
 
     Parameters, with Gazebo's defaults: <a0> 0, <cla> 1, <cda> 0.01, <alpha_stall> π/2, <cla_stall> 0, <cda_stall> 1,
     <cp> 0 0 0 and <forward> 1 0 0, <upward> 0 0 1 in the link's frame, <area> 1 m², <air_density> 1.2041 kg/m³. Its
-    pitching moment (<cma>, <cma_stall>) is always zero there, and so here. Up to the stall the lift coefficient is
-    cla · α and the drag coefficient |cda · α|; beyond it they go on with the stall's slopes. Both lose what the air
-    blows along the span: the square of the sweep's cosine is left. A wing that flies backwards is one that flies
-    forwards: α is within a quarter turn. The position of <control_joint_name> adds <control_joint_rad_to_cl> (4) times
-    itself to the lift coefficient. With <radial_symmetry> a rod has its upward side against whatever blows across it.
+    pitching moment (<cma>, <cma_stall>) is always zero in Gazebo, and so here. Below stall the lift coefficient is
+    cla · α and the drag coefficient |cda · α|; above it they continue with the stall's slopes. Both are multiplied by
+    the squared cosine of the sweep angle. α is wrapped to ±π/2, so that a wing that flies backwards acts as one that
+    flies forwards. <control_joint_rad_to_cl> (4) times the position of <control_joint_name> is added to the lift
+    coefficient. With <radial_symmetry> the upward direction opposes the flow across <forward>.
     """
 
     def __init__(self, link: LinkHandle, flap: JointHandle | None, tag: PluginTag, sim: Simulation) -> None:
@@ -58,7 +58,7 @@ class LiftDrag(Plugin):
         return cls(model.link(tag.node.string("link_name")), model.joint(flap) if flap else None, tag, sim)
 
     def before_step(self, sim: Simulation) -> None:
-        """Push by the speed of now."""
+        """Apply the forces at the current velocity."""
         del sim
         pose, twist = self._link.pose, self._link.twist
         at = pose.transform_point(self._centre)
@@ -70,7 +70,7 @@ class LiftDrag(Plugin):
         span = normalized(cross(forward, upward))
         if span is None or _length(velocity) <= _SLOWEST:
             return
-        # Only what blows across the span lifts and drags.
+        # Only the flow across the span lifts and drags.
         across = add(velocity, multiply(span, -dot(velocity, span)))
         speed, drag_direction = _length(across), normalized(multiply(across, -1.0))
         if drag_direction is None or speed <= _SLOWEST:
@@ -79,9 +79,9 @@ class LiftDrag(Plugin):
         alpha = self._alpha0 + math.atan2(-dot(across, upward), dot(across, forward))
         alpha = math.remainder(alpha, math.pi)
         unswept = (speed / _length(velocity)) ** 2
-        flapped = 0.0 if self._flap is None else self._flap_lift * self._flap.position
+        flap_lift = 0.0 if self._flap is None else self._flap_lift * self._flap.position
         pressure = 0.5 * self._density * speed * speed * self._area
-        lifting = self._lift_coefficient(alpha) * unswept + flapped
+        lifting = self._lift_coefficient(alpha) * unswept + flap_lift
         lift = multiply(normalized(lift_direction) or upward, lifting * pressure)
         drag = multiply(drag_direction, self._drag_coefficient(alpha) * unswept * pressure)
         self._link.add_wrench(Wrench(force=add(lift, drag)), at=at)

@@ -1,4 +1,4 @@
-"""libLinkPlot3DPlugin.so: the way that links have gone, as lines."""
+"""libLinkPlot3DPlugin.so: paths of links, as lines."""
 
 import math
 from dataclasses import dataclass
@@ -14,9 +14,9 @@ from trundle.spatial import Pose, Vector3
 from ..plugin import Plugin
 
 _APART = 0.05
-"""[m] Between two points."""
+"""Least distance between two points [m]."""
 _MOST, _FEWER = 1000, 5
-"""Points of a line, and how many are dropped beyond them."""
+"""Largest number of points of a line, and number of the oldest that are dropped beyond it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,10 +27,10 @@ class _Plot:
 
 
 class LinkPlot3D(Plugin):
-    """Draws where links have been: on the page, in `Simulation.lines`, and as visualization_msgs/Marker on /marker.
+    """Draws the paths of links: on the page, by `Simulation.lines`, and as visualization_msgs/Marker on /marker.
 
-    Parameters: <frequency> [Hz] (30) and of any number of <plot>: <link>, <pose> in the link's frame, <material>
-    (Gazebo/Black). A point is kept every 5 cm, the newest thousand of them.
+    Parameters: <frequency> [Hz] (30) and any number of <plot>: <link>, <pose> in the link's frame, <material>
+    (Gazebo/Black). A point is kept every 5 cm, the newest 1000 of them.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
@@ -48,7 +48,7 @@ class LinkPlot3D(Plugin):
             try:
                 link = model.link(plot.string("link"))
             except UsageError as error:
-                report.warn(plot.at, f"<plot>: {error}; it is left out")
+                report.warn(plot.at, f"<plot>: {error}; it is ignored")
                 continue
             line = DebugLine((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
             sim.lines[f"{model.name}::plot_{link.name}_{len(self._plots)}"] = line
@@ -62,7 +62,7 @@ class LinkPlot3D(Plugin):
         return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Note where the links are."""
+        """Append the links' positions."""
         for number, plot in enumerate(self._plots):
             here = (plot.link.pose @ plot.link_from_pen).position
             points = plot.line.points
@@ -74,7 +74,7 @@ class LinkPlot3D(Plugin):
             self._publish(number, plot, sim.time_ns)
 
     def reset(self) -> None:
-        """Begin anew."""
+        """Clear the lines."""
         for plot in self._plots:
             plot.line.points.clear()
 

@@ -1,4 +1,4 @@
-"""libRandomVelocityPlugin.so: a link that changes its mind."""
+"""libRandomVelocityPlugin.so: random velocities of a link."""
 
 import math
 from typing import Self
@@ -14,10 +14,10 @@ from ..plugin import Plugin
 
 
 class RandomVelocity(Plugin):
-    """Keeps a velocity on <link> and draws another, in any direction, every <update_period> [s] (10).
+    """Sets a velocity of <link> and draws another, in any direction, every <update_period> [s] (10).
 
-    Further parameters: <initial_velocity> [m/s] (0 0 0), <velocity_factor> [m/s] (1), the speed of what is drawn, and
-    <min_x> … <max_z> [m/s], which cut it. The link turns and collides as before.
+    Further parameters: <initial_velocity> [m/s] (0 0 0), <velocity_factor> [m/s] (1), the drawn speed, and
+    <min_x> … <max_z> [m/s], its bounds by axis. Rotation and collisions stay physical.
     """
 
     def __init__(self, link: LinkHandle, tag: PluginTag, sim: Simulation) -> None:
@@ -45,17 +45,17 @@ class RandomVelocity(Plugin):
         del node
         link = model.link(tag.node.string("link"))
         if not sim.engine.writer.is_free(link.index):
-            sim.report.warn(tag.at, f"link {link.name!r} hangs from something; the plugin moves free links alone")
+            sim.report.warn(tag.at, f"link {link.name!r} has a joint to its parent; the plugin moves free links only")
         return cls(link, tag, sim)
 
     def reset(self) -> None:
-        """Begin with the first velocity again, and draw the same ones."""
+        """Restart at the initial velocity, with the same random sequence."""
         self._random = np.random.default_rng([self._seed, *self._link.name.encode()])
         self._velocity: Vector3 = self._start
         self._drawn_ns = 0
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep the velocity."""
+        """Set the velocity."""
         if not sim.engine.writer.is_free(self._link.index):
             return
         if sim.time_ns - self._drawn_ns > self._every_ns:

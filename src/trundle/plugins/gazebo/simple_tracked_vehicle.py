@@ -1,4 +1,4 @@
-"""libSimpleTrackedVehiclePlugin.so: tracks as surfaces that run."""
+"""libSimpleTrackedVehiclePlugin.so: tracks as moving surfaces, without wheels."""
 
 from typing import Self
 
@@ -12,15 +12,15 @@ from ..plugin import Plugin
 from .tracked_vehicle import Tracks
 
 _SLOWEST = 0.1
-"""[m/s, rad/s] Gazebo takes what is slower for straight on, or for a turn on the spot."""
+"""Speed [m/s] and rate [rad/s] below which Gazebo assumes a turn on the spot, or straight motion."""
 
 
 class SimpleTrackedVehicle(Plugin):
-    """Drives a robot whose tracks are links of any convex shape, without wheels.
+    """Drives a robot whose tracks are links of any convex shape.
 
     Parameters: <body>, <left_track>, <right_track> (required), any number of <left_flipper> and <right_flipper>: links;
-    and those of `Tracks`. At each contact the surface runs along the body's x, and holds best (mu) across the way to
-    the point the robot turns about, and worse (mu2) along it, as in Gazebo.
+    and those of `Tracks`. At each contact the surface moves along the body's x; mu acts across the direction to the
+    robot's centre of rotation, mu2 along it, as in Gazebo.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
@@ -43,7 +43,7 @@ class SimpleTrackedVehicle(Plugin):
         return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Have the tracks run as fast as they are told to."""
+        """Set the tracks' surface speeds."""
         del sim
         speeds, left = self._tracks.speeds, self._body.pose.transform_vector((0.0, 1.0, 0.0))
         centre = self._centre(speeds, left)
@@ -52,11 +52,11 @@ class SimpleTrackedVehicle(Plugin):
                 link.set_surface_motion(TrackMotion(axis=left, speed=speed, centre=centre))
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._tracks.command.stop()
 
     def _centre(self, speeds: tuple[float, float], left: Vector3) -> Vector3 | None:
-        """The point that the robot turns about; None: it goes straight on."""
+        """Centre of rotation in the world [m]; None: straight motion."""
         one, other = speeds
         turning = (one - other) * self._tracks.efficiency / self._tracks.separation
         forwards = (one + other) / 2

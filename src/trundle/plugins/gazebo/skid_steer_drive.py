@@ -1,4 +1,4 @@
-"""libSkidSteerDrivePlugin.so: four driven wheels."""
+"""libSkidSteerDrivePlugin.so: skid-steer drive of four wheels."""
 
 from typing import Self
 
@@ -12,11 +12,11 @@ from .velocity_command import VelocityCommand
 
 
 class SkidSteerDrive(Plugin):
-    """`/<model>/vel_cmd` in; wheel speeds out.
+    """Wheel speeds from `/<model>/vel_cmd`.
 
-    <right_front>, <right_rear>, <left_front> and <left_rear> name the joints, which else are called so. As in Gazebo,
+    <right_front>, <right_rear>, <left_front> and <left_rear> name the joints (default: their own names). As in Gazebo,
     the right wheels turn with v/r + ω·separation/r and the left ones with v/r − ω·separation/r, twice what a slip-free
-    turn needs. <max_force> [N·m] is 5 where it is not given.
+    turn needs. <max_force> [N·m] is 5 by default.
     """
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
@@ -37,7 +37,7 @@ class SkidSteerDrive(Plugin):
         return cls(model, node, tag, sim)
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep all wheels at their speeds."""
+        """Set all wheels' speeds."""
         del sim
         for wheels, sign in ((self._right, 1.0), (self._left, -1.0)):
             speed = (self._command.speed + sign * self._command.yaw_rate * self._separation) / self._radius
@@ -45,5 +45,5 @@ class SkidSteerDrive(Plugin):
                 wheel.command_velocity(speed, max_effort=self._torque)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._command.stop()

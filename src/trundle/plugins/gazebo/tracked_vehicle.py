@@ -1,4 +1,4 @@
-"""What vehicles on tracks have in common: a command, two track speeds, and the friction of the tracks."""
+"""Command, track speeds and friction, which all tracked vehicles share."""
 
 from collections.abc import Iterable
 
@@ -15,10 +15,10 @@ from .velocity_command import VelocityCommand
 class Tracks:
     """Turns `/<robot_namespace>/cmd_vel` into the speeds of a left and a right track.
 
-    Parameters: <robot_namespace> (the model's name), <steering_efficiency> (0.5: how much of what a turn takes without
-    slip a turn takes), <tracks_separation> [m] (0.4), <max_linear_speed> [m/s] (1), <max_angular_speed> [rad/s] (1),
+    Parameters: <robot_namespace> (the model's name), <steering_efficiency> (0.5: yaw rate over that of tracks
+    without slip), <tracks_separation> [m] (0.4), <max_linear_speed> [m/s] (1), <max_angular_speed> [rad/s] (1),
     <track_mu>, <track_mu2>. As in Gazebo a positive yaw speeds the left track up, which turns to the right. The speeds
-    are told on `/<robot_namespace>/tracks_speed` (geometry_msgs/Vector3, x left, y right).
+    are published on `/<robot_namespace>/tracks_speed` (geometry_msgs/Vector3, x left, y right).
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
@@ -38,29 +38,29 @@ class Tracks:
         namespace = ros_name(parameters.string("robot_namespace") or model.name).strip("/")
         self._mu = _friction(tag, "track_mu", sim), _friction(tag, "track_mu2", sim)
         self.command = VelocityCommand(f"/{namespace}/cmd_vel", node)
-        self._told = (0.0, 0.0)
+        self._published = (0.0, 0.0)
         self._topic = None
         if node is not None:
             self._topic = node.advertise(f"/{namespace}/tracks_speed", "geometry_msgs/Vector3", queue_size=10)
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Of the left and the right track [m/s], positive forwards."""
+        """Speeds of the left and the right track [m/s], positive forwards."""
         speed = _clamped(self.command.speed, self._fastest)
         half = _clamped(self.command.yaw_rate, self._fastest_turn) * self.separation / 2 / self.efficiency
         left, right = _clamped(speed + half, self._fastest), _clamped(speed - half, self._fastest)
-        if self._topic is not None and self._told != (left, right):
-            self._told = (left, right)
+        if self._topic is not None and self._published != (left, right):
+            self._published = (left, right)
             self._topic.publish({"x": left, "y": right})
         return left, right
 
     def set_friction(self, sim: Simulation, links: Iterable[LinkHandle]) -> None:
-        """Give these links' surfaces the friction that the plugin's tag states."""
+        """Set <track_mu> and <track_mu2> of these links' surfaces."""
         mu, mu2 = self._mu
         if mu is None and mu2 is None:
             return
 
-        def greased(link: Link) -> Link:
+        def with_friction(link: Link) -> Link:
             surfaces = [
                 replace(
                     each.surface,
@@ -74,7 +74,7 @@ class Tracks:
 
         wanted = {id(link.link) for link in links}
         models = [
-            replace(model, links=tuple(greased(link) if id(link) in wanted else link for link in model.links))
+            replace(model, links=tuple(with_friction(link) if id(link) in wanted else link for link in model.links))
             for model in sim.world.models
         ]
         sim.edit(replace(sim.world, models=tuple(models)))

@@ -1,4 +1,4 @@
-"""The topic that Gazebo's native drive plugins listen to.
+"""Command topic of Gazebo's native drive plugins.
 
 `~/<model>/vel_cmd` carries a Pose whose x is the speed and whose yaw is the turning rate; on the ROS graph it is
 `/<model>/vel_cmd` with a geometry_msgs/Pose.
@@ -14,23 +14,23 @@ from trundle.spatial import rpy_from_quaternion
 
 
 class VelocityCommand:
-    """The last speeds asked for; they hold until the next."""
+    """Last commanded speeds; they hold until the next."""
 
     def __init__(self, topic: str, node: Node | None) -> None:
         self.speed = 0.0
-        """[m/s]"""
+        """Forward speed [m/s]."""
         self.yaw_rate = 0.0
-        """[rad/s]"""
+        """Yaw rate [rad/s]."""
         if node is not None:
             node.subscribe(topic, "geometry_msgs/Pose", self._on_command)
 
     @classmethod
     def subscribe(cls, model: ModelHandle, node: Node | None) -> Self:
-        """Listen to `/<model>/vel_cmd`."""
+        """Subscribe to `/<model>/vel_cmd`."""
         return cls(f"/{ros_name(model.name)}/vel_cmd", node)
 
     def stop(self) -> None:
-        """Ask for nothing."""
+        """Set both speeds to zero."""
         self.speed = self.yaw_rate = 0.0
 
     def _on_command(self, pose: Message) -> None:

@@ -1,4 +1,4 @@
-"""libWheelSlipPlugin.so: tyres, whose slip grows with the force they pass on."""
+"""libWheelSlipPlugin.so: tyres whose slip grows with their force."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -19,26 +19,26 @@ from ..plugin import Plugin
 class _Wheel:
     link: LinkHandle
     axis: Vector3
-    """It spins about, in the link's frame."""
+    """Axle in the link's frame."""
     radius: float
-    """[m]"""
+    """Radius [m]."""
     normal_force: float
-    """[N]"""
+    """Load of the wheel [N]."""
     lateral: float
     longitudinal: float
-    """Slip ratio over force ratio."""
+    """Slip compliance: slip ratio over force ratio."""
     topic: Publisher | None = None
 
 
 class WheelSlip(Plugin):
-    """Lets wheels slip along and across their way by compliance · speed of the tread / normal force, for each newton.
+    """Lets wheels slip, along and across, by compliance · tread speed / normal force per newton.
 
     Parameters, of any number of <wheel link_name="…">: <slip_compliance_lateral>, <slip_compliance_longitudinal> (0: no
-    slip), <wheel_normal_force> [N] (required, about what the wheel carries) and <wheel_radius> [m], else that of its
+    slip), <wheel_normal_force> [N] (required, about the wheel's load) and <wheel_radius> [m], else that of its
     only collision, a cylinder or sphere. `/<model>/wheel_slip/<link>` has each wheel's slip (geometry_msgs/Vector3: x
-    along, y across, z speed of the tread [m/s]); `…/lateral_compliance` and `…/longitudinal_compliance` (Float64) set
-    all wheels'. The wheel's axle is the first friction direction, whatever its <fdir1>. What slips less than a tenth of
-    what its force changes within a step holds.
+    along, y across, z tread speed [m/s]); `…/lateral_compliance` and `…/longitudinal_compliance` (Float64) set all
+    wheels'. The axle is the first friction direction; <fdir1> is ignored. A contact sticks if its slip is less than a
+    tenth of the velocity change that its force causes within a step.
     """
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
@@ -49,7 +49,7 @@ class WheelSlip(Plugin):
             try:
                 self._wheels.append(_read(wheel, model, sim))
             except UsageError as error:
-                sim.report.warn(wheel.at, f"<wheel>: {error}; it holds on as before")
+                sim.report.warn(wheel.at, f"<wheel>: {error}; it does not slip")
         if node is not None:
             base = f"/{ros_name(model.name)}/wheel_slip"
             for wheel in self._wheels:
@@ -67,7 +67,7 @@ class WheelSlip(Plugin):
         return plugin
 
     def set_compliance(self, *, lateral: float = -1.0, longitudinal: float = -1.0) -> None:
-        """Have all wheels slip so much from now on; below zero: as they do."""
+        """Set all wheels' compliances; a negative one is left as it is."""
         for wheel in self._wheels:
             wheel.lateral = lateral if lateral >= 0.0 else wheel.lateral
             wheel.longitudinal = longitudinal if longitudinal >= 0.0 else wheel.longitudinal
@@ -77,11 +77,11 @@ class WheelSlip(Plugin):
             )
 
     def is_wanted(self) -> bool:
-        """Whether somebody listens: the wheels slip by themselves."""
+        """True if there is a subscriber; the slip itself needs no hook."""
         return any(wheel.topic is not None and wheel.topic.has_subscribers for wheel in self._wheels)
 
     def before_step(self, sim: Simulation) -> None:
-        """Publish how much each wheel slips."""
+        """Publish each wheel's slip."""
         del sim
         for wheel in self._wheels:
             if wheel.topic is None:
@@ -104,7 +104,7 @@ def _read(node: XmlNode, model: ModelHandle, sim: Simulation) -> _Wheel:
     """Read one wheel.
 
     Raises:
-        UsageError: something needed is not there.
+        UsageError: a required value is missing.
     """
     report = sim.report
     link = model.link(node.attribute("link_name") or "")
@@ -115,7 +115,7 @@ def _read(node: XmlNode, model: ModelHandle, sim: Simulation) -> _Wheel:
     node.report_unread(report)
     joints = [joint.joint for joint in model.joints if joint.joint.child == link.name]
     if len(joints) != 1 or joints[0].axis is None:
-        raise UsageError(f"link {link.name!r} hangs from {len(joints)} joints with an axis; one is needed")
+        raise UsageError(f"link {link.name!r} is the child of {len(joints)} joints with an axis; one is needed")
     if radius <= 0.0:
         radius = _radius(link)
     if not normal_force > 0.0:
@@ -127,7 +127,7 @@ def _radius(link: LinkHandle) -> float:
     shapes = [collision.geometry for collision in link.link.collisions]
     if len(shapes) == 1 and isinstance(shapes[0], Cylinder | Sphere):
         return shapes[0].radius
-    raise UsageError(f"link {link.name!r} is no single cylinder or sphere; <wheel_radius> is needed")
+    raise UsageError(f"link {link.name!r} is not a single cylinder or sphere; <wheel_radius> is needed")
 
 
 def _axis_in_link(joint: Joint, link: LinkHandle) -> Vector3:

@@ -1,4 +1,4 @@
-"""libWheelTrackedVehiclePlugin.so: tracks made of many wheels."""
+"""libWheelTrackedVehiclePlugin.so: tracks as rows of wheels."""
 
 from typing import Self
 
@@ -12,10 +12,10 @@ from .tracked_vehicle import Tracks
 
 
 class WheelTrackedVehicle(Plugin):
-    """Turns all wheels of a side as one.
+    """Drives all wheels of a side at one track speed.
 
     Parameters: two or more <left_joint> and <right_joint> each, <max_torque> [N·m] (5) of each wheel, and those of
-    `Tracks`. A wheel's radius is its only cylinder's, else half the largest side of its bounding box.
+    `Tracks`. A wheel's radius is that of its single cylinder, else half the largest side of its bounding box.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
@@ -24,7 +24,7 @@ class WheelTrackedVehicle(Plugin):
         sides = [[model.joint(each.text) for each in tag.node.all(f"{side}_joint")] for side in ("left", "right")]
         for side, joints in zip(("left", "right"), sides, strict=True):
             if len(joints) < 2:
-                what = f"plugin {tag.name!r} wants two or more <{side}_joint>, got {len(joints)}"
+                what = f"plugin {tag.name!r} needs two or more <{side}_joint>, got {len(joints)}"
                 sim.report.warn(tag.at, f"{what}; it drives those")
         tag.node.report_unread(sim.report)
         self._wheels = [[(joint, _radius(model, joint)) for joint in joints] for joints in sides]
@@ -36,14 +36,14 @@ class WheelTrackedVehicle(Plugin):
         return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep all wheels at their speeds."""
+        """Set all wheels' speeds."""
         del sim
         for speed, wheels in zip(self._tracks.speeds, self._wheels, strict=True):
             for joint, radius in wheels:
                 joint.command_velocity(speed / radius, max_effort=self._torque)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._tracks.command.stop()
 
 

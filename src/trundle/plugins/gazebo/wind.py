@@ -1,4 +1,4 @@
-"""libWindPlugin.so: wind that rises, gusts, turns and pushes."""
+"""libWindPlugin.so: wind forces, with rise time, gusts and noise."""
 
 import math
 from typing import Self
@@ -17,12 +17,12 @@ from ..plugin import WorldPlugin
 
 
 class Wind(WorldPlugin):
-    """Pushes every link that lets wind in by mass · factor · (wind − its velocity), at its centre of mass.
+    """Applies mass · factor · (wind − velocity) at the centre of mass of every link with <enable_wind>.
 
     Parameters, as in Gazebo 11: <force_approximation_scaling_factor> [1/s] (required); of <horizontal><magnitude>,
-    <horizontal><direction> and <vertical> the <time_for_rise> [s] (1) with which the world's wind comes up, of the
-    first two a <sin> with <amplitude_percent> (a share, not a percentage) or <amplitude> [°] and <period> [s] (1), of
-    all a <noise>. Gazebo lets the wind rise once for each link that feels it; here it rises once.
+    <horizontal><direction> and <vertical> the <time_for_rise> [s] (1) to the world's wind; of the first two a <sin>
+    with <amplitude_percent> (a fraction, not a percentage) or <amplitude> [°] and <period> [s] (1); of all a <noise>.
+    Gazebo advances the rise once for each link in the wind; here once per step.
     """
 
     def __init__(self, sim: Simulation, tag: PluginTag) -> None:
@@ -35,7 +35,7 @@ class Wind(WorldPlugin):
         parameters.report_unread(report)
         if abs(self._factor) < 1e-6:
             needs = "needs a <force_approximation_scaling_factor> above 0"
-            report.warn(tag.at, f"plugin {tag.name!r} {needs}; the wind pushes nothing")
+            report.warn(tag.at, f"plugin {tag.name!r} {needs}; there is no wind force")
         self._links: list[LinkHandle] = []
         self._find_links(sim)
         sim.on_change(lambda: self._find_links(sim))
@@ -47,7 +47,7 @@ class Wind(WorldPlugin):
         return cls(sim, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Blow."""
+        """Apply the wind forces."""
         if not self._links:
             return
         wx, wy, wz = self._wind_velocity(sim.world.wind, sim.time_ns / 1e9)
@@ -58,12 +58,12 @@ class Wind(WorldPlugin):
             link.add_wrench(Wrench(force=(push * (wx - vx), push * (wy - vy), push * (wz - vz))))
 
     def reset(self) -> None:
-        """Be still, and rise again."""
+        """Start again from no wind."""
         for part in (self._speed, self._heading, self._rise):
             part.mean = 0.0
 
     def _find_links(self, sim: Simulation) -> None:
-        """Find the links that the wind reaches."""
+        """Find the links with <enable_wind>."""
         self._links = [
             link
             for model in sim.models
@@ -73,17 +73,17 @@ class Wind(WorldPlugin):
         ]
 
     def _wind_velocity(self, wind: Vector3, time_s: float) -> Vector3:
-        """The wind of now [m/s], which follows the world's."""
+        """Current wind in the world [m/s]."""
         x, y, z = wind
         speed = self._speed.follow(math.hypot(x, y))
-        speed = self._speed.disturb(speed * (1.0 + self._speed.swing(time_s)))
+        speed = self._speed.disturb(speed * (1.0 + self._speed.sine(time_s)))
         heading = self._heading.follow(math.degrees(math.atan2(y, x)))
-        heading = math.radians(self._heading.disturb(heading + self._heading.swing(time_s)))
+        heading = math.radians(self._heading.disturb(heading + self._heading.sine(time_s)))
         return (speed * math.cos(heading), speed * math.sin(heading), self._rise.disturb(self._rise.follow(z)))
 
 
 class _WindComponent:
-    """Speed, heading or rise: a mean that follows with a lag, a swing and noise."""
+    """Speed, heading or vertical speed: a lagged mean, a sine and noise."""
 
     def __init__(self, node: XmlNode | None, amplitude: str, sim: Simulation) -> None:
         report = sim.report
@@ -100,16 +100,16 @@ class _WindComponent:
         self._noise = NoiseSource(noise, np.random.default_rng([sim.seed, *amplitude.encode()]))
 
     def follow(self, value: float) -> float:
-        """Come a step closer to a value."""
+        """Move the mean one step towards a value; return it."""
         self.mean += self._share * (value - self.mean)
         return self.mean
 
-    def swing(self, time_s: float) -> float:
-        """How far the sine is out."""
+    def sine(self, time_s: float) -> float:
+        """Value of the sine at a time."""
         return self._amplitude * math.sin(math.tau * time_s / self._period)
 
     def disturb(self, value: float) -> float:
-        """The value with noise."""
+        """Value with noise."""
         return self._noise.apply_to_value(value)
 
 
