@@ -163,7 +163,7 @@ def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
     assert heard[-1].linear_acceleration.z == pytest.approx(9.8, abs=0.2)
     assert heard[-1].orientation_covariance[0] == pytest.approx(1e-4)
     assert heard[-1].header.frame_id == "imu_link"
-    assert [w.rpartition(": ")[2] for w in gazebo.report.warnings if "Offset" in w] == ["<rpyOffset> is not heeded"]
+    assert [w.rpartition(": ")[2] for w in gazebo.report.warnings if "Offset" in w] == ["<rpyOffset> is not supported"]
 
 
 def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:

@@ -1,4 +1,4 @@
-"""libgazebo_ros_link_attacher.so: links of two models welded together, and parted again, by services."""
+"""libgazebo_ros_link_attacher.so: services that weld links of two models together, and release them."""
 
 from typing import Self
 
@@ -16,11 +16,11 @@ _KIND = "gazebo_ros_link_attacher/Attach"
 class LinkAttacher(WorldPlugin):
     """`/link_attacher_node/attach` and `/link_attacher_node/detach` (gazebo_ros_link_attacher/Attach); no parameters.
 
-    As in the original, what was joined is parted by the same names in the same order, also a second time, and
-    what was parted is joined anew where it is then.
+    As in the original, detach needs the names in the order of attach and may be repeated; attaching again welds the
+    links in their current poses.
     """
 
-    period_ns = 1 << 62  # it acts when it is asked
+    period_ns = 1 << 62  # it acts on requests only
 
     def __init__(self, sim: Simulation, node: Node, tag: PluginTag) -> None:
         self._sim, self._node, self._at = sim, node, tag.at
@@ -37,7 +37,7 @@ class LinkAttacher(WorldPlugin):
         return cls(sim, node, tag)
 
     def _attach(self, request: Message) -> dict[str, object]:
-        parent, child = _asked(request)
+        parent, child = _requested_links(request)
         name = _joint_name(parent, child)
         try:
             if not any(joint.name == name for joint in self._sim.joints):
@@ -50,7 +50,7 @@ class LinkAttacher(WorldPlugin):
         return {"ok": True}
 
     def _detach(self, request: Message) -> dict[str, object]:
-        parent, child = _asked(request)
+        parent, child = _requested_links(request)
         name = _joint_name(parent, child)
         if name not in self._known:
             both = f"{'::'.join(parent)} to {'::'.join(child)}"
@@ -67,12 +67,12 @@ class LinkAttacher(WorldPlugin):
         self._sim.attach(Joint(name=name, type=JointType.FIXED, parent=parent, child=child, at=self._at))
 
     def _link(self, model: str, link: str) -> str:
-        """`model::link`, after making sure that there is one."""
+        """Return `model::link` of an existing link."""
         return f"{model}::{self._sim[model].link(link).name}"
 
 
-def _asked(request: Message) -> tuple[tuple[str, str], tuple[str, str]]:
-    """Model and link of both; a link may be named with its model's name before it."""
+def _requested_links(request: Message) -> tuple[tuple[str, str], tuple[str, str]]:
+    """(model, link) of both; a link's name may have its model's as prefix."""
     one, other = str(request.model_name_1), str(request.model_name_2)
     links = str(request.link_name_1).removeprefix(f"{one}::"), str(request.link_name_2).removeprefix(f"{other}::")
     return (one, links[0]), (other, links[1])

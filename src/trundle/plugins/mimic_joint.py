@@ -1,4 +1,4 @@
-"""libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another one."""
+"""libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that mimics another one."""
 
 import math
 from typing import Self
@@ -11,14 +11,14 @@ from trundle.simulation import ModelHandle, Simulation
 from .plugin import Plugin
 
 _LAG_STEPS = 5
-"""A motor that made good for everything within one step would ring."""
+"""Steps to correct an error in; correcting it in one step would ring."""
 
 
 class MimicJoint(Plugin):
     """Holds <mimicJoint> at <multiplier> (1) times the position of <joint>, plus <offset> (0).
 
-    With <hasPID> it does so with at most <maxEffort> (1) [N·m or N], else with whatever it takes, as the original puts
-    it there. <sensitiveness> (0) [rad or m] is how far it may be off before that.
+    With <hasPID> its effort is at most <maxEffort> (1) [N·m or N], else unlimited, as the original sets the position.
+    Errors below <sensitiveness> (0) [rad or m] are ignored.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
@@ -26,7 +26,7 @@ class MimicJoint(Plugin):
         self._leader = model.joint(parameters.string("joint"))
         self._follower = model.joint(parameters.string("mimicJoint"))
         if not self._follower.is_driven:
-            raise TrundleError(f"joint {self._follower.name!r} cannot be put anywhere")
+            raise TrundleError(f"joint {self._follower.name!r} has no axis to drive")
 
         def number(name: str, default: float) -> float:
             return parameters.number(name, default=default, report=report)
@@ -45,7 +45,7 @@ class MimicJoint(Plugin):
         return cls(sim, model, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Follow."""
+        """Set the follower's velocity."""
         target = self._leader.position * self._multiplier + self._offset
         if abs(target - self._follower.position) >= self._sensitiveness:
             speed = (target - self._follower.position) * 1e9 / (_LAG_STEPS * sim.step_ns)

@@ -1,4 +1,4 @@
-"""What a plugin is: the Python counterpart of a Gazebo ModelPlugin, VisualPlugin or WorldPlugin.
+"""Base classes of plugins: Python counterparts of Gazebo's ModelPlugin, VisualPlugin and WorldPlugin.
 
 Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `rp2w.py`) in the model's
 <plugin filename="…">, and `trundle run` loads it:
@@ -28,43 +28,43 @@ if TYPE_CHECKING:  # a run without ROS starts without its modules
 
 
 class Hooks:
-    """What plugins have in common; all of it runs on the simulation's thread."""
+    """Hooks of all plugins; they run on the simulation's thread."""
 
     period_ns: int = 0
-    """How often the two hooks run, in simulation time [ns]; 0: at every physics step, as in Gazebo."""
+    """Period of the two hooks in simulation time [ns]; 0: every physics step, as in Gazebo."""
 
     def before_step(self, sim: Simulation) -> None:
-        """Write efforts, speeds and wrenches; called when due, before the physics moves."""
+        """Write efforts, speeds and wrenches; called when due, before the physics step."""
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Read what came of it and publish; called when due, after the physics moved."""
+        """Read the state and publish; called when due, after the physics step."""
 
     def is_wanted(self) -> bool:
-        """Whether the two hooks have anything to do now; while not, they cost nothing."""
+        """True if the two hooks have work to do; else they are not called and cost nothing."""
         return True
 
     def reset(self) -> None:
-        """Forget what was commanded and integrated; called when the simulation is reset."""
+        """Clear commands and integrals; called when the simulation is reset."""
 
 
 class Plugin(Hooks):
-    """Drives a model and speaks for it on the ROS graph."""
+    """Plugin of a model: the Python counterpart of a Gazebo ModelPlugin."""
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: "Node | None", tag: PluginTag) -> Self:
         """Make the plugin for one model.
 
         Args:
-            sim: the running world.
-            model: the model that names the plugin.
-            node: where to advertise and subscribe; callbacks run between steps. None under `--no-ros`.
-            tag: the <plugin> element; read parameters with `tag.node.number(…)` and its siblings.
+            sim: the running simulation.
+            model: the one that names the plugin.
+            node: advertises and subscribes; callbacks run between steps. None under `--no-ros`.
+            tag: the <plugin> element; read parameters with `tag.node.number(…)` and the like.
         """
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, node, tag)")
 
 
 class VisualPlugin(Hooks):
-    """Draws for a visual: the Python counterpart of a Gazebo VisualPlugin."""
+    """Plugin of a visual: the Python counterpart of a Gazebo VisualPlugin."""
 
     @classmethod
     def load(
@@ -75,7 +75,7 @@ class VisualPlugin(Hooks):
 
 
 class WorldPlugin(Hooks):
-    """Acts on a whole world: the Python counterpart of a Gazebo WorldPlugin."""
+    """Plugin of a world: the Python counterpart of a Gazebo WorldPlugin."""
 
     @classmethod
     def load(cls, sim: Simulation, node: "Node | None", tag: PluginTag) -> Self:

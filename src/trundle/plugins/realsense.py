@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _STREAMS = {"color": "color", "ired1": "infrared1", "ired2": "infrared2", "depth": "depth"}
-"""End of a sensor's name → start of its parameters' names."""
+"""Suffix of a sensor's name → prefix of its parameters."""
 _UNUSED = ("depthUpdateRate", "colorUpdateRate", "infraredUpdateRate")
 _PARAMETERS = ("TopicName", "CameraInfoTopicName", "OpticalframeName")
 _OF_POINTS = ("rangeMinDepth", "rangeMaxDepth", "pointCloud", "pointCloudTopicName", "pointCloudCutoff",
@@ -30,18 +30,18 @@ _FARTHEST_MM = 65535
 
 
 class RealSense(Plugin):
-    """Publishes what the model's sensors <prefix>color, <prefix>ired1, <prefix>ired2 and <prefix>depth see.
+    """Publishes the images of the model's sensors <prefix>color, <prefix>ired1, <prefix>ired2 and <prefix>depth.
 
     Parameters: <prefix> (none); for `color`, `infrared1`, `infrared2` and `depth` each <…TopicName>, below the plugin's
     name, and <…OpticalframeName>; <rangeMinDepth> 0 and <rangeMaxDepth> (none) [m] of the depth image, 16UC1 in
     millimetres, 0 elsewhere; <pointCloud> false, <pointCloudTopicName>, <pointCloudCutoff> 0 and <pointCloudCutoffMax>
-    5 [m]. As in the original, camera_info stands beside each image whatever <…CameraInfoTopicName> says, and the
-    sensors' own rates count, not <…UpdateRate>. Points have the depth camera's colours.
+    5 [m]. As in the original, camera_info is beside each image, and <…CameraInfoTopicName> and <…UpdateRate> are
+    ignored. Points have the depth camera's colours.
     """
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """Name what is missing; the sensors publish by `attach`."""
+        """Report missing sensors; those there are publish by `attach`."""
         del node
         parameters = tag.node
         there = {sensor.name for link in model.model.links for sensor in link.sensors}
@@ -57,13 +57,13 @@ class RealSense(Plugin):
 
 
 def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, PluginTag, Diagnostics], None] | None":
-    """What publishes a sensor of this name for the plugin of its model; None: it is none of a RealSense's."""
+    """Return `attach` if the name is that of one of the RealSense's sensors, else None."""
     ends = {f"{tag.node.string('prefix')}{end}" for end in _STREAMS}
     return attach if sensor in ends else None
 
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
-    """Publish one of the four; see `RealSense`."""
+    """Publish one of the four streams; see `RealSense`."""
     stream = _STREAMS[sensor.name.removeprefix(tag.node.string("prefix"))]
     image = image_encoder(sensor.optics.format)
     if stream == "depth":
@@ -89,7 +89,7 @@ def _topic(tag: PluginTag, name: str) -> str:
 
 
 def _as_bytes(image: dict[str, object]) -> dict[str, object]:
-    """Grey has the encoding that the driver of a RealSense gives it in simulation."""
+    """Image message with the original's encoding of grey, 8UC1."""
     return {**image, "encoding": "8UC1"} if image["encoding"] == "mono8" else image
 
 
@@ -134,7 +134,7 @@ def _depth(reading: CameraReading) -> "NDArray[np.float32]":
 
 
 def _calibration(sensor: CameraSensor) -> dict[str, object]:
-    """A pinhole whose principal point is the middle; R, which the original leaves zero, is the identity."""
+    """camera_info of a pinhole with the principal point in the middle; R is the identity (zero in the original)."""
     optics = sensor.optics
     focal = 0.5 * optics.width_px / math.tan(0.5 * optics.horizontal_fov_rad)
     cx, cy = 0.5 * optics.width_px, 0.5 * optics.height_px

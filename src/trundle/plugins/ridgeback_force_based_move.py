@@ -8,7 +8,7 @@ from .hector_gazebo.force_based_move import ForceBasedMove
 
 
 class RidgebackForceBasedMove(ForceBasedMove):
-    """Stops <cmdVelTimeOut> (0.25 [s]) after the last command; its odometry knows no motion to the side."""
+    """Stops <cmdVelTimeOut> (0.25 [s]) after the last command; odometry excludes sideways motion."""
 
     SIDEWAYS = False
 
@@ -17,7 +17,7 @@ class RidgebackForceBasedMove(ForceBasedMove):
         self._timeout_s = tag.node.number("cmdVelTimeOut", default=0.25, report=sim.report)
 
     def before_step(self, sim: Simulation) -> None:
-        """Push."""
+        """Apply the force and torque."""
         if (sim.time_ns - self.command.stamp_ns) / 1e9 > self._timeout_s:
             self.command.stop()
         super().before_step(sim)

@@ -1,4 +1,4 @@
-"""librobotnik_force_based_move.so: hector's force-based move, which holds its place when commands end."""
+"""librobotnik_force_based_move.so: hector's force-based move, which holds its pose when commands end."""
 
 from trundle.model import PluginTag
 from trundle.ros import Node
@@ -9,9 +9,9 @@ from .hector_gazebo.force_based_move import ForceBasedMove
 
 
 class RobotnikForceBasedMove(ForceBasedMove):
-    """Puts the model back to where it was <commandWatchdog> (2 [s]) after the last command, until the next.
+    """Holds the model's pose from <commandWatchdog> (2 [s]) after the last command until the next.
 
-    Meanwhile nothing pushes, and no odometry is told, as in the original.
+    Meanwhile no force is applied and no odometry is published, as in the original.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -20,7 +20,7 @@ class RobotnikForceBasedMove(ForceBasedMove):
         self._held = model.pose
 
     def before_step(self, sim: Simulation) -> None:
-        """Push, or hold."""
+        """Apply the force and torque, or hold the pose."""
         if self._expired(sim.time_ns):
             self.model.set_twist(Twist())
             self.model.set_pose(self._held)
@@ -29,12 +29,12 @@ class RobotnikForceBasedMove(ForceBasedMove):
         super().before_step(sim)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell, while it moves."""
+        """Publish odometry, unless the pose is held."""
         if not self._expired(snapshot.time_ns):
             super().after_step(snapshot)
 
     def reset(self) -> None:
-        """Stay where the model was put."""
+        """Hold the model's current pose."""
         super().reset()
         self._held = self.model.pose
 

@@ -1,4 +1,4 @@
-"""libwarthog_suspension_plugin.so: the springs and dampers between a Warthog's body and its two drive units."""
+"""libwarthog_suspension_plugin.so: springs and dampers between a Warthog's body and its two drive units."""
 
 from typing import Self
 
@@ -14,7 +14,7 @@ _JOINTS = ("left_diff_unit_joint", "right_diff_unit_joint")
 class WarthogSuspension(Plugin):
     """Drives `left_diff_unit_joint` and `right_diff_unit_joint` with −k q − b q̇ at every step.
 
-    Parameters: <suspension_k> 0 [N·m/rad] and <suspension_b> 0 [N·m·s/rad], as the original reads what is not there.
+    Parameters, with the original's defaults: <suspension_k> 0 [N·m/rad] and <suspension_b> 0 [N·m·s/rad].
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
@@ -33,7 +33,7 @@ class WarthogSuspension(Plugin):
         return cls(sim, model, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Push back."""
+        """Apply the efforts."""
         del sim
         for joint in self._joints:
             joint.command_effort(-self._stiffness * joint.position - self._damping * joint.velocity)

@@ -1,1 +1,1 @@
-"""gazebo_plugins of gazebo_ros_pkgs: what drives robots from ROS and publishes what they feel, by file name."""
+"""Plugins of gazebo_plugins (gazebo_ros_pkgs): drives and sensor publishers, by file name."""

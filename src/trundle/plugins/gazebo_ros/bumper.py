@@ -1,4 +1,4 @@
-"""libgazebo_ros_bumper.so: what touched a link since the last message, where the plugin says."""
+"""libgazebo_ros_bumper.so: contacts of a link since the last message."""
 
 from trundle.bridge import contacts_message
 from trundle.diagnostics import Diagnostics, UsageError
@@ -17,7 +17,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "bumperTopicName", "bumper_states")
     frame = tag.node.string("frameName", default="world").strip("/")
     if frame not in ("", "world", "map"):
-        report.warn(tag.at, f"frameName {frame!r}: contacts are told in the world frame")
+        report.warn(tag.at, f"frameName {frame!r}: contacts are published in the world frame")
     outlet = SensorPublisher(node, topic, "gazebo_msgs/ContactsState", "world")
     mark_read(tag.node, "updateRate")
     tag.node.report_unread(report)

@@ -1,4 +1,4 @@
-"""libgazebo_ros_camera.so: pictures and their calibration, where the plugin says."""
+"""libgazebo_ros_camera.so: images and camera_info of a camera."""
 
 from collections.abc import Callable
 from typing import Any
@@ -17,13 +17,13 @@ _SIDES = ["left", "right"]
 
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
-    """Publish what a camera sees.
+    """Publish images and camera_info.
 
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
     camera_info, <frameName> world, <updateRate> 0 (the sensor's), and for camera_info alone <CxPrime>, <Cx>, <Cy>,
-    <focalLength> 0 (the picture's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Where <borderCrop> (true) is
-    false, a distorted picture is not enlarged. Of a multicamera's, <hackBaseline> is how far the right one is from the
-    left; without it, what the file says.
+    <focalLength> 0 (the image's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Without <borderCrop> (true) a
+    distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
+    one, by default that of the file.
     """
     attach_images(sensor, node, tag, report, image_encoder(sensor.optics.format))
 
@@ -35,7 +35,7 @@ def attach_images(
     report: Diagnostics,
     image: Callable[[CameraReading], dict[str, object]],
 ) -> None:
-    """Publish what a function makes of each reading, as `attach` does."""
+    """Publish the messages that a function makes of readings, with the parameters of `attach`."""
     read_border_crop(sensor, tag, report)
     frame, rate_hz = read_frame_name(tag, "world"), _number(tag, "updateRate", report)
     pictures = SensorPublisher(
@@ -61,7 +61,7 @@ def attach_images(
 
 
 def attach_triggered(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
-    """Publish as `attach`, one picture for each std_msgs/Empty on <triggerTopicName> (image_trigger)."""
+    """Publish as `attach`, one image for each std_msgs/Empty on <triggerTopicName> (image_trigger)."""
     trigger = sensor.await_trigger()
     topic = camera_topic(sensor, tag, "triggerTopicName", "image_trigger")
     node.subscribe(topic, "std_msgs/Empty", lambda _: trigger(), queue_size=1)
@@ -69,9 +69,9 @@ def attach_triggered(sensor: CameraSensor, node: Node, tag: PluginTag, report: D
 
 
 def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz: float) -> None:
-    """Let users change how often pictures are taken, as dynamic_reconfigure's `imager_rate` of the camera.
+    """Offer the camera's rate as the dynamic_reconfigure option `imager_rate`.
 
-    It is the sensor's rate, of all cameras of a multicamera; the plugin's <updateRate> remains the most that it tells.
+    The option sets the sensor's rate, for all cameras of a multicamera; <updateRate> stays the limit of publishing.
     """
     rates = [rate for rate in (sensor.rate_hz, plugin_rate_hz) if rate > 0.0]
 
@@ -79,35 +79,35 @@ def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz:
         sensor.set_rate(float(values["imager_rate"]))
         return values
 
-    option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Pictures a second")
-    ReconfigureServer(node, [option], apply, namespace=join_topic(_space(sensor, tag), "").rstrip("/"))
+    option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Images per second")
+    ReconfigureServer(node, [option], apply, namespace=join_topic(_topic_prefix(sensor, tag), "").rstrip("/"))
 
 
 def read_border_crop(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> None:
-    """Heed <borderCrop>."""
+    """Apply <borderCrop>."""
     if not tag.node.flag("borderCrop", default=True, report=report):
         sensor.disable_crop()
 
 
 def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: str) -> str:
-    """A topic below the robot's namespace and the camera's name; a multicamera's have a name each."""
-    return join_topic(_space(sensor, tag), tag.node.string(parameter, default=default))
+    """Topic below the robot's namespace and the camera's name; each camera of a multicamera has its own."""
+    return join_topic(_topic_prefix(sensor, tag), tag.node.string(parameter, default=default))
 
 
-def _space(sensor: CameraSensor, tag: PluginTag) -> str:
+def _topic_prefix(sensor: CameraSensor, tag: PluginTag) -> str:
     name = tag.node.string("cameraName").strip("/")
     return "/".join(part for part in (read_namespace(tag, sensor.model.name), name, _eye(sensor)) if part)
 
 
 def _eye(sensor: CameraSensor) -> str:
-    """What sets a multicamera's topics apart: a pair's are `left` and `right`, whatever else they are called."""
+    """Name of a multicamera's camera in topics: `left` or `right` if a pair's names contain these, else its own."""
     names = [camera.name for camera in sensor.sensor.cameras]
     sides = [next((side for side in _SIDES if side in name), "") for name in names]
     return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
 
 
 def read_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:
-    """What camera_info says, with what the plugin has otherwise."""
+    """Make camera_info, with the plugin's overrides."""
     found: dict[str, Any] = dict(camera_info_message(sensor))
     k, p = list(found["K"]), list(found["P"])
     focal = _number(tag, "focalLength", report)

@@ -1,4 +1,4 @@
-"""libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so: pictures, depths and points of one camera."""
+"""libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so: images, depths and points of one camera."""
 
 from functools import lru_cache
 
@@ -19,12 +19,12 @@ _IMAGE, _INFO, _POINTS = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_
 
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
-    """Publish what a depth camera sees.
+    """Publish images, depth images, point clouds and camera_info.
 
     Parameters, with gazebo_ros' defaults: those of libgazebo_ros_camera.so (<imageTopicName> is image_raw), and
     <depthImageTopicName> depth/image_raw, <depthImageCameraInfoTopicName> depth/camera_info, <pointCloudTopicName>
     points, <pointCloudCutoff> 0.4 and <pointCloudCutoffMax> 5 [m] (of depths and points), <useDepth16UC1Format> false
-    (millimetres).
+    (true: depths are 16UC1 [mm]).
     """
     if not isinstance(sensor, DepthCameraSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
@@ -50,7 +50,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     mark_read(parameters, "autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
     parameters.report_unread(report)
 
-    @lru_cache(maxsize=1)  # depths and points are of the same reading
+    @lru_cache(maxsize=1)  # depths and points share a reading
     def cut(reading: CameraReading) -> CameraReading:
         assert reading.depth is not None
         depth = clip_depths(reading.depth, near_m=near, far_m=far)
@@ -72,7 +72,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
 
 
 def _millimetres(reading: CameraReading) -> dict[str, object]:
-    """16UC1, where 0 is nothing."""
+    """sensor_msgs/Image 16UC1 [mm]; 0: no depth."""
     assert reading.depth is not None
     counts = np.nan_to_num(reading.depth * 1000.0, nan=0.0).astype("<u2")
     height, width = counts.shape

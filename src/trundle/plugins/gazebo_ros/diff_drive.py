@@ -17,13 +17,13 @@ _VARIANCES = (1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3)
 
 
 class DiffDrive(RosPlugin):
-    """Keeps two wheels at the speeds that a body speed asks for.
+    """Drives two wheels at the speeds of a commanded body twist.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
     <robotBaseFrame> base_footprint, <leftJoint> left_joint, <rightJoint> right_joint, <wheelSeparation> 0.34,
     <wheelDiameter> 0.15, <wheelTorque> 5, <wheelAcceleration> 0 (at once), <updateRate> 100, <odometrySource> world or
     encoder, <publishTf> and <publishOdomTF> true, <publishWheelTF> and <publishWheelJointState> false. The
-    left wheel turns with v − ω·separation/2; <legacyMode> true has it mirrored, the default up to Kinetic.
+    left wheel turns with v − ω·separation/2; <legacyMode> true mirrors the turn, the default up to Kinetic.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -62,7 +62,7 @@ class DiffDrive(RosPlugin):
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep both wheels at their speeds."""
+        """Set both wheels' speeds."""
         most = self._acceleration * (self.period_ns or sim.step_ns) / 1e9
         wanted = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.yaw_rate)
         for number, (wheel, speed) in enumerate(zip(self._wheels, wanted, strict=True)):
@@ -72,7 +72,7 @@ class DiffDrive(RosPlugin):
             wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell where that led."""
+        """Publish odometry, joint states and wheel frames."""
         if self._odometry is not None:
             pose, twist = self._integrate_wheels(snapshot.time_ns) if self._from_wheels else ground_truth(self._model)
             self._odometry.publish(snapshot.time_ns, pose, twist)
@@ -84,7 +84,7 @@ class DiffDrive(RosPlugin):
             self._frames.send_transform(*(_frame(self._model, wheel, snapshot.time_ns) for wheel in self._wheels))
 
     def reset(self) -> None:
-        """Stand still at the origin of the odometry."""
+        """Stop, and restart odometry at its origin."""
         self._command.stop()
         self._speeds = [0.0, 0.0]
         self._place = WheelOdometry(self._drive)
@@ -92,7 +92,7 @@ class DiffDrive(RosPlugin):
         self._last_ns = 0
 
     def _integrate_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
-        """Add up what the wheels turned."""
+        """Integrate the wheels' rotation; return pose and twist."""
         turned = [wheel.position for wheel in self._wheels]
         left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
         if self._sign < 0.0:

@@ -1,4 +1,4 @@
-"""libgazebo_ros_f3d.so: what pushes a link."""
+"""libgazebo_ros_f3d.so: external wrench on a link."""
 
 from trundle.model import PluginTag
 from trundle.ros import Node
@@ -10,10 +10,10 @@ from .ros_plugin import RosPlugin, required
 
 
 class F3D(RosPlugin):
-    """Publishes geometry_msgs/WrenchStamped at every step: what plugins and services apply, in world axes.
+    """Publishes geometry_msgs/WrenchStamped at every step: the wrench that plugins and services apply, in world axes.
 
     Parameters, of gazebo_ros: <bodyName> and <topicName> (required), <frameName> (of the header alone) world. As in
-    the original neither weight nor contacts nor joints count: those are a force_torque or a contact sensor's.
+    the original it excludes weight, contacts and joints; force_torque and contact sensors measure those.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -26,11 +26,11 @@ class F3D(RosPlugin):
         self._wrench = Wrench()
 
     def before_step(self, sim: Simulation) -> None:
-        """Look at what was applied so far."""
+        """Read the wrench applied so far."""
         self._wrench = sim.engine.wrench(self._link.index)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the wrench."""
         if not self._topic.has_subscribers:
             return
         wrench = {

@@ -10,7 +10,7 @@ from .ros_plugin import RosPlugin, required
 
 
 class Force(RosPlugin):
-    """Pushes <bodyName> with the last geometry_msgs/Wrench of <topicName>, in world axes, until the next comes."""
+    """Applies the last geometry_msgs/Wrench of <topicName>, in world axes, to <bodyName> at every step."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         del sim
@@ -23,13 +23,13 @@ class Force(RosPlugin):
         )
 
     def before_step(self, sim: Simulation) -> None:
-        """Push."""
+        """Apply the wrench."""
         del sim
         if self._wrench != Wrench():
             self._link.add_wrench(self._wrench)
 
     def reset(self) -> None:
-        """Let go."""
+        """Set the wrench to zero."""
         self._wrench = Wrench()
 
     def _on_wrench(self, message: Message) -> None:

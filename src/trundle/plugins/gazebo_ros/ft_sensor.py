@@ -1,4 +1,4 @@
-"""libgazebo_ros_ft_sensor.so: what a joint carries."""
+"""libgazebo_ros_ft_sensor.so: reaction wrench of a joint."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from .ros_plugin import RosPlugin, required
 
 
 class FtSensor(RosPlugin):
-    """Publishes geometry_msgs/WrenchStamped in the axes of the joint's child: what the child does to its parent.
+    """Publishes geometry_msgs/WrenchStamped in the axes of the joint's child: the wrench of the child on its parent.
 
     Parameters: <jointName> and <topicName> (required), <gaussianNoise> 0, <updateRate> 0 (every step).
     """
@@ -28,7 +28,7 @@ class FtSensor(RosPlugin):
         self._topic = node.advertise(join_topic(read_namespace(tag, model.name), topic), "geometry_msgs/WrenchStamped")
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the wrench."""
         if not self._topic.has_subscribers:
             return
         on_child = self._joint.reaction

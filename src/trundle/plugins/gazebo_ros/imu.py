@@ -1,4 +1,4 @@
-"""libgazebo_ros_imu.so: how a link turns and accelerates; gravity is not in it, as in the original."""
+"""libgazebo_ros_imu.so: orientation, rate and acceleration of a link, without gravity as in the original."""
 
 import numpy as np
 
@@ -36,7 +36,7 @@ class Imu(RosPlugin):
         parameters.find("xyzOffset")
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the reading."""
         if not self._topic.has_subscribers:
             return
         motion = self._motion.sample(snapshot.time_ns)
@@ -60,5 +60,5 @@ class Imu(RosPlugin):
 
 
 def _calibrated(_request: Message) -> dict[str, object]:
-    """A simulated imu always is."""
+    """Answer the calibration service; there is nothing to calibrate."""
     return {}

@@ -1,4 +1,4 @@
-"""libgazebo_ros_imu_sensor.so: what an imu feels, where the plugin says."""
+"""libgazebo_ros_imu_sensor.so: readings of an imu sensor."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     """Publish sensor_msgs/Imu.
 
     Parameters, with gazebo_ros' defaults: <topicName> imu_data, <frameName> (the link), <updateRateHZ> 1,
-    <gaussianNoise> 0, of which the covariances are the square.
+    <gaussianNoise> 0; covariances are its square.
     """
     if not isinstance(sensor, ImuSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; an imu is needed")
@@ -37,11 +37,11 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     parameters.report_unread(report)
 
     def message(reading: ImuReading) -> dict[str, Any]:
-        told: dict[str, Any] = {**imu_message(reading), **covariances}
+        fields: dict[str, Any] = {**imu_message(reading), **covariances}
         if noise > 0.0:
             for name in names:
-                told[name] = {axis: value + float(random.normal(0.0, noise)) for axis, value in told[name].items()}
-        return told
+                fields[name] = {axis: value + float(random.normal(0.0, noise)) for axis, value in fields[name].items()}
+        return fields
 
     def publish(reading: ImuReading) -> None:
         outlet.publish(reading, lambda: message(reading))

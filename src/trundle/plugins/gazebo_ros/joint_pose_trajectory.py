@@ -1,4 +1,4 @@
-"""libgazebo_ros_joint_pose_trajectory.so: joints put from pose to pose, whatever the physics says."""
+"""libgazebo_ros_joint_pose_trajectory.so: joint positions set at given times, without dynamics."""
 
 from collections import deque
 from typing import Any
@@ -15,7 +15,7 @@ _MAX_POINTS = 100_000
 
 
 class JointPoseTrajectory(RosPlugin):
-    """Takes trajectories of joint positions, each set when its time has come; none is set in between.
+    """Sets the positions of trajectory points at their times, without interpolation.
 
     Parameters, with gazebo_ros' defaults: <topicName> set_joint_trajectory, <serviceName> set_joint_trajectory,
     <updateRate> 0 (every step).
@@ -33,7 +33,7 @@ class JointPoseTrajectory(RosPlugin):
         node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._set_trajectory)
 
     def before_step(self, sim: Simulation) -> None:
-        """Put the joints where they are to be by now."""
+        """Set the positions that are due."""
         while self._due and self._due[0][0] <= sim.time_ns:
             for name, position in self._due.popleft()[1].items():
                 joint = self._model.joint(name)
@@ -41,7 +41,7 @@ class JointPoseTrajectory(RosPlugin):
                 joint.set_velocity(0.0)
 
     def reset(self) -> None:
-        """Forget what was to come."""
+        """Drop the remaining points."""
         self._due.clear()
 
     def _on_trajectory(self, trajectory: Message) -> None:
@@ -61,7 +61,7 @@ class JointPoseTrajectory(RosPlugin):
         names = [str(name) for name in trajectory.joint_names]
         for name in names:
             if not self._model.joint(name).is_driven:
-                raise UsageError(f"joint {name!r} cannot be put anywhere")
+                raise UsageError(f"joint {name!r} has no axis to drive")
         if len(trajectory.points) > _MAX_POINTS:
             raise UsageError(f"{len(trajectory.points)} points are more than {_MAX_POINTS}")
         if any(len(point.positions) != len(names) for point in trajectory.points):

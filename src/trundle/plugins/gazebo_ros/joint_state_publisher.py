@@ -1,4 +1,4 @@
-"""libgazebo_ros_joint_state_publisher.so: where some joints are, on joint_states."""
+"""libgazebo_ros_joint_state_publisher.so: positions and velocities of joints on joint_states."""
 
 import re
 
@@ -13,7 +13,7 @@ from .ros_plugin import RosPlugin
 class JointStatePublisher(RosPlugin):
     """Publishes `joint_states`.
 
-    Parameters: <jointName> (a list of names between commas or spaces; all joints), <updateRate> 100.
+    Parameters: <jointName> (names separated by commas or spaces; default: all joints), <updateRate> 100.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -25,7 +25,7 @@ class JointStatePublisher(RosPlugin):
         self._states = node.advertise(topic, "sensor_msgs/JointState", queue_size=1000)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the joint states."""
         if not self._states.has_subscribers:
             return
         self._states.publish(

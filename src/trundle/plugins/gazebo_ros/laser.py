@@ -1,4 +1,4 @@
-"""libgazebo_ros_laser.so, libgazebo_ros_gpu_laser.so: the scan of a ray sensor; velodyne's and hector's siblings."""
+"""libgazebo_ros_laser.so, libgazebo_ros_gpu_laser.so and their variants: scans and point clouds of a ray sensor."""
 
 import re
 

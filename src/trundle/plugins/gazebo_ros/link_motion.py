@@ -1,4 +1,4 @@
-"""How a link moves, in its own axes, as plugins that are imus tell it."""
+"""Motion of a link in its own axes, for imu plugins."""
 
 from dataclasses import dataclass
 
@@ -8,29 +8,29 @@ from trundle.spatial import Pose, Quaternion, Vector3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionSample:
-    """One moment of a link."""
+    """Motion of a link at one time."""
 
     orientation: Quaternion
     """world_from_link, wxyz."""
     rate: Vector3
-    """In the link's axes [rad/s]."""
+    """Angular velocity in the link's axes [rad/s]."""
     acceleration: Vector3
-    """Of the link's origin, the mean since the last look, in the link's axes, without gravity [m/s²]."""
+    """Mean acceleration of the link's origin since the last sample, in the link's axes, without gravity [m/s²]."""
 
     def in_link(self, vector: Vector3) -> Vector3:
-        """A vector of the world in the link's axes."""
+        """Rotate a vector from world axes to the link's."""
         return Pose(quaternion=self.orientation).inverse().transform_vector(vector)
 
 
 class LinkMotion:
-    """Looks at a link now and then."""
+    """Sampler of a link's motion."""
 
     def __init__(self, link: LinkHandle) -> None:
         self._link = link
         self._before: tuple[int, Vector3] | None = None
 
     def sample(self, time_ns: int) -> MotionSample:
-        """How it moves now; the first look knows no acceleration."""
+        """Sample the current motion; the first sample's acceleration is zero."""
         twist, orientation = self._link.twist, self._link.pose.quaternion
         before, self._before = self._before, (time_ns, twist.linear)
         ax = ay = az = 0.0

@@ -1,4 +1,4 @@
-"""Where a gazebo_ros plugin's topics are, and how often it works."""
+"""Namespaces, topics and update rates of gazebo_ros plugins."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import PluginTag
@@ -9,7 +9,7 @@ _NOTHING = {"0", "0.0", "false"}
 
 
 def read_namespace(tag: PluginTag, model: str) -> str:
-    """<robotNamespace> without slashes at its ends; the model's name where it is there and empty, as in gazebo_ros."""
+    """<robotNamespace> without slashes at its ends; if present and empty the model's name, as in gazebo_ros."""
     found = tag.node.find("robotNamespace")
     if found is None:
         return ""
@@ -17,26 +17,26 @@ def read_namespace(tag: PluginTag, model: str) -> str:
 
 
 def join_topic(namespace: str, topic: str) -> str:
-    """A topic's global name."""
+    """Global name of a topic."""
     if topic.startswith("/") or not namespace:
         return f"/{topic.lstrip('/')}"
     return f"/{namespace}/{topic}"
 
 
 def rate_to_period_ns(rate_hz: float) -> int:
-    """Of an update rate [ns]; 0: every step."""
+    """Period of an update rate [ns]; 0: every step."""
     return round(1e9 / rate_hz) if rate_hz > 0.0 else 0
 
 
 def mark_read(parameters: XmlNode, *names: str) -> None:
-    """Count parameters as read that have no meaning here: levels of debugging, ODE's own settings."""
+    """Mark parameters as read that have no meaning here, such as debug levels and ODE's settings."""
     for name in (*names, "rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate"):
         parameters.find(name)
 
 
 def warn_unsupported(parameters: XmlNode, report: Diagnostics, *names: str) -> None:
-    """Count parameters as read, and name those that would do something."""
+    """Mark parameters as read, and warn of those that would have an effect."""
     for name in names:
         found = parameters.find(name)
         if found is not None and not set(found.text.split()) <= _NOTHING:
-            report.warn(found.at, f"<{name}> is not heeded")
+            report.warn(found.at, f"<{name}> is not supported")

@@ -1,4 +1,4 @@
-"""nav_msgs/Odometry and its frame on /tf."""
+"""Publisher of nav_msgs/Odometry and its frame on /tf."""
 
 import math
 from typing import Self
@@ -11,11 +11,11 @@ from trundle.spatial import Pose, Twist
 from .namespaces import join_topic
 
 LARGE_VARIANCE = 1e12
-"""Variance of what odometry on a plane does not know."""
+"""Variance of the axes that planar odometry does not measure."""
 
 
 class OdometryTopic:
-    """Tells where a robot is in its odometry frame, and how fast it moves in its own axes."""
+    """Publishes a robot's pose in the odometry frame, and its twist in its own axes."""
 
     def __init__(
         self,
@@ -31,13 +31,13 @@ class OdometryTopic:
         """Advertise.
 
         Args:
-            node: on the graph.
-            topic: global.
-            frame: of the odometry.
-            base: the robot's.
-            variances: of x, y, z, roll, pitch, yaw.
-            with_tf: whether /tf has it, too.
-            twist_variances: of the velocities; None: the same.
+            node: publishes the topic.
+            topic: global name.
+            frame: odometry frame.
+            base: the robot's frame.
+            variances: of x, y, z [m²], roll, pitch, yaw [rad²].
+            with_tf: True: send the frame on /tf, too.
+            twist_variances: of the velocities; None: the same values.
         """
         self._frame, self._base = frame, base
         self._covariance = _diagonal(variances)
@@ -57,7 +57,7 @@ class OdometryTopic:
         base: str = "base_footprint",
         twist_variances: tuple[float, ...] | None = None,
     ) -> Self:
-        """By <odometryTopic>, <odometryFrame> and <robotBaseFrame>, as every drive of gazebo_ros has them."""
+        """Read <odometryTopic>, <odometryFrame> and <robotBaseFrame>, the parameters of every gazebo_ros drive."""
         return cls(
             node,
             join_topic(namespace, tag.node.string("odometryTopic", default="odom")),
@@ -69,7 +69,7 @@ class OdometryTopic:
         )
 
     def publish(self, time_ns: int, pose: Pose, twist: Twist, *, yaw_variance: float | None = None) -> None:
-        """Say it; `twist` is in the robot's axes, `yaw_variance` takes the place of yaw's and its rate's for once."""
+        """Publish; `twist` is in the robot's axes, `yaw_variance` replaces that of yaw and its rate in this message."""
         (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
         if self._broadcaster is not None:
             self._broadcaster.send_transform(
@@ -83,7 +83,7 @@ class OdometryTopic:
             )
         if not self._topic.has_subscribers:
             return
-        told = {
+        position_and_orientation = {
             "position": {"x": x, "y": y, "z": z},
             "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
         }
@@ -98,7 +98,7 @@ class OdometryTopic:
             {
                 "header": {"stamp": time_ns, "frame_id": self._frame},
                 "child_frame_id": self._base,
-                "pose": {"pose": told, "covariance": covariance},
+                "pose": {"pose": position_and_orientation, "covariance": covariance},
                 "twist": {"twist": speeds, "covariance": twist_covariance},
             }
         )
@@ -109,7 +109,7 @@ def _diagonal(variances: tuple[float, ...]) -> list[float]:
 
 
 def ground_truth(model: ModelHandle) -> tuple[Pose, Twist]:
-    """Where a model is in the world, and how fast it moves along its own heading and turns."""
+    """Pose of a model in the world, and its twist: linear along its heading, angular in world axes."""
     pose, twist = model.pose, model.base.twist
     yaw = pose.rpy[2]
     (vx, vy, vz), cos, sin = twist.linear, math.cos(yaw), math.sin(yaw)

@@ -1,4 +1,4 @@
-"""libgazebo_ros_p3d.so: where a link truly is."""
+"""libgazebo_ros_p3d.so: true pose and velocity of a link."""
 
 from typing import Any
 
@@ -18,8 +18,8 @@ _WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
 class P3D(RosPlugin):
     """Publishes a link's pose and velocity in the frame of another link, or of the world.
 
-    Parameters: <bodyName> and <topicName> (required), <frameName> world, <xyzOffset> and <rpyOffset> 0 0 0 (also with
-    an s), <gaussianNoise> 0, <updateRate> 0 (every step).
+    Parameters: <bodyName> and <topicName> (required), <frameName> world, <xyzOffset> and <rpyOffset> 0 0 0 (or
+    <xyzOffsets>, <rpyOffsets>), <gaussianNoise> 0, <updateRate> 0 (every step).
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -43,7 +43,7 @@ class P3D(RosPlugin):
         self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish pose and velocity."""
         if not self._topic.has_subscribers:
             return
         frame, carried = Pose(), Twist()
@@ -54,7 +54,7 @@ class P3D(RosPlugin):
         (ax, ay, az), (bx, by, bz) = twist.linear, carried.linear
         (ux, uy, uz), (vx, vy, vz) = twist.angular, carried.angular
         qw, qx, qy, qz = pose.quaternion
-        told = {
+        pose_fields = {
             "pose": {
                 "position": self._with_noise(pose.position),
                 "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
@@ -69,7 +69,7 @@ class P3D(RosPlugin):
             "covariance": self._covariance,
         }
         header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
-        self._topic.publish({"header": header, "child_frame_id": self._link.name, "pose": told, "twist": speeds})
+        self._topic.publish({"header": header, "child_frame_id": self._link.name, "pose": pose_fields, "twist": speeds})
 
     def _with_noise(self, vector: tuple[float, float, float]) -> dict[str, Any]:
         if self._noise > 0.0:

@@ -1,4 +1,4 @@
-"""libgazebo_ros_planar_move.so: a model that slides over the plane as cmd_vel says."""
+"""libgazebo_ros_planar_move.so: planar motion of a model by cmd_vel."""
 
 import math
 
@@ -14,7 +14,7 @@ from .twist_command import TwistCommand
 
 
 class PlanarMove(RosPlugin):
-    """Gives the model its velocity at every step: it neither falls nor tilts by itself.
+    """Sets the model's velocity at every step, so that it neither falls nor tilts.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
     <robotBaseFrame> base_footprint, <odometryRate> 20, <cmdTimeout> −1 [s] (none).
@@ -26,7 +26,7 @@ class PlanarMove(RosPlugin):
         self._model = model
         self._command = TwistCommand.from_tag(tag, namespace, node)
         self._timeout_s = parameters.number("cmdTimeout", default=-1.0, report=report)
-        self._tell_ns = rate_to_period_ns(parameters.number("odometryRate", default=20.0, report=report))
+        self._publish_period_ns = rate_to_period_ns(parameters.number("odometryRate", default=20.0, report=report))
         self._published_ns = sim.time_ns
         self._odometry = OdometryTopic.from_tag(
             tag,
@@ -37,7 +37,7 @@ class PlanarMove(RosPlugin):
         )
 
     def before_step(self, sim: Simulation) -> None:
-        """Move."""
+        """Set the model's velocity."""
         command = self._command
         if 0.0 < self._timeout_s < (sim.time_ns - command.stamp_ns) / 1e9:
             command.stop()
@@ -48,12 +48,12 @@ class PlanarMove(RosPlugin):
         self._model.set_twist(Twist(linear, (0.0, 0.0, command.yaw_rate)))
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell where that led, now and then."""
-        if snapshot.time_ns < self._published_ns + self._tell_ns and snapshot.time_ns >= self._published_ns:
+        """Publish odometry at its rate."""
+        if snapshot.time_ns < self._published_ns + self._publish_period_ns and snapshot.time_ns >= self._published_ns:
             return
         self._published_ns = snapshot.time_ns
         self._odometry.publish(snapshot.time_ns, *ground_truth(self._model))
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._command.stop()

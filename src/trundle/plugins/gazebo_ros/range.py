@@ -1,4 +1,4 @@
-"""libgazebo_ros_range.so: the nearest of a ray sensor's ranges, as a sonar or an infrared sensor tells it."""
+"""libgazebo_ros_range.so: the nearest of a ray sensor's ranges, as of a sonar or infrared sensor."""
 
 import numpy as np
 
@@ -27,7 +27,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     outlet = SensorPublisher(node, topic, "sensor_msgs/Range", read_frame_name(tag, "world"), rate_hz=rate_hz)
     kind = parameters.string("radiation", default="ultrasound")
     if kind not in _KINDS:
-        report.warn(tag.at, f"radiation {kind!r} is neither of {', '.join(_KINDS)}; it is ultrasound")
+        report.warn(tag.at, f"radiation {kind!r} is neither of {', '.join(_KINDS)}; ultrasound is used")
     fov = parameters.number("fov", default=0.05, report=report)
     noise = parameters.number("gaussianNoise", default=0.0, report=report)
     random = np.random.default_rng(0)

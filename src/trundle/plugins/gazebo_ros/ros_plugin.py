@@ -1,4 +1,4 @@
-"""What every model plugin of gazebo_ros shares: it is nothing without the ROS graph."""
+"""Base of gazebo_ros' model plugins, which need the ROS graph."""
 
 from typing import Self
 
@@ -13,7 +13,7 @@ from .namespaces import mark_read
 
 
 class RosPlugin(Plugin):
-    """Reads its parameters when it is made; those that it did not read are named then."""
+    """Plugin that reads its parameters in `__init__`; unread ones are reported after it."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         """See `Plugin.load`."""
@@ -30,10 +30,10 @@ class RosPlugin(Plugin):
 
 
 def required(parameters: XmlNode, name: str) -> str:
-    """A parameter's text.
+    """Text of a required parameter.
 
     Raises:
-        TrundleError: it is missing, or empty.
+        TrundleError: missing or empty.
     """
     text = parameters.string(name).strip()
     if not text:

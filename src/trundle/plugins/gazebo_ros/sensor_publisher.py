@@ -1,4 +1,4 @@
-"""What sensor plugins of gazebo_ros share: a header, a rate of their own, and a wanted topic."""
+"""Publisher of gazebo_ros' sensor plugins: one topic with header and update rate."""
 
 from collections.abc import Callable, Mapping
 from typing import Protocol
@@ -10,30 +10,30 @@ from .namespaces import join_topic, rate_to_period_ns
 
 
 class UpdateRateThrottle:
-    """Lets readings through no more often than a plugin's own rate, which may be lower than the sensor's."""
+    """Limits readings to the plugin's <updateRate>, which may be lower than the sensor's."""
 
     def __init__(self, rate_hz: float) -> None:
         self._period_ns = rate_to_period_ns(rate_hz)
         self._next_ns = 0
 
     def is_due(self, time_ns: int) -> bool:
-        """Whether this reading is one of them; a rate of 0 takes all."""
-        if time_ns + self._period_ns < self._next_ns:  # time was turned back
+        """True if a reading of this time is due; at rate 0 all are."""
+        if time_ns + self._period_ns < self._next_ns:  # the simulation was reset
             self._next_ns = time_ns
         if time_ns < self._next_ns:
             return False
         self._next_ns += self._period_ns
-        if self._next_ns <= time_ns:  # nobody listened for a while
+        if self._next_ns <= time_ns:  # there was no subscriber for a while
             self._next_ns = time_ns + self._period_ns
         return True
 
 
 class StampedReading(Protocol):
-    """Any reading."""
+    """Reading of any sensor."""
 
     @property
     def time_ns(self) -> int:
-        """When."""
+        """Simulation time of the measurement [ns]."""
         ...
 
 
@@ -47,21 +47,21 @@ class SensorPublisher:
         self._throttle = UpdateRateThrottle(rate_hz)
 
     def has_subscribers(self) -> bool:
-        """Whether anybody listens."""
+        """True if there is a subscriber."""
         return self._topic.has_subscribers
 
     def publish(self, reading: StampedReading, make: Callable[[], Mapping[str, object]]) -> None:
-        """Make a message of a reading and publish it, if somebody listens and it is due."""
+        """Make a reading's message and publish it, if there is a subscriber and it is due."""
         if self._topic.has_subscribers and self._throttle.is_due(reading.time_ns):
             header = {"stamp": reading.time_ns, "frame_id": self._frame}
             self._topic.publish({**make(), "header": header})
 
 
 def read_frame_name(tag: PluginTag, default: str) -> str:
-    """<frameName>, as tf has it: without a leading slash."""
+    """<frameName> without a leading slash, as tf2 requires."""
     return tag.node.string("frameName", default=default).strip().lstrip("/")
 
 
 def read_topic_name(tag: PluginTag, namespace: str, name: str, default: str) -> str:
-    """The global name of the topic that a parameter names."""
+    """Global name of the topic that a parameter names."""
     return join_topic(namespace, tag.node.string(name, default=default))

@@ -12,7 +12,7 @@ from .twist_command import TwistCommand
 
 
 class SkidSteerDrive(RosPlugin):
-    """Keeps the wheels of each side at one speed.
+    """Drives the wheels of each side at one speed.
 
     Parameters, with gazebo_ros' defaults: <leftFrontJoint> left_front_joint and so on, <wheelSeparation> 0.4,
     <wheelDiameter> 0.15, <torque> 5, <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
@@ -48,7 +48,7 @@ class SkidSteerDrive(RosPlugin):
         )
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep all wheels at their speeds."""
+        """Set all wheels' speeds."""
         del sim
         speeds = self._drive.wheel_speeds(self._command.forward, self._command.yaw_rate)
         for side, speed in zip(self._sides, speeds, strict=True):
@@ -56,9 +56,9 @@ class SkidSteerDrive(RosPlugin):
                 wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell where that led."""
+        """Publish odometry."""
         self._odometry.publish(snapshot.time_ns, *ground_truth(self._model))
 
     def reset(self) -> None:
-        """Stand still."""
+        """Stop."""
         self._command.stop()

@@ -1,4 +1,4 @@
-"""libgazebo_ros_tricycle_drive.so: one driven, steered wheel by cmd_vel; odometry and tf out."""
+"""libgazebo_ros_tricycle_drive.so: one driven and steered wheel by cmd_vel; odometry and tf out."""
 
 import math
 
@@ -14,18 +14,18 @@ from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
 
 _LAG = 2
-"""Updates in which an angle is made good for."""
+"""Time constant of the steering, in updates."""
 
 
 class TricycleDrive(RosPlugin):
-    """Turns the driven wheel at linear.x over its radius, and steers it to angular.z, which is an angle here [rad].
+    """Drives the wheel at linear.x / radius, and steers it to angular.z, an angle here [rad].
 
     Parameters, with gazebo_ros' defaults: <steeringJoint> front_steering_joint, <actuatedWheelJoint> front_wheel_joint,
     <encoderWheelLeftJoint> left_wheel_joint, <encoderWheelRightJoint> right_wheel_joint, <actuatedWheelDiameter> and
     <encoderWheelDiameter> 0.15, <encoderWheelSeparation> 0.5, <wheelAcceleration> 0 (at once) and <wheelDeceleration>
     (the same) [rad/s²], <steeringSpeed> 0 (at once) [rad/s], <wheelTorque> 5, <odometrySource> world or encoder,
     <updateRate> 100, <commandTopic>, <odometryTopic>, <odometryFrame>, <robotBaseFrame> and <publishWheelJointState>.
-    By its encoders the robot turns to the left as it does in truth; the original has that mirrored.
+    Encoder odometry turns as the robot does; the original's is mirrored.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -67,7 +67,7 @@ class TricycleDrive(RosPlugin):
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
-        """Keep speed and angle."""
+        """Set wheel speed and steering angle."""
         dt_s = (self.period_ns or sim.step_ns) / 1e9
         wanted = self._command.forward / self._radius
         change = self._faster if abs(wanted) > abs(self._speed) else self._slower
@@ -80,7 +80,7 @@ class TricycleDrive(RosPlugin):
         self._steering.drive_kinematically((angle - self._steering.position) / (_LAG * dt_s))
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell where that led."""
+        """Publish odometry and joint states."""
         pose, twist = self._integrate_wheels(snapshot.time_ns) if self._from_wheels else ground_truth(self._model)
         self._odometry.publish(snapshot.time_ns, pose, twist)
         if self._states is not None and self._states.has_subscribers:
@@ -95,7 +95,7 @@ class TricycleDrive(RosPlugin):
             )
 
     def reset(self) -> None:
-        """Stand still, straight, at the origin of the odometry."""
+        """Stop, steer straight, and restart odometry at its origin."""
         self._command.stop()
         self._speed, self._angle = 0.0, self._steering.position
         self._place = WheelOdometry(self._drive)
@@ -103,7 +103,7 @@ class TricycleDrive(RosPlugin):
         self._last_ns = 0
 
     def _integrate_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
-        """Add up what the wheels turned."""
+        """Integrate the encoder wheels' rotation; return pose and twist."""
         turned = [wheel.position for wheel in self._encoders]
         left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
         distance, turn = self._place.update(left, right)

@@ -1,4 +1,4 @@
-"""The velocity that a robot is told to have, on a topic of geometry_msgs/Twist."""
+"""Velocity command on a topic of geometry_msgs/Twist."""
 
 import math
 from typing import Self
@@ -10,24 +10,24 @@ from .namespaces import join_topic
 
 
 class TwistCommand:
-    """The last command; it holds until the next."""
+    """Last command; it holds until the next."""
 
     def __init__(self, node: Node, topic: str) -> None:
         """Subscribe."""
         self.forward = self.sideways = self.yaw_rate = 0.0
-        """[m/s], [m/s] to the left, [rad/s] to the left."""
+        """Forward [m/s], left [m/s], counter-clockwise [rad/s]."""
         self.stamp_ns = 0
-        """When it came."""
+        """Time of arrival [ns]."""
         self._node = node
         node.subscribe(topic, "geometry_msgs/Twist", self._on_command, queue_size=1)
 
     @classmethod
     def from_tag(cls, tag: PluginTag, namespace: str, node: Node) -> Self:
-        """By <commandTopic>, as every drive of gazebo_ros has it."""
+        """Read <commandTopic>, the parameter of every gazebo_ros drive."""
         return cls(node, join_topic(namespace, tag.node.string("commandTopic", default="cmd_vel")))
 
     def stop(self) -> None:
-        """Ask for nothing."""
+        """Set the command to zero."""
         self.forward = self.sideways = self.yaw_rate = 0.0
 
     def _on_command(self, twist: Message) -> None:

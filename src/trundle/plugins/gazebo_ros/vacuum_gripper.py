@@ -1,4 +1,4 @@
-"""libgazebo_ros_vacuum_gripper.so: a link that sucks on to itself what comes near, while it is on."""
+"""libgazebo_ros_vacuum_gripper.so: a link that attracts near links while switched on."""
 
 import math
 
@@ -13,20 +13,20 @@ from .namespaces import join_topic
 from .ros_plugin import RosPlugin, required
 
 _REACH = 0.05
-"""[m] From origin to origin."""
+"""Range between link origins [m]."""
 _GRIP = 0.01
-"""[m] What is nearer is put where the gripper is."""
+"""Distance [m] below which a link is moved to the gripper's origin."""
 _STRONGEST = 20.0
-"""[N]"""
+"""Largest force [N]."""
 
 
 class VacuumGripper(RosPlugin):
-    """`on` and `off` (std_srvs/Empty); <topicName> tells at every step whether something is held (std_msgs/Bool).
+    """Services `on` and `off` (std_srvs/Empty); <topicName> (std_msgs/Bool) is true while a link is held.
 
     Parameters, of gazebo_ros: <bodyName> and <topicName> (required), <robotNamespace>. Links of other models whose
-    origins are within 5 cm move as the gripper does and are pulled with 1 N·m over the distance, at most 20 N; within
-    1 cm they are put at the gripper. A link that hangs from others is only pulled. The pull is along the way to the
-    gripper; the original's is turned with the object.
+    origins are within 5 cm get the gripper's twist and a force of 1 N·m / distance, at most 20 N; within 1 cm they are
+    moved to its origin. A link with a parent joint gets only the force. The force points to the gripper; the original's
+    is rotated with the object.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -37,22 +37,22 @@ class VacuumGripper(RosPlugin):
         self._link = model.link(required(parameters, "bodyName"))
         topic = required(parameters, "topicName")
         self._is_on = self._holds = False
-        self._was_holding = node.advertise(join_topic(namespace, topic), "std_msgs/Bool", queue_size=1)
+        self._topic = node.advertise(join_topic(namespace, topic), "std_msgs/Bool", queue_size=1)
         node.advertise_service(join_topic(namespace, "on"), "std_srvs/Empty", lambda _: self._switch(on=True))
         node.advertise_service(join_topic(namespace, "off"), "std_srvs/Empty", lambda _: self._switch(on=False))
 
     def before_step(self, sim: Simulation) -> None:
-        """Suck."""
+        """Attract the near links."""
         near = self._find_nearby_links(sim) if self._is_on else []
         for link in near:
             self._apply_suction(link, free=sim.engine.writer.is_free(link.index))
         self._holds = bool(near)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish whether a link is held."""
         del snapshot
-        if self._was_holding.has_subscribers:
-            self._was_holding.publish({"data": self._holds})
+        if self._topic.has_subscribers:
+            self._topic.publish({"data": self._holds})
 
     def _find_nearby_links(self, sim: Simulation) -> list[LinkHandle]:
         positions = sim.engine.reader.link_poses()[:, :3]

@@ -1,4 +1,4 @@
-"""libgazebo_ros_wheel_slip.so: Gazebo's tyres, whose compliance users change while they run."""
+"""libgazebo_ros_wheel_slip.so: libWheelSlipPlugin.so with dynamic_reconfigure."""
 
 from typing import Self
 
@@ -9,16 +9,15 @@ from trundle.simulation import ModelHandle, Simulation
 
 from ..gazebo.wheel_slip import WheelSlip
 
-_AS_THEY_ARE = -1.0
+_UNCHANGED = -1.0
 _MOST = 20.0
-"""gazebo_plugins' bound."""
+"""Upper bound of compliances, from gazebo_plugins."""
 
 
 class RosWheelSlip(WheelSlip):
-    """As `WheelSlip`, with options of dynamic_reconfigure at `/<model>/<robotNamespace>`, `wheel_slip` by default.
+    """`WheelSlip` with dynamic_reconfigure options at `/<model>/<robotNamespace>`, `wheel_slip` by default.
 
-    They are all wheels' `slip_compliance_unitless_lateral` and `slip_compliance_unitless_longitudinal`; -1: as the file
-    says.
+    `slip_compliance_unitless_lateral` and `slip_compliance_unitless_longitudinal` set all wheels'; -1: as in the file.
     """
 
     @classmethod
@@ -35,8 +34,8 @@ class RosWheelSlip(WheelSlip):
         options = [
             Option(
                 name=f"slip_compliance_unitless_{way}",
-                value=_AS_THEY_ARE,
-                lower=_AS_THEY_ARE,
+                value=_UNCHANGED,
+                lower=_UNCHANGED,
                 upper=_MOST,
                 description=f"Unitless slip compliance (slip / friction) in the {way} direction",
             )

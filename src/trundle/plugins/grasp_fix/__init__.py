@@ -1,4 +1,4 @@
-"""libgazebo_grasp_fix.so: what fingers hold is welded to the palm while they hold it."""
+"""libgazebo_grasp_fix.so: welds an object to the palm while fingers hold it."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""One hand: its palm, its fingers, and what is welded to it."""
+"""One gripper: its palm, its fingers, and the object welded to it."""
 
 from collections.abc import Sequence
 
@@ -12,26 +12,26 @@ from .contact_average import ContactAverage
 
 
 class Arm:
-    """Holds one object at a time."""
+    """Gripper that holds one object at a time."""
 
-    def __init__(self, sim: Simulation, model: ModelHandle, tag: XmlNode, *, leaves: bool) -> None:
+    def __init__(self, sim: Simulation, model: ModelHandle, tag: XmlNode, *, disable_collisions: bool) -> None:
         """Read <arm>.
 
         Args:
-            sim: where the fingers are.
-            model: whose fingers.
-            tag: with <arm_name>, <palm_link> and <gripper_link>.
-            leaves: whether what is held touches nothing meanwhile.
+            sim: the simulation.
+            model: of the fingers.
+            tag: <arm> with <arm_name>, <palm_link> and <gripper_link>.
+            disable_collisions: True: a held object collides with nothing.
 
         Raises:
-            UsageError: there is no such palm.
+            UsageError: no such palm link.
         """
-        self._sim, self._model, self._leaves = sim, model, leaves
+        self._sim, self._model, self._disable_collisions = sim, model, disable_collisions
         self.at = tag.at
         self.name = tag.string("arm_name")
         self.palm = model.link(tag.string("palm_link"))
         self.fingers: dict[str, LinkHandle] = {}
-        """By collision, `model::link::collision`."""
+        """Collision, `model::link::collision` → link of the finger."""
         for child in tag.all("gripper_link"):
             found = next((link for link in model.links if link.name == child.text), None)
             if found is None:
@@ -41,9 +41,9 @@ class Arm:
             names = (f"{model.name}::{found.name}::{collision.name}" for collision in found.link.collisions)
             self.fingers |= dict.fromkeys(names, found)
         self.held = ""
-        """The collision that is held, `model::link::collision`."""
+        """Held collision, `model::link::collision`; empty: none."""
         self.grip: list[ContactAverage] = []
-        """Where the fingers were on it when it was taken."""
+        """Contacts of the fingers when it was grasped."""
         self._surfaces: list[Surface] = []
 
     @property
@@ -51,52 +51,52 @@ class Arm:
         return f"{self._model.name}::{self.name}::grasp"
 
     def attach(self, collision: str, link: LinkHandle, grip: list[ContactAverage]) -> None:
-        """Weld an object's link to the palm as it lies now.
+        """Weld an object's link to the palm in its current pose.
 
         Args:
-            collision: of the object.
+            collision: of the object, `model::link::collision`.
             link: of that collision.
-            grip: what the fingers have of it.
+            grip: contacts of the fingers with it.
 
         Raises:
-            TrundleError: the two cannot be joined; nothing has changed.
+            TrundleError: the two cannot be joined; nothing is changed.
         """
         child, parent = collision.rpartition("::")[0], f"{self._model.name}::{self.palm.name}"
         self._sim.attach(Joint(name=self._joint, type=JointType.FIXED, parent=parent, child=child, at=self.at))
         self.held, self.grip = collision, grip
         self._surfaces = [each.surface for each in link.link.collisions]
-        if self._leaves:
+        if self._disable_collisions:
             self._set_surfaces(child, [replace(each, collide_bitmask=0, category_bitmask=0) for each in self._surfaces])
 
     def detach(self) -> None:
-        """Let it go."""
+        """Release the object."""
         self._sim.detach(self._joint)
-        if self._leaves:
+        if self._disable_collisions:
             self._set_surfaces(self.held.rpartition("::")[0], self._surfaces)
-        self.forget()
+        self.clear()
 
-    def forget(self) -> None:
-        """Hold nothing, for what was held is gone."""
+    def clear(self) -> None:
+        """Forget the held object."""
         self.held, self.grip = "", []
 
     @property
     def is_joint_lost(self) -> bool:
-        """Whether something else took the joint away, as when a model is deleted."""
+        """True if the joint was removed by something else, as when a model is deleted."""
         return bool(self.held) and all(joint.name != self._joint for joint in self._sim.joints)
 
     def _set_surfaces(self, link: str, surfaces: Sequence[Surface]) -> None:
-        """Give the collisions of `model::link` other surfaces."""
+        """Set the surfaces of the collisions of `model::link`."""
         owner, _, name = link.partition("::")
         world = self._sim.world
 
-        def covered(model: Model) -> Model:
+        def with_surfaces(model: Model) -> Model:
             if model.name != owner:
                 return model
             return replace(
                 model, links=tuple(_with(each, surfaces) if each.name == name else each for each in model.links)
             )
 
-        self._sim.edit(replace(world, models=tuple(map(covered, world.models))))
+        self._sim.edit(replace(world, models=tuple(map(with_surfaces, world.models))))
 
 
 def _with(link: Link, surfaces: Sequence[Surface]) -> Link:

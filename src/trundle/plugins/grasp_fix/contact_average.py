@@ -1,4 +1,4 @@
-"""What fingers and an object do to each other, step by step, until somebody looks at it."""
+"""Contacts between fingers and an object, averaged over steps."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,25 +12,25 @@ from trundle.physics import Contact
 from trundle.simulation import LinkHandle
 
 _MIN_RATIO = 0.3
-"""Of the weaker to the stronger of two forces that hold something between them."""
+"""Least ratio of the weaker to the stronger of two opposing forces."""
 _MIN_FORCE = 1e-4
-"""[N] What is less holds nothing."""
+"""Least force that holds an object [N]."""
 
 
 @dataclass(slots=True)
 class ContactAverage:
-    """One collision of a finger on one object: sums over the steps in which they touched."""
+    """Contact of one finger collision with one object: sums over the steps in contact."""
 
     arm: str
     finger: LinkHandle
     object_link: LinkHandle
     steps: int = 0
     force: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
-    """(3,) On the object, world axes [N]; the mean over the points of each step."""
+    """(3,) Sum of each step's mean force on the object, world axes [N]."""
     point: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
-    """(3,) Where, in the finger's frame [m]; likewise."""
+    """(3,) Sum of each step's mean contact point, in the finger's frame [m]."""
     object_origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
-    """(3,) Of the object's link, in the finger's frame [m]."""
+    """(3,) Sum of the origins of the object's link, in the finger's frame [m]."""
 
     def add(self, forces: NDArray[np.float64], points: NDArray[np.float64]) -> None:
         """Add one step's contacts.
@@ -48,11 +48,11 @@ class ContactAverage:
 
     @property
     def mean_force(self) -> NDArray[np.float64]:
-        """(3,) [N]"""
+        """(3,) Mean force on the object, world axes [N]."""
         return self.force / self.steps
 
     def slip_distance(self) -> float:
-        """How much nearer or farther the place that touched is from the object than it was then [m]."""
+        """Change of the distance between contact point and object's origin since the contact [m]."""
         point, origin = self.point / self.steps, self.object_origin / self.steps
         x, y, z = point.tolist()
         now = math.dist(self.finger.pose.transform_point((x, y, z)), self.object_link.pose.position)
@@ -62,11 +62,11 @@ class ContactAverage:
 def group_by_pair(
     contacts: Iterable[Contact], fingers: Mapping[str, object]
 ) -> dict[tuple[str, str], tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Contacts of one step by (object, finger) collision: (n, 3) forces on the object and (n, 3) points, in the world.
+    """Group contacts by (object, finger) collision: (n, 3) forces on the object and (n, 3) points, in the world.
 
     Args:
         contacts: of one step.
-        fingers: collisions that are the gripper's; where both are, the second is the finger.
+        fingers: collisions of the gripper; if both are, the second is the finger.
     """
     found: dict[tuple[str, str], list[tuple[Sequence[float], Sequence[float]]]] = {}
     for contact in contacts:
@@ -78,13 +78,13 @@ def group_by_pair(
         force = [sign * value for value in contact.force.force]
         found.setdefault(pair, []).append((force, contact.position))
     return {
-        pair: (np.array([force for force, _ in told]), np.array([point for _, point in told]))
-        for pair, told in found.items()
+        pair: (np.array([force for force, _ in rows]), np.array([point for _, point in rows]))
+        for pair, rows in found.items()
     }
 
 
 def forces_oppose(forces: Sequence[NDArray[np.float64]], least_angle_rad: float) -> bool:
-    """Whether two of the forces oppose each other by more than an angle, and neither is much weaker."""
+    """True if two of the forces are further apart than an angle, and neither is much weaker."""
     for one, other in combinations(forces, 2):
         strong, weak = sorted((float(np.linalg.norm(one)), float(np.linalg.norm(other))), reverse=True)
         if weak < _MIN_FORCE or weak < _MIN_RATIO * strong:

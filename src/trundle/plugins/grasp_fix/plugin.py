@@ -1,4 +1,4 @@
-"""Counts how long something is held between fingers, and welds or parts."""
+"""Grasp counter: welds an object that stays between fingers, and releases it."""
 
 import math
 from collections import Counter
@@ -19,13 +19,13 @@ _USUAL_TOPIC = "__default_topic__"
 
 
 class GraspFix(Plugin):
-    """Welds an object to a palm once fingers have pushed it from opposite sides for a while.
+    """Welds an object to a palm after fingers have pressed it from opposite sides for a while.
 
     Parameters, with the original's defaults: any number of <arm> with <arm_name>, <palm_link> and <gripper_link> (any
-    number); <update_rate> 5 [Hz, of simulated time; the original's is the wall's]; <forces_angle_tolerance> 120 [deg]
+    number); <update_rate> 5 [Hz, of simulated time; wall time in the original]; <forces_angle_tolerance> 120 [deg]
     (at least 90): forces further apart oppose; <max_grip_count> 10; <grip_count_threshold> (half of that): more updates
-    than these weld; <release_tolerance> 0.005 [m]: how far a finger may go from what it no longer presses;
-    <disable_collisions_on_attach> false: whether what is welded touches nothing meanwhile.
+    than these weld; <release_tolerance> 0.005 [m]: distance that a finger may move from the held object;
+    <disable_collisions_on_attach> false: the held object collides with nothing.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, say: Callable[[str], object], tag: PluginTag) -> None:
@@ -39,22 +39,22 @@ class GraspFix(Plugin):
         rate_hz = parameters.integer("update_rate", default=5, report=report)
         if rate_hz <= 0:
             raise UsageError(f"<update_rate> must be > 0 Hz, got {rate_hz}")
-        self._every_ns = round(1e9 / rate_hz)
-        self._most = parameters.integer("max_grip_count", default=10, report=report)
-        self._enough = parameters.integer("grip_count_threshold", default=self._most // 2, report=report)
-        self._slack = parameters.number("release_tolerance", default=0.005, report=report)
-        leaves = parameters.flag("disable_collisions_on_attach", default=False, report=report)
+        self._update_period_ns = round(1e9 / rate_hz)
+        self._max_count = parameters.integer("max_grip_count", default=10, report=report)
+        self._threshold = parameters.integer("grip_count_threshold", default=self._max_count // 2, report=report)
+        self._release_tolerance = parameters.number("release_tolerance", default=0.005, report=report)
+        disable_collisions = parameters.flag("disable_collisions_on_attach", default=False, report=report)
         if parameters.string("contact_topic", default=_USUAL_TOPIC).strip() != _USUAL_TOPIC:
-            report.warn(tag.at, "<contact_topic> is not heeded, as in the original")
+            report.warn(tag.at, "<contact_topic> is ignored, as in the original")
         self._arms: dict[str, Arm] = {}
         for child in parameters.all("arm"):
-            self._add(child, model, leaves)
+            self._add(child, model, disable_collisions)
         if not self._arms:
             raise UsageError("it needs an <arm> with fingers that have collisions")
         self._fingers = {name: (arm, link) for arm in self._arms.values() for name, link in arm.fingers.items()}
-        self._among = frozenset(self._fingers)
+        self._finger_names = frozenset(self._fingers)
         parameters.report_unread(report)
-        self._forget()
+        self._clear()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -62,47 +62,47 @@ class GraspFix(Plugin):
         return cls(sim, model, str if node is None else node.log.info, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Feel what the last step did; now and then take or drop."""
+        """Add the contacts of the last step; at the update rate, grasp or release."""
         self._record_contacts()
         if sim.time_ns < self._next_ns:
             return
-        self._next_ns = sim.time_ns + self._every_ns
+        self._next_ns = sim.time_ns + self._update_period_ns
         touching, self._touching = self._touching, {}
         for arm in self._arms.values():
             if arm.is_joint_lost:
-                arm.forget()
+                arm.clear()
         held = {
             name
             for name, each in touching.items()
             if forces_oppose([t.mean_force for t in each.values()], self._angle_rad)
         }
         for name in sorted(held):
-            self._count[name] = min(self._count[name] + 1, self._most)
-            if self._count[name] > self._enough:
+            self._count[name] = min(self._count[name] + 1, self._max_count)
+            if self._count[name] > self._threshold:
                 self._attach(name, list(touching[name].values()))
         for name in sorted(self._count.keys() - held):
             self._count[name] = max(self._count[name] - 1, 0)
-            if self._count[name] <= self._enough:
+            if self._count[name] <= self._threshold:
                 self._detach_if_slipped(name)
 
     def reset(self) -> None:
-        """Open every hand."""
+        """Release every object."""
         for arm in self._arms.values():
             if arm.held and not arm.is_joint_lost:
                 arm.detach()
-        self._forget()
+        self._clear()
 
-    def _forget(self) -> None:
-        self._next_ns = self._sim.time_ns + self._every_ns
+    def _clear(self) -> None:
+        self._next_ns = self._sim.time_ns + self._update_period_ns
         self._touching: dict[str, dict[str, ContactAverage]] = {}
-        """By object's collision and finger's."""
+        """Object's collision → finger's collision → contact."""
         self._count: Counter[str] = Counter()
-        """How often each object was found held, less how often not."""
+        """Object's collision → updates in which it was held, minus those in which it was not."""
 
-    def _add(self, tag: XmlNode, model: ModelHandle, leaves: bool) -> None:
+    def _add(self, tag: XmlNode, model: ModelHandle, disable_collisions: bool) -> None:
         report = self._sim.report
         try:
-            arm = Arm(self._sim, model, tag, leaves=leaves)
+            arm = Arm(self._sim, model, tag, disable_collisions=disable_collisions)
         except UsageError as error:
             report.warn(tag.at, f"<arm>: {error}; it is left out")
             return
@@ -115,7 +115,7 @@ class GraspFix(Plugin):
         self._arms[arm.name] = arm
 
     def _record_contacts(self) -> None:
-        contacts = self._sim.contacts(self._among)
+        contacts = self._sim.contacts(self._finger_names)
         if not contacts:
             return
         for (name, finger), (forces, points) in group_by_pair(contacts, self._fingers).items():
@@ -129,7 +129,7 @@ class GraspFix(Plugin):
             found[finger].add(forces, points)
 
     def _attach(self, name: str, touching: list[ContactAverage]) -> None:
-        """Have the arm with most fingers on an object hold it, unless one of those that touch it holds something."""
+        """Attach an object to the arm with most fingers on it, unless an arm that touches it holds one."""
         fingers = Counter(each.arm for each in touching)
         if any(self._arms[arm].held for arm in fingers):
             return
@@ -143,12 +143,12 @@ class GraspFix(Plugin):
 
     def _detach_if_slipped(self, name: str) -> None:
         arm = next((arm for arm in self._arms.values() if arm.held == name), None)
-        if arm is not None and any(each.slip_distance() > self._slack for each in arm.grip):
+        if arm is not None and any(each.slip_distance() > self._release_tolerance for each in arm.grip):
             arm.detach()
             self._count[name] = 0
-            self._say(f"grasp_fix: {arm.name} lets {name} go")
+            self._say(f"grasp_fix: {arm.name} releases {name}")
 
 
 def _link_of(model: ModelHandle, collision: str) -> LinkHandle:
-    """Whose collision `model::link::collision` is."""
+    """Link of the collision `model::link::collision`."""
     return model.link(collision.removeprefix(f"{model.name}::").rpartition("::")[0])

@@ -1,4 +1,4 @@
-"""libhector_gazebo_ros_baro.so: how high a link is, and the pressure there."""
+"""libhector_gazebo_ros_baro.so: height of a link, and the air pressure there."""
 
 from trundle.model import PluginTag
 from trundle.ros import Node, Publisher
@@ -8,7 +8,7 @@ from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 _SCALE_M, _POWER = 44330.0, 5.263157
-"""Of the barometric formula, as the original has it."""
+"""Scale and exponent of the barometric formula, from the original."""
 
 
 class Baro(LinkSensor):
@@ -35,20 +35,20 @@ class Baro(LinkSensor):
         self._altimeter = advertise("altimeterTopicName", "altimeter", "hector_uav_msgs/Altimeter")
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
-        heard = [topic for topic in (self._height, self._altimeter) if topic is not None and topic.has_subscribers]
-        if not heard:
+        """Publish height and pressure."""
+        topics = [topic for topic in (self._height, self._altimeter) if topic is not None and topic.has_subscribers]
+        if not topics:
             return
         (height,) = self._errors.apply(self.link.pose.position[2:], self.elapsed_s(snapshot.time_ns))
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
         altitude = height + self._elevation
         pressure = max(1.0 - altitude / _SCALE_M, 0.0) ** _POWER * self._qnh
-        for topic in heard:
+        for topic in topics:
             if topic is self._height:
                 topic.publish({"header": header, "point": {"z": height}})
             else:
                 topic.publish({"header": header, "altitude": altitude, "pressure": pressure, "qnh": self._qnh})
 
     def reset(self) -> None:
-        """Begin a new drift."""
+        """Restart the drift."""
         self._errors.reset()

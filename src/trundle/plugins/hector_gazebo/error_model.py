@@ -1,4 +1,4 @@
-"""How hector_gazebo's sensors err: scale, offset, drift and noise, axis by axis."""
+"""Error model of hector_gazebo's sensors: scale, offset, drift and noise of each axis."""
 
 from collections.abc import Sequence
 
@@ -21,8 +21,8 @@ class ErrorModel:
             parameters: of the plugin.
             report: takes what cannot be read.
             random: for noise and drift.
-            prefix: of the parameters: with accel, <accelDrift> and so on.
-            axes: how many values there are; one number stands for all.
+            prefix: of the parameters: accel for <accelDrift> and so on.
+            axes: number of values; a single number holds for all.
         """
 
         def read(name: str, default: float) -> NDArray[np.float64]:
@@ -38,24 +38,24 @@ class ErrorModel:
         self._frequency = read("driftFrequency", 1.0 / 3600.0)
         self._scale = read("scaleError", 1.0)
         self.noise = read("gaussianNoise", 0.0)
-        """Standard deviation, (axes,)."""
+        """(axes,) Standard deviation of the noise."""
         self.reset()
 
     @property
     def variances(self) -> list[float]:
-        """Of drift and noise together, axis by axis."""
+        """(axes,) Variances of drift and noise together."""
         return (self._drift**2 + self.noise**2).tolist()
 
     def reset(self) -> None:
-        """Begin a new drift."""
+        """Restart the drift."""
         self._drifted = self._random.normal(0.0, 1.0, self._drift.shape) * self._drift
 
     def apply(self, values: Sequence[float], dt_s: float) -> list[float]:
-        """What is told instead of true values, so long after the last ones."""
+        """Values with errors, `dt_s` after the last ones."""
         return (np.array(values) * self._scale + self.sample(dt_s)).tolist()
 
     def sample(self, dt_s: float) -> NDArray[np.float64]:
-        """What is added to true values, (axes,)."""
+        """(axes,) Errors to add to true values."""
         kept = np.exp(-self._frequency * dt_s)
         push = np.sqrt(2.0 * self._frequency) * self._drift * self._random.normal(0.0, 1.0, self._drift.shape)
         self._drifted = kept * self._drifted + dt_s * push

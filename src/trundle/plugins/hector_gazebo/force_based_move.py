@@ -1,4 +1,4 @@
-"""libgazebo_ros_force_based_move.so: a model that a force pushes to the velocity that cmd_vel asks for."""
+"""libgazebo_ros_force_based_move.so: velocity control of a model by forces."""
 
 import math
 
@@ -15,22 +15,22 @@ from ..gazebo_ros.twist_command import TwistCommand
 _VARIANCES = (1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
 _TWIST_VARIANCES = (1e-3, 1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
 _TURNING_VARIANCE = 100.0
-"""Of yaw, while the model turns."""
+"""Variance of yaw while the model turns [rad²]."""
 _STRAIGHT = 1e-4
-"""[rad/s] What turns more slowly drives straight."""
+"""Yaw rate [rad/s] below which motion is straight."""
 
 
 class ForceBasedMove(RosPlugin):
-    """Pushes <robotBaseFrame> at its centre of mass with gain · (asked − measured) along x and y, and about z.
+    """Applies gain · (commanded − measured velocity) along x and y, and about z, to <robotBaseFrame>.
 
     Parameters, with hector_gazebo's defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
     <robotBaseFrame> base_footprint, <odometryRate> 20, <publishOdometryTf> true, <x_velocity_p_gain> and
-    <y_velocity_p_gain> 10000 [N·s/m], <yaw_velocity_p_gain> 100 [N·m·s/rad]. Odometry begins at zero and adds up the
-    velocities that the model has when it is told.
+    <y_velocity_p_gain> 10000 [N·s/m], <yaw_velocity_p_gain> 100 [N·m·s/rad]. Odometry starts at zero and integrates the
+    model's velocities at the times of its messages.
     """
 
     SIDEWAYS = True
-    """Whether the odometry knows of the motion to the side."""
+    """True if odometry includes sideways motion."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         parameters, report = tag.node, sim.report
@@ -58,7 +58,7 @@ class ForceBasedMove(RosPlugin):
         self._place = Pose()
 
     def before_step(self, sim: Simulation) -> None:
-        """Push."""
+        """Apply the force and torque."""
         del sim
         twist = self.model.twist
         vx, vy, _ = self.model.pose.inverse().transform_vector(twist.linear)
@@ -68,7 +68,7 @@ class ForceBasedMove(RosPlugin):
         self._link.add_wrench(Wrench(self._link.pose.transform_vector(force), torque))
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell how far that led, now and then."""
+        """Publish odometry at its rate."""
         if self._published_ns is None:
             self._published_ns = snapshot.time_ns
         elapsed_ns = snapshot.time_ns - self._published_ns
@@ -85,7 +85,7 @@ class ForceBasedMove(RosPlugin):
         self._odometry.publish(snapshot.time_ns, self._place, twist, yaw_variance=yaw_variance)
 
     def reset(self) -> None:
-        """Ask for nothing, at the origin of the odometry."""
+        """Set the command to zero, and restart odometry at its origin."""
         self.command.stop()
         self._published_ns, self._place = None, Pose()
 
@@ -95,7 +95,7 @@ def _turns(rate: float) -> bool:
 
 
 def _arc(forward: float, sideways: float, turn: float) -> Pose:
-    """The pose after a constant body velocity [m, m, rad]."""
+    """Pose after a constant body twist, given as displacements [m, m, rad]."""
     along = math.sin(turn) / turn if turn else 1.0
     across = (1.0 - math.cos(turn)) / turn if turn else 0.0
     x, y = along * forward - across * sideways, across * forward + along * sideways

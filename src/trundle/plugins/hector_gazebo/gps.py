@@ -1,4 +1,4 @@
-"""libhector_gazebo_ros_gps.so: where a link is on Earth, and how fast it moves to the north and west."""
+"""libhector_gazebo_ros_gps.so: geodetic position of a link, and its velocity north and west."""
 
 import math
 
@@ -11,7 +11,7 @@ from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 _DIAGONAL_KNOWN = 2
-"""sensor_msgs/NavSatFix's number for it."""
+"""sensor_msgs/NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN"""
 
 
 class Gps(LinkSensor):
@@ -51,7 +51,7 @@ class Gps(LinkSensor):
         self._velocity = node.advertise(self.topic(velocity), "geometry_msgs/Vector3Stamped", queue_size=10)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish position and velocity."""
         if not (self._fix.has_subscribers or self._velocity.has_subscribers):
             return
         dt_s = self.elapsed_s(snapshot.time_ns)
@@ -77,6 +77,6 @@ class Gps(LinkSensor):
         )
 
     def reset(self) -> None:
-        """Begin new drifts."""
+        """Restart the drifts."""
         self._place.reset()
         self._speed.reset()

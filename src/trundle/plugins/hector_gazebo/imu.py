@@ -1,4 +1,4 @@
-"""libhector_gazebo_ros_imu.so: an imu that feels gravity, and errs as the file says."""
+"""libhector_gazebo_ros_imu.so: an imu with gravity and an error model."""
 
 from trundle.model import PluginTag
 from trundle.ros import Message, Node
@@ -10,7 +10,7 @@ from .error_model import ErrorModel
 from .link_sensor import LinkSensor
 
 _G = 9.8065
-"""The original's [m/s²]."""
+"""Standard gravity of the original [m/s²]."""
 
 
 class Imu(LinkSensor):
@@ -41,23 +41,23 @@ class Imu(LinkSensor):
         parameters.find("xyzOffset")
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the reading."""
         if not self._topic.has_subscribers:
             return
         dt_s = self.elapsed_s(snapshot.time_ns)
         motion = self._motion.sample(snapshot.time_ns)
         (ax, ay, az), (gx, gy, gz) = motion.acceleration, motion.in_link(self._gravity)
-        felt = (ax - gx + self._tilt[0], ay - gy + self._tilt[1], az - gz)
+        specific_force = (ax - gx + self._tilt[0], ay - gy + self._tilt[1], az - gz)
         turned = Pose.from_rpy(0, 0, 0, 0, 0, self._yaw + float(self._heading.sample(dt_s)[0]))
         qw, qx, qy, qz = (Pose(quaternion=motion.orientation) @ turned).quaternion
         strength = gx * gx + gy * gy + gz * gz
         roll, pitch, _ = (self._acceleration.noise**2 / strength).tolist() if strength > 0.0 else (-1.0, -1.0, 0.0)
-        told = {
-            "linear_acceleration": (self._acceleration, felt),
+        readings = {
+            "linear_acceleration": (self._acceleration, specific_force),
             "angular_velocity": (self._rate, motion.rate),
         }
-        values = {name: dict(zip("xyz", by.apply(true, dt_s), strict=True)) for name, (by, true) in told.items()}
-        covariances = {f"{name}_covariance": _diagonal((by.noise**2).tolist()) for name, (by, _) in told.items()}
+        values = {name: dict(zip("xyz", by.apply(true, dt_s), strict=True)) for name, (by, true) in readings.items()}
+        covariances = {f"{name}_covariance": _diagonal((by.noise**2).tolist()) for name, (by, _) in readings.items()}
         self._topic.publish(
             {
                 "header": {"stamp": snapshot.time_ns, "frame_id": self.frame},
@@ -69,7 +69,7 @@ class Imu(LinkSensor):
         )
 
     def reset(self) -> None:
-        """Begin new drifts."""
+        """Restart the drifts."""
         for errors in (self._acceleration, self._rate, self._heading):
             errors.reset()
 

@@ -1,4 +1,4 @@
-"""What hector_gazebo's sensors share: a link, a frame, a rate."""
+"""Base of hector_gazebo's sensors: link, frame and rate."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from ..gazebo_ros.ros_plugin import RosPlugin
 
 
 class LinkSensor(RosPlugin):
-    """Sits on <bodyName> (the first link), tells in <frameId>, at <updateRate>."""
+    """Sensor on <bodyName> (the first link), with header frame <frameId>, at <updateRate>."""
 
     def __init__(
         self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag, *, frame: str = "", rate_hz: float = 0.0
@@ -29,10 +29,10 @@ class LinkSensor(RosPlugin):
             parameters.find(name)
 
     def topic(self, name: str) -> str:
-        """A topic's global name."""
+        """Global name of a topic."""
         return join_topic(self._namespace, name)
 
     def elapsed_s(self, time_ns: int) -> float:
-        """Time since this was last asked."""
+        """Time since the last call [s]."""
         elapsed, self._last_ns = max(time_ns - self._last_ns, 0) / 1e9, time_ns
         return elapsed

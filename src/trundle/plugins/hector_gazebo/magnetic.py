@@ -1,4 +1,4 @@
-"""libhector_gazebo_ros_magnetic.so: the direction of Earth's field, as a link has it."""
+"""libhector_gazebo_ros_magnetic.so: Earth's magnetic field in a link's axes."""
 
 import math
 
@@ -39,14 +39,14 @@ class Magnetic(LinkSensor):
         self._topic = node.advertise(self.topic(topic), kind, queue_size=1)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the field."""
         if not self._topic.has_subscribers:
             return
         here = Pose(quaternion=self.link.pose.quaternion).inverse().transform_vector(self._field)
-        told = dict(zip("xyz", self._errors.apply(here, self.elapsed_s(snapshot.time_ns)), strict=True))
+        field = dict(zip("xyz", self._errors.apply(here, self.elapsed_s(snapshot.time_ns)), strict=True))
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
-        self._topic.publish({"header": header, self._value: told})
+        self._topic.publish({"header": header, self._value: field})
 
     def reset(self) -> None:
-        """Begin a new drift."""
+        """Restart the drift."""
         self._errors.reset()

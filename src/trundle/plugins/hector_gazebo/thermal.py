@@ -1,4 +1,4 @@
-"""libgazebo_ros_thermal_camera.so of hector_gazebo: what is purely red is hot, all else is dark."""
+"""libgazebo_ros_thermal_camera.so of hector_gazebo: pure red is hot, other colours are dark."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from ..gazebo_ros.camera import attach_images
 
 _HOT = (255, 0, 0)
 _DARKER = 8
-"""What the sum of the three colours is divided by."""
+"""Divisor of the sum of the three colours."""
 
 
 def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:

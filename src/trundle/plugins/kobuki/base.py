@@ -1,4 +1,4 @@
-"""A Kobuki's wheels, odometry and gyro; what it feels is in `feelers`."""
+"""Kobuki's wheels, odometry and gyro; its bumpers, cliff and wheel drop sensors are in `sensors`."""
 
 import math
 from typing import Any
@@ -23,12 +23,12 @@ _ON = 1
 
 
 class Kobuki(RosPlugin):
-    """Drives by `mobile_base/commands/velocity`; tells odom, joint_states, and on `mobile_base/…` what it feels.
+    """Drives by `mobile_base/commands/velocity`; publishes odom, joint_states and sensors on `mobile_base/…`.
 
     Parameters: <left_wheel_joint_name>, <right_wheel_joint_name>, <wheel_separation> [m], <wheel_diameter> [m],
     <torque> [N·m], <velocity_command_timeout> [s], <imu_name> and those of `KobukiSensors`, all required;
-    <publish_tf> false, <update_rate> 0 (every step). As in the original, the heading is the gyro's and
-    the way the wheels'.
+    <publish_tf> false, <update_rate> 0 (every step). As in the original, odometry takes the heading
+    from the gyro and the distance from the wheels.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -77,14 +77,14 @@ class Kobuki(RosPlugin):
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
-        """Turn the wheels; a command that is too old is none."""
+        """Set the wheels' speeds; a command older than the timeout counts as zero."""
         is_old = (sim.time_ns - self._commanded_ns) / 1e9 > self._timeout_s
         speeds = (0.0, 0.0) if is_old or not self._is_powered else self._speeds
         for wheel, speed in zip(self._wheels, speeds, strict=True):
             wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell all of it."""
+        """Publish joint states, odometry, imu and sensors."""
         time_ns = snapshot.time_ns
         self._publish_joint_states(time_ns)
         self._publish_odometry(time_ns)
@@ -102,7 +102,7 @@ class Kobuki(RosPlugin):
         self._sensors.publish(time_ns)
 
     def reset(self) -> None:
-        """Stand still, powered, at the origin of the odometry."""
+        """Stop with power on, and restart odometry at its origin."""
         self._speeds, self._commanded_ns, self._is_powered = (0.0, 0.0), 0, True
         self._place = [0.0, 0.0, 0.0]
         self._turned = [wheel.position for wheel in self._wheels]
@@ -122,7 +122,7 @@ class Kobuki(RosPlugin):
             )
 
     def _publish_odometry(self, time_ns: int) -> None:
-        """Add what the wheels and the gyro did since the last time."""
+        """Integrate wheels and gyro since the last call, and publish."""
         turned, elapsed = [wheel.position for wheel in self._wheels], (time_ns - self._published_ns) / 1e9
         distance = (
             sum(now - then for now, then in zip(turned, self._turned, strict=True)) / 2 * self._drive.wheel_radius
@@ -157,10 +157,10 @@ class Kobuki(RosPlugin):
 
 
 def _find_sensor(model: ModelHandle, name: str) -> ModelSensor:
-    """A sensor of the model, by its name.
+    """Sensor of a model by name.
 
     Raises:
-        UsageError: there is none, with those there are.
+        UsageError: no such sensor; the message lists those there are.
     """
     there = [ModelSensor(model.model, link.name, each) for link in model.model.links for each in link.sensors]
     for each in there:

@@ -1,4 +1,4 @@
-"""What a Kobuki feels: bumpers, cliffs and dropped wheels, as events and together in `sensors/core`."""
+"""Kobuki's bumpers, cliff and wheel drop sensors: events, and `sensors/core`."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -14,28 +14,28 @@ from trundle.xmlnode import XmlNode
 
 _SIDES = ("left", "center", "right")
 _BITS = {"left": 4, "center": 2, "right": 1}
-"""Of `bumper` and `cliff` in kobuki_msgs/SensorState."""
+"""Bits of `bumper` and `cliff` in kobuki_msgs/SensorState."""
 _DROP_BITS = {"left": 2, "right": 1}
 _BUMPER_M = (0.01, 0.13)
-"""Above the model's origin; what touches it lower or higher is no bump (updateBumper of the original)."""
+"""Height range of the bumper above the model's origin [m] (updateBumper of the original)."""
 _STAMP_MOD_MS = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
 class ModelSensor:
-    """A sensor of the model, read as others read it."""
+    """Sensor of the model, read by its topic."""
 
     model: Model
     link: str
     sensor: Sensor
 
     def topic(self, output: str) -> str:
-        """Where its output is published: contacts, imu, scan."""
+        """Topic of its output: contacts, imu, scan."""
         return sensor_topic(self.model, self.link, self.sensor, output, main=output)
 
 
 class _EventPublisher:
-    """Some that are on or off; an event is told when one changes."""
+    """Switches of one kind; publishes an event when one changes."""
 
     def __init__(self, publisher: Publisher, field: str, order: Iterable[str]) -> None:
         self._publisher = publisher
@@ -44,7 +44,7 @@ class _EventPublisher:
         self.on: set[str] = set()
 
     def set(self, side: str, *, on: bool, **more: int) -> None:
-        """One is, from now on."""
+        """Set one switch."""
         if on == (side in self.on):
             return
         self.on = self.on | {side} if on else self.on - {side}
@@ -53,11 +53,11 @@ class _EventPublisher:
 
 
 class KobukiSensors:
-    """Reads the model's contact and ray sensors by their own topics.
+    """Reads the model's contact and ray sensors by their topics.
 
     Parameters: <bumper_name> (a contact sensor), <cliff_sensor_left_name>, <cliff_sensor_center_name>,
     <cliff_sensor_right_name> (ray sensors) and <cliff_detection_threshold> [m], all required; without
-    <wheel_drop_left_sensor_name> and <wheel_drop_right_sensor_name>, as in old files, no wheel is felt to hang.
+    <wheel_drop_left_sensor_name> and <wheel_drop_right_sensor_name>, as in old files, there is no wheel drop.
     """
 
     def __init__(
@@ -72,12 +72,12 @@ class KobukiSensors:
         """Subscribe.
 
         Args:
-            model: whose bumper it is.
-            node: on the graph.
-            base: where its topics are.
+            model: of the bumper.
+            node: subscribes and publishes.
+            base: prefix of its topics.
             parameters: of the plugin.
-            report: takes what is wrong with them.
-            sensor: finds the sensor that a parameter names.
+            report: takes findings on them.
+            sensor: returns the sensor that a parameter names.
         """
         self._model = model
         self._edge_m = parameters.number("cliff_detection_threshold", default=0.0, report=report)
@@ -108,12 +108,12 @@ class KobukiSensors:
             listen(f"cliff_sensor_{side}_name", *scan, lambda message, side=side: self._on_cliff(side, message))
 
     def reset(self) -> None:
-        """Feel nothing."""
+        """Switch all off."""
         for switches in (self._bumpers, self._cliffs, self._drops):
             switches.on = set()
 
     def publish(self, time_ns: int) -> None:
-        """Say what is felt now."""
+        """Publish the current state."""
         if not self._core.has_subscribers:
             return
         state: dict[str, Any] = {
@@ -126,7 +126,7 @@ class KobukiSensors:
         self._core.publish(state)
 
     def _on_bumper(self, message: Message) -> None:
-        """Sixty degrees of the front belong to each bumper."""
+        """Update the bumpers: each covers 60° of the front."""
         height, yaw = self._model.pose.position[2], self._model.pose.rpy[2]
         pressed: set[str] = set()
         for state in message.states:
@@ -142,11 +142,11 @@ class KobukiSensors:
             self._bumpers.set(side, on=side in pressed)
 
     def _on_wheel_drop(self, side: str, message: Message) -> None:
-        """A wheel that touches nothing hangs."""
+        """Update a wheel drop sensor: a wheel without contacts has dropped."""
         self._drops.set(side, on=not message.states)
 
     def _on_cliff(self, side: str, scan: Message) -> None:
-        """What the first ray sees; nothing is far."""
+        """Update a cliff sensor by the scan's first ray; no hit counts as the largest range."""
         seen = float(scan.ranges[0])
         distance = seen if math.isfinite(seen) else float(scan.range_max)
         # The reading of the robot's own sensor at that distance (updateCliffSensor of the original), as 16 bits.

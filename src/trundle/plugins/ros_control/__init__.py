@@ -1,4 +1,4 @@
-"""ros_control: joints behind transmissions, and the controllers that drive them."""
+"""ros_control: joints behind transmissions, and their controllers."""
 
 import lazy_loader
 

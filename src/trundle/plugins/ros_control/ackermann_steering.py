@@ -1,4 +1,4 @@
-"""ackermann_steering_controller/AckermannSteeringController: one driven wheel behind, one steered one in front."""
+"""ackermann_steering_controller/AckermannSteeringController: one driven rear wheel, one steered front wheel."""
 
 import math
 from collections import deque
@@ -12,7 +12,7 @@ from .drive_settings import length, origin, speed_limit, wheel_radius
 from .transmissions import Interface
 
 _STRAIGHT_RAD = 1e-6
-"""A turn below which the way is a line."""
+"""Turn below which an arc is integrated as a line [rad]."""
 
 
 class AckermannSteering:
@@ -41,7 +41,7 @@ class AckermannSteering:
         self._steer_multiplier = settings.number("steer_pos_multiplier", 1.0)
         self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
         self._open_loop = settings.flag("open_loop", default=False)
-        self._takes_many = settings.flag("allow_multiple_cmd_vel_publishers", default=True)
+        self._allow_multiple_publishers = settings.flag("allow_multiple_cmd_vel_publishers", default=True)
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
         self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
@@ -55,15 +55,15 @@ class AckermannSteering:
         self._place = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
         self._history = [(0.0, 0.0), (0.0, 0.0)]
-        """Last and last but one command, linear and angular."""
+        """(last, last but one) command: linear, angular."""
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stand still, straight, and count the wheel's turns from here."""
+        """Stop, steer straight, and integrate odometry from the current wheel position."""
         for joint in (self._wheel, self._steer):
             joint.start()
             joint.command = 0.0
@@ -74,7 +74,7 @@ class AckermannSteering:
         self._is_running = True
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Add up what the wheel did, tell it, and drive on."""
+        """Update and publish odometry, and write the limited command."""
         self._count(dt)
         if self._odometry.due(time_ns):
             count = max(1, len(self._speeds))
@@ -88,20 +88,20 @@ class AckermannSteering:
         self._steer.command = angle
 
     def stop(self) -> None:
-        """Brake, and steer straight on."""
+        """Brake, and steer straight."""
         self._is_running = False
         self._wheel.stop()
         self._steer.command = 0.0
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:
         linear, angle = float(message.linear.x), float(message.angular.z)
         if not self._is_running:
             self._node.log.error("Can't accept new commands. Controller is not running.")
-        elif not self._takes_many and (count := self._commands.publishers) > 1:
+        elif not self._allow_multiple_publishers and (count := self._commands.publishers) > 1:
             self._node.log.error(f"Detected {count} publishers. Only 1 publisher is allowed. Going to brake.")
             self._command = None
         elif math.isfinite(linear) and math.isfinite(angle):
@@ -110,7 +110,7 @@ class AckermannSteering:
             self._node.log.warn("Received NaN in velocity command. Ignoring.")
 
     def _current_command(self, time_ns: int) -> tuple[float, float]:
-        """What was commanded, unless that is too old."""
+        """Last command, or zero if it has timed out."""
         if self._command is None or time_ns - self._command[0] > self._timeout_ns:
             return 0.0, 0.0
         return self._command[1:]
@@ -122,13 +122,13 @@ class AckermannSteering:
             turned, self._turned = self._wheel.position - self._turned, self._wheel.position
             distance = turned * self._rolled_radius
             turn = math.tan(self._steer.position * self._steer_multiplier) * distance / self._base
-        self._place = rolled(self._place, distance, turn)
+        self._place = arc(self._place, distance, turn)
         if dt > 0.0:
             self._speeds.append((distance / dt, turn / dt))
 
 
-def rolled(place: tuple[float, float, float], distance: float, turn: float) -> tuple[float, float, float]:
-    """A place (x, y [m], yaw [rad]) after an arc so long [m] that turns so far [rad]."""
+def arc(place: tuple[float, float, float], distance: float, turn: float) -> tuple[float, float, float]:
+    """Planar pose (x, y [m], yaw [rad]) after an arc of a length [m] and turn [rad]."""
     x, y, yaw = place
     if abs(turn) < _STRAIGHT_RAD:
         return x + distance * math.cos(yaw + turn / 2), y + distance * math.sin(yaw + turn / 2), yaw + turn

@@ -1,4 +1,4 @@
-"""Where a drive says its base is: `~odom`, and its frame on /tf."""
+"""Odometry of drives: `~odom`, and its frame on /tf."""
 
 import math
 
@@ -9,15 +9,18 @@ from .drive_settings import covariance
 
 
 class BaseOdometry:
-    """Tells by publish_rate 50, base_frame_id base_link, enable_odom_tf true, pose_ and twist_covariance_diagonal."""
+    """Publisher of odometry.
+
+    Parameters: publish_rate 50, base_frame_id base_link, enable_odom_tf true, pose_ and twist_covariance_diagonal.
+    """
 
     def __init__(self, context: ControllerContext, ends: Endpoints, *, frame: str) -> None:
         """Advertise.
 
         Args:
             context: of the controller.
-            ends: takes the topic.
-            frame: of the odometry.
+            ends: unregister the topic with the controller.
+            frame: odometry frame.
         """
         settings = context.settings
         self._frame, self.base = frame, settings.text("base_frame_id", "base_link")
@@ -29,20 +32,20 @@ class BaseOdometry:
         self._broadcaster = TransformBroadcaster(context.node) if has_tf else None
 
     def restart(self, time_ns: int) -> None:
-        """Count the period from now."""
+        """Start a period now."""
         self._timer.restart(time_ns)
 
     def due(self, time_ns: int) -> bool:
-        """Whether to tell now; if so, the next period begins."""
+        """Return True if a message is due; the next period then begins."""
         return self._timer.due(time_ns)
 
     def publish(self, time_ns: int, place: tuple[float, float, float], speed: tuple[float, float, float]) -> None:
         """Publish.
 
         Args:
-            time_ns: now.
-            place: x [m], y [m] and yaw [rad] in the odometry's frame.
-            speed: forwards [m/s], to the left [m/s] and turning to the left [rad/s].
+            time_ns: stamp [ns].
+            place: x [m], y [m] and yaw [rad] in the odometry frame.
+            speed: forward [m/s], left [m/s] and yaw rate [rad/s].
         """
         x, y, yaw = place
         turn = {"z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}

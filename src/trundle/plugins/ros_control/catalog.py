@@ -1,4 +1,4 @@
-"""Which controllers of ros_control there are, by type."""
+"""Controllers of ros_control, by type."""
 
 import importlib
 
@@ -30,14 +30,14 @@ CONTROLLERS: dict[str, str] = {
     "velocity_controllers/JointTrajectoryController": f"{_HERE}.trajectory:VelocityTrajectory",
     "velocity_controllers/JointVelocityController": f"{_HERE}.forward_command:VelocityForward",
 }
-"""Type → "module:Class", imported when one is loaded."""
+"""Type → "module:Class", imported on use."""
 
 
 def find_controller(kind: str) -> type[Controller]:
-    """The class of a controller's type.
+    """Class of a controller's type.
 
     Raises:
-        ParamError: there is none, with those there are.
+        ParamError: no such type; the message lists those there are.
     """
     if kind not in CONTROLLERS:
         raise ParamError(f"no controller of type {kind!r}; there are: {', '.join(sorted(CONTROLLERS))}")

@@ -1,4 +1,4 @@
-"""What a controller of ros_control is."""
+"""Protocol of ros_control's controllers, and what they share."""
 
 import math
 from dataclasses import dataclass
@@ -13,22 +13,22 @@ from .transmissions import Interface
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ControllerContext:
-    """Where a controller works."""
+    """Name, parameters, joints and node of a controller."""
 
     name: str
-    """Its name, global; its parameters and topics are within."""
+    """Global name; its parameters and topics are below it."""
     namespace: str
-    """Of the robot."""
+    """Namespace of the robot."""
     node: Node
     settings: NodeParams
     hardware: Hardware
     model: ModelHandle
 
     def joint(self, name: str, interface: Interface | None) -> JointHardware:
-        """A joint with the interface that a controller needs; None: any.
+        """Joint with the interface that a controller needs; None: any.
 
         Raises:
-            ParamError: there is none, with those there are.
+            ParamError: no such joint; the message lists those there are.
         """
         found = self.hardware.get(name)
         there = ", ".join(sorted(j.name for j in self.hardware.values() if interface in (None, j.interface)))
@@ -38,7 +38,7 @@ class ControllerContext:
         return found
 
     def joint_setting(self) -> list[str]:
-        """What `joint` or `joints` names.
+        """Names of the parameter `joints`, or `joint`.
 
         Raises:
             ParamError: neither is set.
@@ -50,22 +50,22 @@ class ControllerContext:
 
 
 class Controller(Protocol):
-    """Made stopped; all is called on the simulation's thread."""
+    """Controller, initially stopped; all methods run on the simulation's thread."""
 
     claims: dict[Interface | str, list[str]]
-    """Interface → joints that nobody else may command."""
+    """Interface → joints claimed for this controller alone."""
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
         """Read parameters, advertise and subscribe.
 
         Raises:
-            ParamError: a parameter is missing or of no use.
+            ParamError: a parameter is missing or invalid.
         """
         ...
 
     def start(self, time_ns: int) -> None:
-        """Begin; the joints were read just now."""
+        """Start; the joints were read just before."""
         ...
 
     def update(self, time_ns: int, dt: float) -> None:
@@ -73,16 +73,16 @@ class Controller(Protocol):
         ...
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding the joints."""
         ...
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics, services and actions."""
         ...
 
 
 def group_command(message: Message, count: int, node: Node) -> list[float]:
-    """A std_msgs/Float64MultiArray for so many joints; empty where it is of no use, which is said."""
+    """Values of a std_msgs/Float64MultiArray for `count` joints; empty, with an error logged, if invalid."""
     values = [float(value) for value in message.data]
     if len(values) != count:
         node.log.error(
@@ -93,13 +93,13 @@ def group_command(message: Message, count: int, node: Node) -> list[float]:
 
 
 class Endpoints:
-    """What a controller has on the graph, to be taken off again."""
+    """Topics and services of a controller, to unregister with it."""
 
     def __init__(self) -> None:
         self._endpoints: list[Publisher | Subscription | Service | ReconfigureServer] = []
 
     def add(self, *ends: Publisher | Subscription | Service | ReconfigureServer) -> None:
-        """Remember."""
+        """Add endpoints."""
         self._endpoints.extend(ends)
 
     def close(self) -> None:
@@ -110,19 +110,19 @@ class Endpoints:
 
 
 class PublishTimer:
-    """Says when something is due that happens at a rate of simulated time."""
+    """Timer of a rate in simulation time."""
 
     def __init__(self, rate_hz: float) -> None:
         self._period_ns = round(1e9 / rate_hz)
         self._last_ns = -math.inf
 
     def restart(self, time_ns: int) -> None:
-        """Count from now."""
+        """Start a period now."""
         self._last_ns = time_ns
 
     def due(self, time_ns: int) -> bool:
-        """Whether a period has passed; if so, the next begins."""
-        if time_ns < self._last_ns:  # time was turned back
+        """Return True if a period has passed; the next then begins."""
+        if time_ns < self._last_ns:  # the simulation was reset
             self._last_ns = time_ns
         if time_ns < self._last_ns + self._period_ns:
             return False

@@ -1,4 +1,4 @@
-"""diff_drive_controller/DiffDriveController: a body speed in; wheel speeds, odometry and tf out."""
+"""diff_drive_controller/DiffDriveController: wheel speeds from a body twist; odometry and tf."""
 
 import math
 from collections import deque
@@ -17,7 +17,7 @@ _WINDOW = 10
 
 
 class DiffDriveController:
-    """Two wheels, or two rows of them.
+    """Differential drive of two wheels, or two rows of wheels.
 
     Parameters, with the original's defaults: left_wheel, right_wheel (a joint or several; required), wheel_separation
     and wheel_radius (those of the model), wheel_separation_multiplier, left_ and right_wheel_radius_multiplier 1,
@@ -50,7 +50,7 @@ class DiffDriveController:
         )
         self._window = max(1, round(settings.number("velocity_rolling_window_size", _WINDOW)))
         self._advertise(settings)
-        self._forget()
+        self._clear()
 
     def _advertise(self, settings: NodeParams) -> None:
         context = self._context
@@ -59,20 +59,20 @@ class DiffDriveController:
         self._endpoints.add(
             context.node.subscribe(f"{context.name}/cmd_vel", "geometry_msgs/Twist", self._on_command, queue_size=1)
         )
-        self._told = None
+        self._limited_topic = None
         if settings.flag("publish_cmd", default=False):
-            self._told = context.node.advertise(
+            self._limited_topic = context.node.advertise(
                 f"{context.name}/cmd_vel_out", "geometry_msgs/TwistStamped", queue_size=100
             )
-            self._endpoints.add(self._told)
+            self._endpoints.add(self._limited_topic)
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stand still, and count the wheels' turns from here."""
+        """Stop, and integrate odometry from the current wheel positions."""
         for joint in (*self._left, *self._right):
             joint.start()
         self._odometry.restart(time_ns)
@@ -80,7 +80,7 @@ class DiffDriveController:
         self._command = None
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Add up what the wheels did, tell it, and drive on."""
+        """Update and publish odometry, and write the limited command."""
         self._count(dt)
         if self._odometry.due(time_ns):
             self._publish(time_ns)
@@ -90,10 +90,10 @@ class DiffDriveController:
             limited = self._limits[number].limit(wanted, last, before, dt)
             self._history[number] = (limited, last)
         (linear, _), (angular, _) = self._history
-        if self._told is not None and self._told.has_subscribers:
+        if self._limited_topic is not None and self._limited_topic.has_subscribers:
             header = {"stamp": time_ns, "frame_id": self._odometry.base}
             twist = {"linear": {"x": linear}, "angular": {"z": angular}}
-            self._told.publish({"header": header, "twist": twist})
+            self._limited_topic.publish({"header": header, "twist": twist})
         half = angular * self._drive.separation / 2
         for joints, speed, radius in zip(
             (self._left, self._right), (linear - half, linear + half), self._radii, strict=True
@@ -107,7 +107,7 @@ class DiffDriveController:
             joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:
@@ -118,15 +118,15 @@ class DiffDriveController:
             self._context.node.log.warn("Received NaN in velocity command. Ignoring.")
 
     def _current_command(self, time_ns: int) -> tuple[float, float]:
-        """What was commanded, unless that is too old."""
+        """Last command, or zero if it has timed out."""
         if self._command is None or time_ns - self._command[0] > self._timeout_ns:
             return 0.0, 0.0
         return self._command[1:]
 
-    def _forget(self) -> None:
+    def _clear(self) -> None:
         self._command: tuple[int, float, float] | None = None
         self._history = [(0.0, 0.0), (0.0, 0.0)]
-        """Last and last but one command, linear and angular."""
+        """(last, last but one) command: linear, angular."""
         self._place = WheelOdometry(self._drive)
         self._wheel_angles = (0.0, 0.0)
         self._speeds: deque[tuple[float, float]] = deque(maxlen=self._window)
@@ -157,7 +157,7 @@ class DiffDriveController:
         self._odometry.publish(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
 
     def _geometry(self, settings: NodeParams) -> DifferentialDrive:
-        """As the parameters say, else as the model has it."""
+        """Geometry by the parameters, else from the model."""
         context, left, right = self._context, self._left[0], self._right[0]
         separation = length(context, "wheel_separation", math.dist(origin(context, left), origin(context, right)))
         return DifferentialDrive(

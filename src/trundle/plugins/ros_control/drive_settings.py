@@ -1,4 +1,4 @@
-"""Parameters that the controllers of drives have in common."""
+"""Parameters that all drive controllers share."""
 
 import math
 from typing import Any
@@ -13,7 +13,7 @@ from .hardware import JointHardware
 
 
 def joint_names(settings: NodeParams, name: str) -> list[str]:
-    """One joint, or a list of them."""
+    """Names of a parameter that is one joint or a list."""
     try:
         return [settings.text(name)]
     except ParamError:
@@ -24,7 +24,7 @@ def joint_names(settings: NodeParams, name: str) -> list[str]:
 
 
 def speed_limit(settings: NodeParams) -> SpeedLimit:
-    """max_… and min_…, of which the one that is missing is the other's negative."""
+    """Read has_…_limits, max_… and min_…; min defaults to −max."""
 
     def bounds(what: str) -> tuple[float, float]:
         if not settings.flag(f"has_{what}_limits", default=False):
@@ -46,7 +46,7 @@ def speed_limit(settings: NodeParams) -> SpeedLimit:
 
 
 def covariance(settings: NodeParams, name: str) -> list[float]:
-    """A 6×6 covariance from its diagonal; absent is zero."""
+    """Row-major 6×6 covariance from its diagonal; default zero."""
     values: list[Any] = settings.items(name) or [0.0] * 6
     if len(values) != 6 or not all(isinstance(value, int | float) for value in values):
         raise ParamError(f"{name} must be 6 numbers, got {values!r}")
@@ -54,10 +54,10 @@ def covariance(settings: NodeParams, name: str) -> list[float]:
 
 
 def length(context: ControllerContext, name: str, otherwise: float | None) -> float:
-    """A length [m]: the parameter, else as the model has it; None: it does not say.
+    """Length [m]: the parameter, else that of the model (None: unknown).
 
     Raises:
-        ParamError: there is none, or it is not > 0.
+        ParamError: neither is known, or it is not > 0.
     """
     value = context.settings.number(name, otherwise)
     if value <= 0.0:
@@ -66,15 +66,15 @@ def length(context: ControllerContext, name: str, otherwise: float | None) -> fl
 
 
 def origin(context: ControllerContext, joint: JointHardware) -> Vector3:
-    """Where a joint is in the model with all joints at zero [m]."""
+    """Origin of a joint in the model's frame with all joints at zero [m]."""
     return model_from_joint(context.model.model, joint.handle.joint).position
 
 
 def wheel_radius(context: ControllerContext, wheel: JointHardware) -> float:
-    """The parameter wheel_radius, else that of the wheel's collision [m].
+    """Parameter wheel_radius, else the radius of the wheel's collision [m].
 
     Raises:
-        ParamError: there is neither, or it is of no use.
+        ParamError: neither is there, or it is not > 0.
     """
     link = context.model.link(wheel.handle.joint.child).link
     round_ones = (each.geometry for each in link.collisions if isinstance(each.geometry, Cylinder | Sphere))

@@ -1,4 +1,4 @@
-"""Controllers that hand commands on as they come: one joint's, or a group's in one array."""
+"""Controllers that forward commands: of one joint, or of a group in one array."""
 
 import math
 from typing import ClassVar, Self
@@ -10,7 +10,7 @@ from .transmissions import Interface
 
 
 class ForwardController:
-    """`~command` std_msgs/Float64 for `joint`."""
+    """Forwards `~command` (std_msgs/Float64) to `joint`."""
 
     interface: ClassVar[Interface]
 
@@ -25,27 +25,27 @@ class ForwardController:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stay, until a command comes."""
+        """Hold until the first command."""
         del time_ns
         self._command = None
         self._joint.start()
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Hand the last command on."""
+        """Write the last command."""
         del time_ns, dt
         if self._command is not None:
             self._joint.command = self._command
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding."""
         self._joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:
@@ -54,7 +54,7 @@ class ForwardController:
 
 
 class ForwardGroup:
-    """`~command` std_msgs/Float64MultiArray for `joints`, in their order."""
+    """Forwards `~command` (std_msgs/Float64MultiArray) to `joints`, in their order."""
 
     interface: ClassVar[Interface]
 
@@ -69,29 +69,29 @@ class ForwardGroup:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stay, until a command comes."""
+        """Hold until the first command."""
         del time_ns
         self._command = []
         for joint in self._joints:
             joint.start()
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Hand the last command on."""
+        """Write the last command."""
         del time_ns, dt
         for joint, wanted in zip(self._joints, self._command, strict=False):
             joint.command = wanted
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding."""
         for joint in self._joints:
             joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:

@@ -17,14 +17,14 @@ _PACKAGE = "four_wheel_steering_msgs"
 
 
 class FourWheelDrive:
-    """Drives by the last of `~cmd_vel`, axles turned opposite ways, and `~cmd_four_wheel_steering`, each as told.
+    """Drives by the later of `~cmd_vel` (axles steered oppositely) and `~cmd_four_wheel_steering` (angle of each).
 
     Parameters, with the original's defaults: front_wheel, rear_wheel (velocity), front_steering and rear_steering
     (position), each a left and a right joint (required); track and wheel_base (between front wheels, and axles) and
     wheel_radius (those of the model), publish_rate 50, velocity_rolling_window_size 10, cmd_vel_timeout 0.5,
     base_frame_id base_link, enable_odom_tf true, linear/x and angular/z with has_, max_ and min_ velocity_limits and
-    acceleration_limits, pose_ and twist_covariance_diagonal. Odometry is in the frame odom, and on `~odom_steer` as
-    angles, with rates that grow as they do: the original's have the other sign, and it mistakes the wheels' offset.
+    acceleration_limits, pose_ and twist_covariance_diagonal. Odometry is in the frame odom, and as
+    angles with their rates on `~odom_steer`; the original's rates have the wrong sign, and its wheel offset is wrong.
     """
 
     def __init__(self, context: ControllerContext) -> None:
@@ -44,8 +44,8 @@ class FourWheelDrive:
         self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
         self._endpoints = Endpoints()
         self._odometry = BaseOdometry(context, self._endpoints, frame="odom")
-        told = f"{_PACKAGE}/FourWheelSteeringStamped"
-        self._steering_topic = context.node.advertise(f"{context.name}/odom_steer", told, queue_size=100)
+        kind = f"{_PACKAGE}/FourWheelSteeringStamped"
+        self._steering_topic = context.node.advertise(f"{context.name}/odom_steer", kind, queue_size=100)
         self._endpoints.add(
             self._steering_topic,
             context.node.subscribe(f"{context.name}/cmd_vel", "geometry_msgs/Twist", self._on_twist, queue_size=1),
@@ -56,34 +56,34 @@ class FourWheelDrive:
                 queue_size=1,
             ),
         )
-        settings.flag("open_loop", default=False)  # of no effect in the original either
+        settings.flag("open_loop", default=False)  # without effect in the original, too
         self._is_running = False
         self._place = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
         self._history = [(0.0, 0.0), (0.0, 0.0)]
-        """Last and last but one command, linear and angular."""
+        """(last, last but one) command: linear, angular."""
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stand still, straight."""
+        """Stop, and steer straight."""
         for joint in (*self._wheels, *self._steers):
             joint.start()
             joint.command = 0.0
         self._odometry.restart(time_ns)
         self._twist: tuple[int, float, float] = (-1, 0.0, 0.0)
-        """When, forwards [m/s], turning [rad/s]."""
+        """Stamp [ns], forward speed [m/s], yaw rate [rad/s]."""
         self._angles: tuple[int, float, float, float] = (-1, 0.0, 0.0, 0.0)
-        """When, speed [m/s], front, rear [rad]."""
-        self._told: deque[tuple[float, float, float, float]] = deque(maxlen=self._window + 1)
-        """Speed [m/s], both angles [rad] and how long ago the one before was [s]."""
+        """Stamp [ns], speed [m/s], front and rear angle [rad]."""
+        self._samples: deque[tuple[float, float, float, float]] = deque(maxlen=self._window + 1)
+        """Speed [m/s], both angles [rad] and time since the sample before [s]."""
         self._is_running = True
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Add up what the wheels do, tell it, and drive on."""
+        """Update and publish odometry, and write the limited command."""
         speeds: Wheels = tuple(joint.velocity for joint in self._wheels)  # pyright: ignore[reportAssignmentType]
         fl, fr, rl, rr = (joint.position for joint in self._steers)
         front, rear = axle_angle(fl, fr), axle_angle(rl, rr)
@@ -95,14 +95,14 @@ class FourWheelDrive:
             y + (forward * sin + sideways * cos) * dt,
             yaw + turning * dt,
         )
-        self._told.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
+        self._samples.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
         if self._odometry.due(time_ns):
             self._odometry.publish(time_ns, self._place, (forward, sideways, turning))
             self._publish_angles(time_ns)
         self._drive(time_ns, dt)
 
     def stop(self) -> None:
-        """Brake, and steer straight on."""
+        """Brake, and steer straight."""
         self._is_running = False
         for joint in self._wheels:
             joint.stop()
@@ -110,7 +110,7 @@ class FourWheelDrive:
             joint.command = 0.0
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _drive(self, time_ns: int, dt: float) -> None:
@@ -134,8 +134,8 @@ class FourWheelDrive:
     def _publish_angles(self, time_ns: int) -> None:
         if not self._steering_topic.has_subscribers:
             return
-        first, last = self._told[0], self._told[-1]
-        elapsed = sum(each[3] for each in list(self._told)[1:])
+        first, last = self._samples[0], self._samples[-1]
+        elapsed = sum(each[3] for each in list(self._samples)[1:])
         rates = [(b - a) / elapsed if elapsed > 0.0 else 0.0 for a, b in zip(first[:3], last[:3], strict=True)]
         data: dict[str, Any] = {
             "speed": last[0],
@@ -167,7 +167,7 @@ class FourWheelDrive:
         return False
 
     def _geometry(self, context: ControllerContext) -> FourWheelSteering:
-        """As the parameters say, else as the model has it."""
+        """Geometry by the parameters, else from the model."""
         front, rear, steer = self._wheels[0], self._wheels[2], self._steers[0]
         offset = math.dist(origin(context, steer), origin(context, front))
         between = math.dist(origin(context, front), origin(context, self._wheels[1]))
@@ -180,7 +180,7 @@ class FourWheelDrive:
 
 
 def _pair(context: ControllerContext, name: str, interface: Interface) -> list[JointHardware]:
-    """A left and a right joint."""
+    """Left and right joint of a parameter."""
     names = joint_names(context.settings, name)
     if len(names) != 2:
         raise ParamError(f"parameter {context.name}/{name} must be a left and a right joint, got {', '.join(names)}")

@@ -1,4 +1,4 @@
-"""PID gains of controllers and joints: read from parameters, changed while they run."""
+"""PID gains of controllers and joints: from parameters, and by dynamic_reconfigure."""
 
 from trundle.control import ToolboxPid
 from trundle.ros import Node, NodeParams, Option, Options, ReconfigureServer
@@ -7,29 +7,33 @@ from .controller import Endpoints
 
 _MAX_P = 100_000.0
 _MOST = 1_000.0
-"""control_toolbox's bounds, of p and of everything else."""
+"""Bounds of p, and of all else, from control_toolbox."""
 
 
 def reconfigurable_pid(node: Node, settings: NodeParams, endpoints: Endpoints) -> ToolboxPid:
-    """Gains p, i, d, i_clamp (or i_clamp_min and i_clamp_max, whose smaller magnitude counts) and antiwindup.
+    """Read gains p, i, d, i_clamp (or the smaller of |i_clamp_min| and |i_clamp_max|) and antiwindup.
 
-    Users may change them while they are in use, as control_toolbox's.
+    dynamic_reconfigure changes them at run time, as in control_toolbox.
 
     Args:
-        node: of the robot; its callbacks run where the gains are used.
-        settings: where the gains are.
-        endpoints: of who uses them.
+        node: of the robot; its callbacks run on the thread that uses the gains.
+        settings: parameters of the gains.
+        endpoints: unregister the reconfigure server with the gains' owner.
 
     Raises:
-        ParamError: p is missing, or one is no number.
+        ParamError: p is missing, or a gain is not a number.
     """
     pid = _read_pid(settings)
     options = (
         Option(name="p", value=pid.p, lower=-_MAX_P, upper=_MAX_P, description="Proportional gain"),
         Option(name="i", value=pid.i, lower=-_MOST, upper=_MOST, description="Integral gain"),
         Option(name="d", value=pid.d, lower=-_MOST, upper=_MOST, description="Derivative gain"),
-        Option(name="i_clamp_min", value=-pid.i_clamp, lower=-_MOST, upper=0.0, description="Least integral part"),
-        Option(name="i_clamp_max", value=pid.i_clamp, lower=0.0, upper=_MOST, description="Greatest integral part"),
+        Option(
+            name="i_clamp_min", value=-pid.i_clamp, lower=-_MOST, upper=0.0, description="Minimum of the integral term"
+        ),
+        Option(
+            name="i_clamp_max", value=pid.i_clamp, lower=0.0, upper=_MOST, description="Maximum of the integral term"
+        ),
         Option(name="antiwindup", value=pid.antiwindup, description="Stop the integral at its clamp"),
     )
 

@@ -1,4 +1,4 @@
-"""GripperActionController of position_ and effort_controllers: a finger to a position, until it is there or stuck."""
+"""GripperActionController of position_ and effort_controllers: moves a finger until it arrives or stalls."""
 
 import asyncio
 from collections.abc import Callable
@@ -12,10 +12,10 @@ from .transmissions import Interface
 
 
 class GripperController:
-    """The action `~gripper_cmd` control_msgs/GripperCommand.
+    """Action `~gripper_cmd` (control_msgs/GripperCommand).
 
     Parameters, with the original's defaults: joint (required), goal_tolerance 0.01, stall_velocity_threshold 0.001,
-    stall_timeout 1, action_monitor_rate 20 (unused: every update is looked at), gains/<joint> (effort only).
+    stall_timeout 1, action_monitor_rate 20 (unused: every update is checked), gains/<joint> (effort only).
     """
 
     interface: ClassVar[Interface]
@@ -45,11 +45,11 @@ class GripperController:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stay."""
+        """Hold the current position."""
         self._joint.start()
         self._wanted, self._moved_ns, self._is_running = self._joint.position, time_ns, True
         self._most_effort = 0.0
@@ -57,7 +57,7 @@ class GripperController:
             self._pid.reset()
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Close in, and tell the action when that is over."""
+        """Command the goal, and settle the action at its end."""
         joint = self._joint
         error = joint.error(self._wanted)
         if self._pid is None:
@@ -76,19 +76,19 @@ class GripperController:
             self._settle("aborted", reached=False)
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding."""
         self._is_running = False
         self._settle("preempted", reached=False)
         self._joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its action and topics."""
         self._settle("aborted", reached=False)
         self._server.close()
         self._endpoints.close()
 
     async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
-        """Close or open; on the loop."""
+        """Run a goal to its end; on the loop."""
         ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
 
         def settle(outcome: ActionOutcome) -> None:

@@ -1,4 +1,4 @@
-"""Joints as controllers see them: something to read, and one command to write."""
+"""Joints as controllers see them: a state to read, and a command to write."""
 
 import math
 from collections.abc import Mapping
@@ -17,19 +17,18 @@ class JointHardware:
         """Wrap a joint.
 
         Args:
-            handle: of the simulation; it moves.
-            interface: what commands mean.
-            pid: turns position or speed errors into efforts; None: the joint just goes there.
-            lag_s: time constant with which it then goes to a position; gazebo_ros_control puts it there at once,
-                whatever is in the way.
+            handle: the simulation's joint; it has an axis.
+            interface: meaning of commands.
+            pid: efforts from position or velocity errors; None: position or velocity is driven directly.
+            lag_s: time constant of driven positions [s]; gazebo_ros_control sets them at once, through obstacles.
         """
         self.handle = handle
         self.name = handle.name
         self.interface = interface
         self.command = 0.0
-        """[N·m or N], [rad or m], [rad/s or m/s], by the interface."""
+        """Command [N·m or N], [rad or m] or [rad/s or m/s], by the interface."""
         self.position = self.velocity = self.effort = 0.0
-        """As of the last `read`."""
+        """State at the last `read`."""
         self._pid = pid
         self.lag_s = lag_s
         self._is_at_rest = True
@@ -40,21 +39,21 @@ class JointHardware:
 
     @property
     def is_continuous(self) -> bool:
-        """Whether it turns on and on, so that angles a whole turn apart are one."""
+        """True if it is a revolute joint without limits."""
         return self.handle.joint.type is JointType.REVOLUTE and math.isinf(self.upper) and math.isinf(self.lower)
 
     def read(self) -> None:
-        """Look where it is."""
+        """Read position, velocity and effort."""
         handle = self.handle
         self.position, self.velocity, self.effort = handle.position, handle.velocity, handle.effort
 
     def error(self, wanted: float) -> float:
-        """From the joint to a position [rad or m], the short way round where it has no stops."""
+        """Difference of a position to the joint's [rad or m]; the shorter way round if continuous."""
         way = wanted - self.position
         return math.remainder(way, math.tau) if self.is_continuous else way
 
     def stop(self) -> None:
-        """Have nobody drive it: no effort, no speed, or held where it is."""
+        """Command zero effort, zero velocity, or the last position."""
         self._is_at_rest = True
         if self.interface != "PositionJointInterface":
             self.command = 0.0
@@ -62,12 +61,12 @@ class JointHardware:
             self._pid.reset()
 
     def start(self) -> None:
-        """Have a controller drive it; until it does, the joint stays."""
+        """Command the current position, or zero, until the controller writes."""
         self._is_at_rest = False
         self.command = self.position if self.interface == "PositionJointInterface" else 0.0
 
     def write(self, dt: float) -> None:
-        """Carry the command out for a control period [s]."""
+        """Apply the command for a control period [s]."""
         match self.interface:
             case "EffortJointInterface":
                 self.handle.command_effort(self._within_effort(self.command))
@@ -85,7 +84,7 @@ class JointHardware:
 
     def _write_position(self, dt: float) -> None:
         if self._is_at_rest and self.velocity == 0.0 and self.error(self.command) != 0.0:
-            self.command = self.position  # it was put elsewhere while nobody drove it
+            self.command = self.position  # its position was set while no controller ran
         wanted = min(max(self.command, self.lower), self.upper)
         error = self.error(wanted)
         if self._pid is not None:
@@ -99,4 +98,4 @@ class JointHardware:
 
 
 Hardware = Mapping[str, JointHardware]
-"""By the joint's name."""
+"""Joint name → joint."""

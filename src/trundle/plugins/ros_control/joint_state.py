@@ -1,4 +1,4 @@
-"""joint_state_controller/JointStateController: tells where every joint is."""
+"""joint_state_controller/JointStateController: publishes the states of all joints."""
 
 from typing import Self
 
@@ -7,7 +7,7 @@ from .transmissions import Interface
 
 
 class JointStateController:
-    """`<robot>/joint_states` at `publish_rate`, joints in the order of their names, then `extra_joints`."""
+    """Publishes `<robot>/joint_states` at `publish_rate`: joints by name, then `extra_joints`."""
 
     def __init__(self, context: ControllerContext) -> None:
         self.claims: dict[Interface | str, list[str]] = {}
@@ -27,11 +27,11 @@ class JointStateController:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Count the period from now."""
+        """Start a period now."""
         self._timer.restart(time_ns)
 
     def update(self, time_ns: int, dt: float) -> None:
@@ -50,10 +50,10 @@ class JointStateController:
         )
 
     def stop(self) -> None:
-        """Nothing was commanded."""
+        """Do nothing: no joint is commanded."""
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topic."""
         self._endpoints.close()
 
 

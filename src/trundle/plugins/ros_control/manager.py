@@ -1,4 +1,4 @@
-"""Loads, starts, stops and unloads controllers, by the services of a controller_manager."""
+"""controller_manager: services that load, switch and unload controllers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,16 +24,16 @@ class _Loaded:
 
 
 class ControllerManager:
-    """`<robot>/controller_manager/…`; all of it runs on the simulation's thread."""
+    """Services `<robot>/controller_manager/…`; all of it runs on the simulation's thread."""
 
     def __init__(self, node: Node, namespace: str, hardware: Hardware, model: ModelHandle) -> None:
         """Advertise.
 
         Args:
-            node: on the graph.
+            node: advertises the services.
             namespace: of the robot: '/' or '/rrbot'.
-            hardware: what there is to drive.
-            model: whose joints they are.
+            hardware: joints of the robot.
+            model: of the joints.
         """
         self._node = node
         self._namespace = namespace.rstrip("/")
@@ -53,14 +53,14 @@ class ControllerManager:
             node.advertise_service(f"{self._namespace}/controller_manager/{name}", f"{_PACKAGE}/{kind}", handler)
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Have every running controller read and command."""
+        """Update every running controller."""
         self._time_ns = time_ns
         for loaded in self._loaded.values():
             if loaded.state == "running":
                 loaded.controller.update(time_ns, dt)
 
     def restart(self, time_ns: int) -> None:
-        """Begin anew what runs, after a reset."""
+        """Restart the running controllers after a reset."""
         for loaded in self._loaded.values():
             if loaded.state == "running":
                 loaded.controller.start(time_ns)
@@ -135,7 +135,9 @@ class ControllerManager:
         stops, starts = (
             [str(name) for name in names] for names in (request.stop_controllers, request.start_controllers)
         )
-        wrong = [self._wrong(name, state) for names, state in ((stops, "running"), (starts, "")) for name in names]
+        wrong = [
+            self._switch_error(name, state) for names, state in ((stops, "running"), (starts, "")) for name in names
+        ]
         for what in filter(None, wrong):
             self._node.log.error(what)
         if strict and any(wrong):
@@ -156,8 +158,8 @@ class ControllerManager:
             self._loaded[name].state = "running"
         return True
 
-    def _wrong(self, name: str, state: str) -> str:
-        """Why a controller cannot be stopped (where it is to be running) or started."""
+    def _switch_error(self, name: str, state: str) -> str:
+        """Reason why a controller cannot be stopped (`state` "running") or started (""); empty: it can."""
         loaded = self._loaded.get(name)
         if loaded is None:
             verb = "stop" if state else "start"
@@ -169,7 +171,7 @@ class ControllerManager:
         return ""
 
     def _conflict(self, stops: list[str], starts: list[str]) -> str:
-        """Two that would command one joint."""
+        """Message on two controllers that would command one joint; empty: none."""
         runs = [n for n, loaded in self._loaded.items() if loaded.state == "running" and n not in stops]
         claimed: dict[str, str] = {}
         for name in (*runs, *starts):

@@ -1,4 +1,4 @@
-"""Controllers that close a PID loop around one joint, or around each of a group."""
+"""Controllers with a PID loop around one joint, or around each of a group."""
 
 import math
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from .hardware import JointHardware
 from .transmissions import Interface
 
 _STATE_EVERY = 10
-"""Updates between two messages on `~state`, as in the original."""
+"""Updates per message on `~state`, as in the original."""
 
 
 @dataclass(slots=True)
@@ -21,11 +21,11 @@ class _PidLoop:
     joint: JointHardware
     pid: ToolboxPid
     of_speed: bool
-    """Whether it keeps a speed; else a position."""
+    """True: velocity loop; False: position loop."""
     wanted: float = 0.0
 
     def start(self) -> None:
-        """Stay."""
+        """Hold the current position, or zero velocity."""
         self.joint.start()
         self.pid.reset()
         self.wanted = 0.0 if self.of_speed else self.joint.position
@@ -45,7 +45,8 @@ class _PidLoop:
 
 
 class PidController:
-    """`joint` by the gains `pid`: `~command` std_msgs/Float64 in, `~state` control_msgs/JointControllerState out."""
+    """Loop of `joint` with gains `pid`, by `~command` (std_msgs/Float64); publishes `~state`
+    (control_msgs/JointControllerState)."""
 
     interface: ClassVar[Interface]
     of_speed: ClassVar[bool] = False
@@ -64,27 +65,27 @@ class PidController:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stay, until a command comes."""
+        """Hold until the first command."""
         del time_ns
         self._loop.start()
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Push towards what is wanted."""
+        """Command the loop's effort or velocity."""
         self._loop.update(dt)
         self._updates += 1
         if self._updates % _STATE_EVERY == 0 and self._state.has_subscribers:
             self._publish_state(time_ns, dt)
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding."""
         self._loop.joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:
@@ -112,7 +113,7 @@ class PidController:
 
 
 class EffortGroupPosition:
-    """effort_controllers/JointGroupPositionController: `joints`, each by the gains `<joint>/pid`."""
+    """effort_controllers/JointGroupPositionController: loops of `joints`, each with gains `<joint>/pid`."""
 
     def __init__(self, context: ControllerContext) -> None:
         self._node, self._endpoints = context.node, Endpoints()
@@ -128,28 +129,28 @@ class EffortGroupPosition:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stay, until a command comes."""
+        """Hold until the first command."""
         del time_ns
         for loop in self._loops:
             loop.start()
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Push towards what is wanted."""
+        """Command the loop's effort or velocity."""
         del time_ns
         for loop in self._loops:
             loop.update(dt)
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding."""
         for loop in self._loops:
             loop.joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its topics."""
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:

@@ -1,4 +1,4 @@
-"""libgazebo_ros_control.so: a robot's joints behind the interfaces of ros_control."""
+"""libgazebo_ros_control.so: a robot's joints behind ros_control's hardware interfaces."""
 
 import asyncio
 from typing import Self
@@ -27,7 +27,7 @@ class GazeboRosControl(Plugin):
 
     Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType> (only
     gazebo_ros_control/DefaultRobotHWSim), <controlPeriod> [s] (the step), <eStopTopic>. A joint with gains on
-    `gazebo_ros_control/pid_gains/<joint>` is pushed by them; without, a position or speed is kept by a stiff motor.
+    `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -61,7 +61,7 @@ class GazeboRosControl(Plugin):
         return cls(sim, model, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Read, control and write."""
+        """Read joints, update controllers and write commands."""
         if self._manager is None:
             return
         dt = (sim.time_ns - self._last_ns) / 1e9
@@ -78,7 +78,7 @@ class GazeboRosControl(Plugin):
             joint.write(dt)
 
     def reset(self) -> None:
-        """Begin anew from where the joints are now."""
+        """Hold the joints' current positions, and restart the controllers."""
         self._last_ns = self._sim.time_ns
         for joint in self._hardware.values():
             joint.read()
@@ -91,11 +91,11 @@ class GazeboRosControl(Plugin):
         self._stops = stops
 
     async def _find_robot(self) -> None:
-        """Wait for the robot's description, on the loop; then go on on the simulation's thread."""
+        """Wait for the robot's description, on the loop; then continue on the simulation's thread."""
         node, said = self._node, False
         name = f"{self._namespace}/{self._param}"
         while not node.closed.is_set():
-            for candidate in (name, f"/{self._param}"):  # as searchParam goes up from the robot's namespace
+            for candidate in (name, f"/{self._param}"):  # as searchParam from the robot's namespace
                 text = await node.params.get(candidate, None)
                 if isinstance(text, str) and text.strip():
                     gains = await node.params.get(f"{self._namespace}/gazebo_ros_control/pid_gains", {})
@@ -115,20 +115,20 @@ class GazeboRosControl(Plugin):
             for driven in read_transmissions(urdf, name, report):
                 handle = self._model.joint(driven.name)
                 if not handle.is_driven:
-                    self._node.log.warn(f"joint {driven.name!r} cannot move; its transmission is left out")
+                    self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")
                     continue
                 own = settings.section(driven.name)
-                is_pushed = "p" in own.names() and driven.interface != "EffortJointInterface"
-                pid = reconfigurable_pid(self._node, own, self._endpoints) if is_pushed else None
+                has_gains = "p" in own.names() and driven.interface != "EffortJointInterface"
+                pid = reconfigurable_pid(self._node, own, self._endpoints) if has_gains else None
                 joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
                 joint.read()
                 joint.command = joint.position if driven.interface == "PositionJointInterface" else 0.0
                 self._hardware[driven.name] = joint
         except TrundleError as error:
-            self._node.log.fatal(f"gazebo_ros_control: {error}; nothing is controlled")
+            self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
             return
         self._last_ns = self._sim.time_ns
-        self._sim.on_change(self._keep_lag)  # the time step may be another one
+        self._sim.on_change(self._update_lag)  # the time step may change
         self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._model)
         self._node.log.info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
 
@@ -136,14 +136,14 @@ class GazeboRosControl(Plugin):
     def _lag_s(self) -> float:
         return max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
 
-    def _keep_lag(self) -> None:
+    def _update_lag(self) -> None:
         for joint in self._hardware.values():
             joint.lag_s = self._lag_s
 
 
 def _period_ns(parameters: XmlNode, sim: Simulation) -> int:
-    """<controlPeriod>, which cannot be less than a step."""
+    """Period of <controlPeriod> [ns], at least one step."""
     period_ns = round(parameters.number("controlPeriod", default=0.0, report=sim.report) * 1e9)
     if 0 < period_ns < sim.step_ns:
-        sim.report.warn(parameters.at, f"controlPeriod {period_ns / 1e9:g} s is less than a step; it is one step")
+        sim.report.warn(parameters.at, f"controlPeriod {period_ns / 1e9:g} s is less than a step; one step is used")
     return max(period_ns, sim.step_ns)

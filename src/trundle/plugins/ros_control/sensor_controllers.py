@@ -1,4 +1,4 @@
-"""Controllers of sensors: the default hardware of gazebo_ros_control has none, so they do not load, as in Gazebo."""
+"""Sensor controllers: they do not load, as in Gazebo, whose default hardware has no sensor interfaces."""
 
 from typing import ClassVar, Never
 
@@ -8,7 +8,7 @@ from .controller import ControllerContext
 
 
 class SensorController:
-    """Needs a sensor that a robot's own hardware would have."""
+    """Controller of a sensor interface, which simulated hardware lacks."""
 
     interface: ClassVar[str]
 
@@ -21,7 +21,7 @@ class SensorController:
         """
         raise ParamError(
             f"{context.name} requires a hardware interface of type 'hardware_interface::{cls.interface}', which "
-            "gazebo_ros_control's default hardware has not; a sensor's own plugin publishes without a controller"
+            "gazebo_ros_control's default hardware lacks; a sensor's own plugin publishes without a controller"
         )
 
 

@@ -1,4 +1,4 @@
-"""JointTrajectoryController of position_, velocity_ and effort_controllers: joints through points in time."""
+"""JointTrajectoryController of position_, velocity_ and effort_controllers."""
 
 import asyncio
 from collections.abc import Callable
@@ -14,12 +14,12 @@ from .trajectory_goal import GoalError, SampledTrajectory, Tolerances, read_tole
 from .transmissions import Interface
 
 _GRACE_S = 0.2
-"""Beyond `goal_time`, for joints that arrive a few steps late: gazebo_ros_control's are put where they belong."""
+"""Added to `goal_time` [s]: joints here lag by a few steps, while gazebo_ros_control sets positions at once."""
 
 
 class TrajectoryController:
-    """`~command` trajectory_msgs/JointTrajectory and the action `~follow_joint_trajectory` in; `~state` and the service
-    `~query_state` out.
+    """Follows trajectories of `~command` (trajectory_msgs/JointTrajectory) and the action `~follow_joint_trajectory`;
+    publishes `~state`, and answers `~query_state`.
 
     Parameters: joints (required), gains/<joint> (p, i, d, i_clamp; not of position_controllers), velocity_ff/<joint>,
     constraints (goal_time, stopped_velocity_tolerance, <joint>/trajectory, <joint>/goal), state_publish_rate 50,
@@ -48,7 +48,7 @@ class TrajectoryController:
         self._trajectory: SampledTrajectory | None = None
         self._time_ns = 0
         self._settled: Callable[[ActionOutcome], None] | None = None
-        """Told once how the action's goal ended."""
+        """Called once with the outcome of the action's goal."""
         self._is_running = False
         self._state = node.advertise(
             f"{context.name}/state", "control_msgs/JointTrajectoryControllerState", queue_size=1
@@ -66,23 +66,23 @@ class TrajectoryController:
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
-        """See `Controller.make`."""
+        """See `Controller.create`."""
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Stay where the joints are."""
+        """Hold the current positions."""
         self._time_ns = time_ns
         for joint in self._joints:
             joint.start()
         for pid in self._pids:
             pid.reset()
-        self._settle("aborted", 0, "the controller was started anew")
-        self._stay()
+        self._settle("aborted", 0, "the controller was restarted")
+        self._hold()
         self._states.restart(time_ns)
         self._is_running = True
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Go on along the course."""
+        """Command the trajectory's current state."""
         self._time_ns = time_ns
         sampled = self._trajectory
         if sampled is None:
@@ -101,14 +101,14 @@ class TrajectoryController:
             self._state.publish({"header": {"stamp": time_ns}, **self._desired_fields(desired)})
 
     def stop(self) -> None:
-        """Let go."""
+        """Stop commanding."""
         self._is_running = False
         self._settle("preempted", 0, "the controller was stopped")
         for joint in self._joints:
             joint.stop()
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Unregister its action, topics and service."""
         self._settle("aborted", 0, "the controller was unloaded")
         self._server.close()
         self._endpoints.close()
@@ -116,7 +116,7 @@ class TrajectoryController:
     # -- commands, on the simulation's thread
 
     def _on_command(self, trajectory: Message) -> None:
-        """A trajectory from the topic; one without points stops the joints."""
+        """Follow a trajectory from the topic; one without points holds the joints."""
         if not self._is_running:
             self._node.log.error("Can't accept new commands. Controller is not running.")
             return
@@ -129,18 +129,18 @@ class TrajectoryController:
 
     def _begin(self, trajectory: Message, tolerances: Tolerances) -> None:
         if not trajectory.points:
-            self._stay()
+            self._hold()
             return
         assert self._trajectory is not None, "start() comes first"
         now = self._trajectory.sample(self._time_ns)
         names = [joint.name for joint in self._joints]
         sampled = read_trajectory(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
         for number, joint in enumerate(self._joints):
-            if joint.is_continuous:  # the first point is gone to the short way round
+            if joint.is_continuous:  # take the shorter way round to the first point
                 sampled.unwind(number)
         self._trajectory = sampled
 
-    def _stay(self) -> None:
+    def _hold(self) -> None:
         self._trajectory = SampledTrajectory.hold_position(
             [joint.position for joint in self._joints], self._time_ns, self._default_tolerances
         )
@@ -160,7 +160,7 @@ class TrajectoryController:
     # -- the action
 
     async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
-        """Follow a trajectory to its end; on the loop. One that is refused leaves the one before it running."""
+        """Run a goal to its end, on the loop; a rejected one does not stop the trajectory before it."""
         loop = asyncio.get_running_loop()
         ended: asyncio.Future[ActionOutcome] = loop.create_future()
 
@@ -190,19 +190,19 @@ class TrajectoryController:
             raise
 
     def _abandon(self, settle: Callable[[ActionOutcome], None]) -> None:
-        """Stop for a goal that was cancelled, unless another has taken its place."""
+        """Hold after a goal was cancelled, unless another has replaced it."""
         if self._settled is settle:
             self._settled = None
-            self._stay()
+            self._hold()
 
     def _check_tolerances(self, sampled: SampledTrajectory, desired: list[tuple[float, float, float]]) -> None:
-        """Compare with the tolerances, and tell the action how it goes."""
+        """Check the tolerances, and settle the action or publish its feedback."""
         tolerances, late_s = sampled.tolerances, (self._time_ns - sampled.end_ns) / 1e9
         for number, joint in enumerate(self._joints):
             error = abs(joint.error(desired[number][0]))
             if late_s < 0.0 and 0.0 < tolerances.path[number] < error:
                 text = f"{joint.name} is {error:.4g} off its path, more than {tolerances.path[number]:g}"
-                self._stay()
+                self._hold()
                 self._settle("aborted", GoalError.PATH_TOLERANCE_VIOLATED, text)
                 return
         if late_s >= 0.0:

@@ -1,4 +1,4 @@
-"""What a trajectory message asks for: where each joint is to be when, and how exactly."""
+"""Trajectory messages as splines of joints with tolerances."""
 
 import math
 from collections.abc import Sequence
@@ -11,12 +11,12 @@ from trundle.control import JointPoint, JointSpline
 from trundle.ros import Message, NodeParams, to_nsec
 
 _STOPPED = 0.01
-"""[rad/s or m/s] The original's idea of a joint that stands still."""
+"""Default stopped_velocity_tolerance of the original [rad/s or m/s]."""
 _MAX_POINTS = 100_000
 
 
 class GoalError(ValueError):
-    """A trajectory that cannot be followed; `code` is control_msgs' for it."""
+    """Trajectory that cannot be followed; `code` is control_msgs/FollowJointTrajectoryResult's."""
 
     INVALID_GOAL, INVALID_JOINTS, OLD_HEADER_TIMESTAMP = -1, -2, -3
     PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED = -4, -5
@@ -27,19 +27,19 @@ class GoalError(ValueError):
 
 
 class Tolerances(Struct, frozen=True, kw_only=True):
-    """How exactly; 0 is any."""
+    """Tolerances of a trajectory; 0: none is checked."""
 
     path: tuple[float, ...]
-    """[rad or m] of each joint, on the way."""
+    """Error of each joint on the path [rad or m]."""
     goal: tuple[float, ...]
-    """[rad or m] of each joint, at the end."""
+    """Error of each joint at the goal [rad or m]."""
     stopped: float
-    """[rad/s or m/s] of every joint, at the end."""
+    """Velocity of every joint at the goal [rad/s or m/s]."""
     time_s: float
-    """How late the end may be reached."""
+    """Delay of reaching the goal [s]."""
 
     def with_goal(self, goal: Message, joints: Sequence[str]) -> "Tolerances":
-        """As an action's goal wants it: what it names replaces, and less than zero is any."""
+        """Replace tolerances by those of an action's goal; a negative one is not checked."""
 
         def merged(usual: tuple[float, ...], asked: Sequence[Message]) -> tuple[float, ...]:
             named = {str(item.name): float(item.position) for item in asked}
@@ -56,7 +56,7 @@ class Tolerances(Struct, frozen=True, kw_only=True):
 
 
 def read_tolerances(constraints: NodeParams, joints: Sequence[str]) -> Tolerances:
-    """The parameters `constraints`."""
+    """Read the parameters `constraints`."""
     own = [constraints.section(joint) for joint in joints]
     return Tolerances(
         path=tuple(each.number("trajectory", 0.0) for each in own),
@@ -67,10 +67,10 @@ def read_tolerances(constraints: NodeParams, joints: Sequence[str]) -> Tolerance
 
 
 class SampledTrajectory:
-    """Where every joint is to be from a time on."""
+    """Splines of all joints from a start time."""
 
     def __init__(self, points: list[list[JointPoint]], start_ns: int, tolerances: Tolerances) -> None:
-        """Take the points of each joint; their times count from `start_ns`."""
+        """Fit splines to the points of each joint; their times count from `start_ns`."""
         self._points = points
         self._splines = [JointSpline(each) for each in points]
         self._start_ns = start_ns
@@ -78,12 +78,12 @@ class SampledTrajectory:
 
     @classmethod
     def hold_position(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "SampledTrajectory":
-        """Stay at positions."""
+        """Hold positions."""
         return cls([[JointPoint(0.0, position)] for position in positions], start_ns, tolerances)
 
     @property
     def end_ns(self) -> int:
-        """When all have arrived."""
+        """End time of the longest spline [ns]."""
         return self._start_ns + round(max(spline.end_s for spline in self._splines) * 1e9)
 
     def sample(self, time_ns: int) -> list[tuple[float, float, float]]:
@@ -92,7 +92,7 @@ class SampledTrajectory:
         return [spline.sample(time_s) for spline in self._splines]
 
     def unwind(self, number: int) -> None:
-        """Shift a joint that turns without end by whole turns, so that it goes to its first point the short way."""
+        """Shift a continuous joint by whole turns, so that it takes the shorter way to its first point."""
         start, *rest = self._points[number]
         if not rest:
             return
@@ -115,13 +115,13 @@ def read_trajectory(
     Args:
         trajectory: the message, with at least one point.
         joints: of the controller.
-        now: where each is to be at this moment: position, velocity, acceleration.
-        now_ns: this moment.
-        tolerances: of the course.
-        partial: whether some joints may be left out, which then stay.
+        now: desired position, velocity and acceleration of each joint now.
+        now_ns: current time [ns].
+        tolerances: of the trajectory.
+        partial: True if joints may be missing; these hold.
 
     Raises:
-        GoalError: it is not for these joints, or no trajectory.
+        GoalError: other joints, or an invalid trajectory.
     """
     names = [str(name) for name in trajectory.joint_names]
     missing, unknown = [j for j in joints if j not in names], [n for n in names if n not in joints]
@@ -144,7 +144,7 @@ def read_trajectory(
         if joint not in names:
             columns.append([JointPoint(0.0, position)])
             continue
-        if begin_ns > now_ns:  # it stays until the trajectory begins
+        if begin_ns > now_ns:  # hold until the trajectory begins
             start = [JointPoint(0.0, position), JointPoint((begin_ns - now_ns) / 1e9, position, 0.0, 0.0)]
         column = names.index(joint)
         points = [
@@ -152,7 +152,7 @@ def read_trajectory(
             for time_s, point in zip(times, trajectory.points, strict=True)
             if time_s > start[-1].time_s
         ]
-        if not points:  # all is due at once
+        if not points:  # all points are in the past
             start = []
             points = [_point(0.0, trajectory.points[-1], column, len(names))]
         columns.append([*start, *points])
@@ -171,6 +171,6 @@ def _point(time_s: float, point: Message, column: int, width: int) -> JointPoint
     position = value("positions")
     if position is None:
         raise GoalError(
-            GoalError.INVALID_GOAL, "a point has no positions; trajectories of speeds alone are not followed"
+            GoalError.INVALID_GOAL, "a point has no positions; trajectories of velocities only are not supported"
         )
     return JointPoint(time_s, position, value("velocities"), value("accelerations"))

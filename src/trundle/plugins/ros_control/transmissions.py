@@ -1,4 +1,4 @@
-"""Which joints a robot's <transmission> tags drive, and through which interface."""
+"""Joints and interfaces of a robot's <transmission> tags."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -20,24 +20,24 @@ class DrivenJoint:
 
 
 def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[DrivenJoint]:
-    """Every joint that a transmission drives, in file order; what cannot be used is named, and the others go on.
+    """Read every joint that a transmission drives, in file order; warn of invalid ones and leave them out.
 
-    By transmission_interface's TransmissionParser; an interface that stands in the actuator counts as before Indigo.
+    Rules of transmission_interface's TransmissionParser; an interface in the <actuator> counts, as before Indigo.
 
     Args:
         urdf: the robot as XML.
-        name: what messages call the text.
-        report: takes what is left out.
+        name: of the text in messages.
+        report: takes warnings.
 
     Raises:
-        DescriptionError: the text is no robot.
+        DescriptionError: the text is not a URDF.
     """
     root = parse_xml(urdf, name=name, report=report)
     if root.tag != "robot":
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
     found: dict[str, DrivenJoint] = {}
     for transmission in root.all("transmission"):
-        if why := _why_unusable(transmission):
+        if why := _fault(transmission):
             said = transmission.attribute("name")
             who = "a transmission" if not said else f"transmission {said!r}"
             report.warn(transmission.at, f"{who} {why}; it is left out")
@@ -53,8 +53,8 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     return list(found.values())
 
 
-def _why_unusable(transmission: XmlNode) -> str | None:
-    """What the parser drops a transmission for, with all its joints; None: it takes it."""
+def _fault(transmission: XmlNode) -> str | None:
+    """Fault for which TransmissionParser drops a transmission with all its joints; None: valid."""
     if not transmission.attribute("name"):
         return "has no name"
     if not transmission.string("type"):

@@ -1,4 +1,4 @@
-"""librotors_gazebo_imu_plugin.so: an imu with noise and drifting biases."""
+"""librotors_gazebo_imu_plugin.so: an imu with noise and bias drift."""
 
 import math
 from dataclasses import dataclass
@@ -20,22 +20,22 @@ from .namespaces import read_topic_name
 
 @dataclass(slots=True)
 class _NoiseModel:
-    """Three axes that err alike: white noise, a bias that wanders by a Gauss-Markov process, and one from the start."""
+    """Noise of three axes: white noise, a Gauss-Markov bias, and a turn-on bias."""
 
     random: np.random.Generator
     density: float
-    """Of the noise, per √Hz."""
+    """Noise density [unit/√Hz]."""
     walk: float
-    """Of the bias."""
+    """Bias random walk."""
     lag_s: float
-    """How long the bias remembers."""
+    """Correlation time of the bias [s]."""
     bias: NDArray[np.float64]
-    """(3,) What wanders."""
+    """(3,) Gauss-Markov bias."""
     first: NDArray[np.float64]
-    """(3,) What stays."""
+    """(3,) Turn-on bias."""
 
     def with_noise(self, values: Vector3, dt: float) -> dict[str, float]:
-        """What is told, so long [s] after the last."""
+        """Values with noise, `dt` [s] after the last."""
         spread = self.walk * math.sqrt(self.lag_s / 2.0 * -math.expm1(-2.0 * dt / self.lag_s))
         self.bias = math.exp(-dt / self.lag_s) * self.bias + spread * self.random.normal(size=3)
         noise = self.density / math.sqrt(dt) * self.random.normal(size=3)
@@ -43,12 +43,12 @@ class _NoiseModel:
 
     @property
     def covariance(self) -> list[float]:
-        """Of the noise, row by row."""
+        """Row-major 3×3 covariance of the noise."""
         return [self.density**2 if number % 4 == 0 else 0.0 for number in range(9)]
 
 
 class Imu(RosPlugin):
-    """Publishes sensor_msgs/Imu at every step; the orientation is true, its covariance says that there is none.
+    """Publishes sensor_msgs/Imu at every step; the orientation is true, with covariance −1 ("unknown") as in RotorS.
 
     Parameters, with RotorS' defaults, an ADIS16448's: <robotNamespace>, <linkName> (required), <imuTopic> imu,
     <gyroscopeNoiseDensity>, <gyroscopeBiasRandomWalk>, <gyroscopeBiasCorrelationTime> 1000, <gyroscopeTurnOnBiasSigma>,
@@ -73,7 +73,7 @@ class Imu(RosPlugin):
         self._last_ns = sim.time_ns
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the reading."""
         if not self._topic.has_subscribers:
             return
         elapsed, self._last_ns = (snapshot.time_ns - self._last_ns) / 1e9, snapshot.time_ns
@@ -98,7 +98,7 @@ class Imu(RosPlugin):
 def _axes(
     parameters: XmlNode, sim: Simulation, random: np.random.Generator, walk: str, defaults: tuple[float, ...]
 ) -> _NoiseModel:
-    """Read what has the first word of `walk`, the name of its bias' parameter."""
+    """Read the noise model whose parameters have the prefix of `walk`, a …RandomWalk parameter."""
     device = walk.removesuffix("RandomWalk").removesuffix("Bias")
     names = (f"{device}NoiseDensity", walk, f"{device}BiasCorrelationTime", f"{device}TurnOnBiasSigma")
     density, spread, lag_s, sigma = (

@@ -1,4 +1,4 @@
-"""librotors_gazebo_ros_interface_plugin.so, librotors_gazebo_controller_interface.so: how RotorS' topics get to ROS."""
+"""librotors_gazebo_ros_interface_plugin.so, librotors_gazebo_controller_interface.so: RotorS' topics on ROS."""
 
 from typing import Self
 
@@ -14,7 +14,7 @@ _ACTUATORS = "mav_msgs/Actuators"
 
 
 class GazeboRosInterface(WorldPlugin):
-    """Does nothing: the other plugins are on the graph themselves."""
+    """Does nothing: the other plugins have ROS topics themselves."""
 
     period_ns = 1 << 62
 
@@ -28,7 +28,7 @@ class GazeboRosInterface(WorldPlugin):
 
 
 class ControllerInterface(RosPlugin):
-    """Passes what controllers want of the motors on to the motors' own topic, as it comes.
+    """Forwards controllers' motor speeds to the motors' topic.
 
     Parameters, with RotorS' defaults: <robotNamespace>, <commandMotorSpeedSubTopic> command/motor_speed,
     <motorSpeedCommandPubTopic> gazebo/command/motor_speed.
@@ -38,12 +38,12 @@ class ControllerInterface(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
         super().__init__(sim, model, node, tag)
-        heard = read_topic_name(tag, "commandMotorSpeedSubTopic", "command/motor_speed")
-        told = read_topic_name(tag, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
-        self._sim, self._motors = sim, node.advertise(told, _ACTUATORS, queue_size=1)
-        node.subscribe(heard, _ACTUATORS, self._pass, queue_size=1)
+        command_topic = read_topic_name(tag, "commandMotorSpeedSubTopic", "command/motor_speed")
+        motor_topic = read_topic_name(tag, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
+        self._sim, self._motors = sim, node.advertise(motor_topic, _ACTUATORS, queue_size=1)
+        node.subscribe(command_topic, _ACTUATORS, self._pass, queue_size=1)
         for name in ("commandAttitudeThrustSubTopic", "commandRateThrustSubTopic", "imuSubTopic"):
-            tag.node.find(name)  # of no effect in the original either
+            tag.node.find(name)  # without effect in the original, too
 
     def _pass(self, message: Message) -> None:
         header = {"stamp": self._sim.time_ns}

@@ -1,4 +1,4 @@
-"""librotors_gazebo_motor_model.so: a rotor that lifts, drags and turns its body."""
+"""librotors_gazebo_motor_model.so: thrust, drag and torques of a rotor."""
 
 import math
 from typing import Literal
@@ -37,9 +37,9 @@ class MotorModel(RosPlugin):
     (required), <motorNumber> 0, <motorType> velocity, position (by <joint_control_pid>) or force; of velocity
     <maxRotVelocity> 838 [rad/s], <motorConstant> 8.54858e-6 [N·s²/rad²], <momentConstant> 0.016 [m],
     <timeConstantUp> 1/80 and <timeConstantDown> 1/40 [s], <rotorDragCoefficient> 1e-4, <rollingMomentCoefficient> 1e-6
-    and <rotorVelocitySlowdownSim> 10: how much slower the joint turns than the rotor. Topics: <commandSubTopic>
+    and <rotorVelocitySlowdownSim> 10: rotor speed over joint speed. Topics: <commandSubTopic>
     command/motor_speed, <windSpeedSubTopic> wind_speed (rotors_comm/WindSpeed), <motorSpeedPubTopic> motor_speed, and
-    where they are named <motorPositionPubTopic> and <motorForcePubTopic> (std_msgs/Float32, of the joint).
+    if given <motorPositionPubTopic> and <motorForcePubTopic> (std_msgs/Float32, of the joint).
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -53,11 +53,11 @@ class MotorModel(RosPlugin):
         self._joint = model.joint(required(parameters, "jointName"))
         self._link = model.link(required(parameters, "linkName"))
         if not self._joint.is_driven:
-            raise UsageError(f"joint {self._joint.name!r} cannot move")
+            raise UsageError(f"joint {self._joint.name!r} has no axis to drive")
         axis, parent = self._joint.joint.axis, self._joint.joint.parent
         assert axis is not None, f"{self._joint.name} moves"
         self._axis = self._link.link.model_from_link.inverse().transform_vector(axis.direction)
-        """In the rotor's frame."""
+        """Joint axis in the rotor's frame."""
         self._parent = None if parent == "world" else model.link(parent)
         self._number = parameters.integer("motorNumber", default=0, report=report)
         way = parameters.string("turningDirection")
@@ -78,17 +78,17 @@ class MotorModel(RosPlugin):
             read_topic_name(tag, "commandSubTopic", "command/motor_speed"), "mav_msgs/Actuators", self._on_command
         )
         node.subscribe(read_topic_name(tag, "windSpeedSubTopic", "wind_speed"), "rotors_comm/WindSpeed", self._on_wind)
-        told = {"motorSpeedPubTopic": "motor_speed"} | {
+        topics = {"motorSpeedPubTopic": "motor_speed"} | {
             name: "" for name in ("motorPositionPubTopic", "motorForcePubTopic") if parameters.find(name) is not None
         }
-        self._told = {
+        self._topics = {
             name: node.advertise(read_topic_name(tag, name, default), "std_msgs/Float32", queue_size=1)
-            for name, default in told.items()
+            for name, default in topics.items()
         }
-        self._forget()
+        self._clear()
 
     def before_step(self, sim: Simulation) -> None:
-        """Push, and turn on."""
+        """Apply the rotor's forces, and drive the joint."""
         dt = sim.step_ns / 1e9
         if self._kind == "velocity":
             self._apply_forces()
@@ -103,24 +103,24 @@ class MotorModel(RosPlugin):
             self._joint.command_effort(self._wanted)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish the joint's speed, position and effort."""
         del snapshot
         joint = self._joint
-        for name, topic in self._told.items():
+        for name, topic in self._topics.items():
             if topic.has_subscribers:
                 values = {"motorSpeedPubTopic": joint.velocity, "motorPositionPubTopic": joint.position}
                 topic.publish({"data": values.get(name, joint.effort)})
 
     def reset(self) -> None:
-        """Stand still."""
-        self._forget()
+        """Stop the rotor."""
+        self._clear()
 
-    def _forget(self) -> None:
+    def _clear(self) -> None:
         self._wanted = self._speed = 0.0
         self._pid.reset()
 
     def _apply_forces(self) -> None:
-        """Lift along the rotor's z axis; drag and rolling moment by P. Martin and E. Salaün, The true role of
+        """Apply thrust along the rotor's z axis; drag and rolling moment by P. Martin and E. Salaün, The true role of
         accelerometer feedback in quadrotor control (ICRA 2010)."""
         pose, rate = self._link.pose, self._joint.velocity * self._slowdown
         thrust = self._way * math.copysign(rate * rate * self._lift, rate)
@@ -156,7 +156,7 @@ def _kind_of(parameters: XmlNode) -> Kind:
 
 
 def _pid_of(node: XmlNode | None, sim: Simulation) -> Pid:
-    """What is not given is 0, the command's limits as well."""
+    """Gains and limits; all default to 0, the command's limits as well."""
     pid = Pid(high=0.0)
     if node is not None:
         for name, tag in _GAINS:

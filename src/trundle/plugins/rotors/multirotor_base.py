@@ -1,4 +1,4 @@
-"""librotors_gazebo_multirotor_base_plugin.so: how fast the rotors of a body turn."""
+"""librotors_gazebo_multirotor_base_plugin.so: speeds of a body's rotors."""
 
 import re
 
@@ -16,7 +16,7 @@ class MultirotorBase(RosPlugin):
     """Publishes mav_msgs/Actuators on <motorPubTopic> motor_speed, and joint_states of the rotors.
 
     Parameters, with RotorS' defaults: <robotNamespace>, <linkName> base_link, <rotorVelocitySlowdownSim> 10. Rotors
-    are the links that hang from it, have `rotor_<number>` in their names and a joint `<link>_joint`.
+    are its child links with `rotor_<number>` in their names and a joint `<link>_joint`.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -32,7 +32,7 @@ class MultirotorBase(RosPlugin):
         self._states = node.advertise(join_topic(tag, "joint_states"), "sensor_msgs/JointState", queue_size=1)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Tell."""
+        """Publish rotor speeds and joint states."""
         header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
         if self._speeds.has_subscribers:
             speeds = [joint.velocity * self._slowdown for joint in self._rotors]
@@ -43,7 +43,7 @@ class MultirotorBase(RosPlugin):
 
 
 def _rotors_of(model: ModelHandle, base: str) -> list[JointHandle]:
-    """The joints of a body's rotors, by number."""
+    """Joints of a body's rotors, by number."""
     found: dict[int, JointHandle] = {}
     for joint in model.joints:
         number = _ROTOR.search(joint.joint.child)

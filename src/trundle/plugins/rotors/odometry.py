@@ -1,4 +1,4 @@
-"""librotors_gazebo_odometry_plugin.so: where a link is and how fast it moves, late and disturbed as the file says."""
+"""librotors_gazebo_odometry_plugin.so: pose and velocity of a link, with delay and noise."""
 
 import math
 from collections import deque
@@ -28,7 +28,7 @@ _WORLD = "world"
 
 
 class Odometry(RosPlugin):
-    """Publishes a link's centre of mass on five topics and /tf, its velocities in its own axes.
+    """Publishes the pose of a link's centre of mass on five topics and /tf, and velocities in its own axes.
 
     Parameters, with RotorS' defaults: <robotNamespace>, <linkName> (required), <poseTopic> pose,
     <poseWithCovarianceTopic> pose_with_covariance, <positionTopic> position, <transformTopic> transform,
@@ -69,7 +69,7 @@ class Odometry(RosPlugin):
         self.reset()
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Measure now and then, and tell what was measured so many steps ago; nothing, while nobody listens."""
+        """Measure every <measurementDivisor> steps, and publish after the delay, if there are subscribers."""
         if not any(topic.has_subscribers for topic in (*self._topics.values(), self._broadcaster)):
             self._measured.clear()
         elif self._steps % self._divisor == 0:
@@ -80,12 +80,12 @@ class Odometry(RosPlugin):
         self._steps += 1
 
     def reset(self) -> None:
-        """Measure anew."""
+        """Drop the delayed measurements."""
         self._steps = 0
         self._measured: deque[tuple[int, int, Pose, Twist]] = deque()
 
     def _motion(self) -> tuple[Pose, Twist]:
-        """Of the centre of mass against the reference, velocities of the link's origin in the link's axes."""
+        """Pose of the centre of mass in the reference frame, and twist of the link's origin in the link's axes."""
         link, twist = self._link.pose, self._link.twist
         com = link.transform_point(self._link.link.inertial.link_from_com.position)
         pose, linear, angular = Pose(com, link.quaternion), twist.linear, twist.angular
@@ -121,11 +121,11 @@ class Odometry(RosPlugin):
         )
         header = {"stamp": stamp_ns, "frame_id": self._frame}
         position, orientation = {"x": x, "y": y, "z": z}, {"x": qx, "y": qy, "z": qz, "w": qw}
-        told = {"position": position, "orientation": orientation}
+        pose_fields = {"position": position, "orientation": orientation}
         speeds = {name: dict(zip("xyz", getattr(twist, name), strict=True)) for name in ("linear", "angular")}
-        with_covariance = {"pose": told, "covariance": self._covariances[0]}
+        with_covariance = {"pose": pose_fields, "covariance": self._covariances[0]}
         messages: dict[str, dict[str, Any]] = {
-            "poseTopic": told,
+            "poseTopic": pose_fields,
             "poseWithCovarianceTopic": {"header": header, "pose": with_covariance},
             "positionTopic": {"header": header, "point": position},
             "transformTopic": {"header": header, "transform": {"translation": position, "rotation": orientation}},
@@ -142,7 +142,7 @@ class Odometry(RosPlugin):
 
 
 def _small_turn(angles: tuple[float, float, float]) -> Quaternion:
-    """A rotation by small angles [rad]."""
+    """Rotation by small angles [rad]."""
     x, y, z = (angle / 2.0 for angle in angles)
     w = 1.0 - x * x - y * y - z * z
     if w > 0.0:

@@ -16,14 +16,14 @@ _NEWTONS_PER_UNIT = 20.0
 class DrawForce(VisualPlugin):
     """Draws a line from a visual's origin along the force of geometry_msgs/WrenchStamped on <topicName>/the_force.
 
-    A name that is not global is below /visual, where the foot contacts are; the default is /default_force_draw. As in
-    Gazebo the line is in the visual's axes and stretched with it (a unit sphere's line is 0.05 m/N long, that of one of
-    0.02 m across 0.001 m/N), and viewers alone see it: cameras do not (GZ_VISIBILITY_GUI). It listens from when one
+    A relative name is below /visual, as the foot contacts; the default is /default_force_draw. As in
+    Gazebo the line is in the visual's axes and scaled with it (a unit sphere's line is 0.05 m/N long, that of one of
+    0.02 m diameter 0.001 m/N), and only viewers show it, not cameras (GZ_VISIBILITY_GUI). It subscribes once a viewer
     shows lines.
     """
 
     period_ns = 20_000_000
-    """That of a viewer's frames, about."""
+    """About the frame period of a viewer [ns]."""
 
     def __init__(
         self, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: Node | None, tag: PluginTag
@@ -49,7 +49,7 @@ class DrawForce(VisualPlugin):
         return cls(sim, model, link, visual, node, tag)
 
     def before_step(self, sim: Simulation) -> None:
-        """Put the line where the visual is."""
+        """Update the line to the visual's pose."""
         if self._node is None or not sim.lines_are_shown:
             return
         if self._subscription is None:
@@ -65,7 +65,7 @@ class DrawForce(VisualPlugin):
 
 
 def _scale_of(geometry: Geometry) -> Vector3:
-    """What Gazebo stretches unit shapes by, and with them all that is attached to their node (Visual::Load)."""
+    """Scale of a visual's node, by which Gazebo draws unit shapes and all that is attached (Visual::Load)."""
     match geometry:
         case Box(size):
             return size

@@ -1,4 +1,4 @@
-"""libunitreeFootContactPlugin.so: the force that the ground has on a foot."""
+"""libunitreeFootContactPlugin.so: contact force on a foot."""
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import PluginTag
@@ -11,11 +11,11 @@ from ..gazebo_ros.sensor_publisher import SensorPublisher
 
 
 def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
-    """Publish geometry_msgs/WrenchStamped on /visual/<sensor>/the_force, zero where nothing touches.
+    """Publish geometry_msgs/WrenchStamped on /visual/<sensor>/the_force, zero without contact.
 
-    It has no parameters. The force is in the axes of the sensor's link: the mean of the contacts since the message
-    before, one for each step and collision touched. Of a contact's several points all count; the original takes the
-    first as often as there are points, and calls that an error. Its header, empty there, has the time and the link.
+    No parameters. The force, in the axes of the sensor's link, is the mean over the contacts since the last message,
+    one per step and collision in contact. All points of a contact count; the original takes the first as often as there
+    are points, and calls that an error. The header, empty there, has the time and the link.
     """
     if not isinstance(sensor, ContactSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a contact sensor is needed")
@@ -34,7 +34,7 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
 
 
 def _mean_force(reading: ContactReading) -> Vector3:
-    """Of all contacts of a reading, world axes [N]."""
+    """Mean force of a reading's contacts, world axes [N]."""
     contacts = len({(touch.time_ns, touch.own, touch.other) for touch in reading.contacts})
     if not contacts:
         return (0.0, 0.0, 0.0)
