@@ -258,6 +258,6 @@ def test_a_ball_joint_takes_an_effort_and_no_other_order() -> None:
     assert (joint.positions, joint.velocities, joint.efforts) == (tuple(positions), tuple(velocities), tuple(efforts))
     assert abs(joint.positions[1]) > 0.1
     assert joint.position == joint.positions[0]
-    for order in (joint.set_velocity, joint.set_position, joint.hold):
+    for order in (joint.command_velocity, joint.set_position, joint.command_position):
         with pytest.raises(UsageError, match="is a ball joint without a single axis"):
             order(0.5)

@@ -23,7 +23,7 @@ class _Listener(Struct, Generic[Reading]):
 
 def _period_ns(rate_hz: float) -> Fraction:
     """Return the exact period, which does not drift; 0.1 Hz counts as a tenth."""
-    return NS / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
+    return NS_PER_S / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
 class SensorMount(Struct, frozen=True, eq=False, dict=True):
@@ -75,7 +75,7 @@ class LiveSensor(Generic[Reading]):
     @property
     def rate_hz(self) -> float:
         """Update rate; 0: every step."""
-        return float(NS / self.period_ns) if self.period_ns else 0.0
+        return float(NS_PER_S / self.period_ns) if self.period_ns else 0.0
 
     def start(self, simulation: Simulation) -> None:
         """Register the sensor's hook at its rate."""
@@ -136,7 +136,7 @@ class LiveSensor(Generic[Reading]):
 
     def world_from_link(self, snapshot: Snapshot) -> Pose:
         """Return the pose of the carrying link."""
-        return pose_of(snapshot.poses[self.link_index])
+        return pose_from_row(snapshot.poses[self.link_index])
 
     def world_from_sensor(self, snapshot: Snapshot) -> Pose:
         """Return the pose of the sensor."""

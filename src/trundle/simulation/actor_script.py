@@ -124,20 +124,3 @@ def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
         return (x, y, z)
 
     return [slope(i) for i in range(len(places))]
-
-
-def _slerp(a: Quaternion, b: Quaternion, u: float) -> Quaternion:
-    """Return the spherical linear interpolation at u in [0, 1] along the shorter arc."""
-    cosine = sum(p * q for p, q in zip(a, b, strict=True))
-    if cosine < 0.0:
-        b, cosine = (-b[0], -b[1], -b[2], -b[3]), -cosine
-    angle = math.acos(min(cosine, 1.0))
-    if angle < 1e-6:
-        return a
-    of_a, of_b = math.sin((1 - u) * angle) / math.sin(angle), math.sin(u * angle) / math.sin(angle)
-    w, x, y, z = (of_a * p + of_b * q for p, q in zip(a, b, strict=True))
-    return (w, x, y, z)
-
-
-def _conjugate(q: Quaternion) -> Quaternion:
-    return (q[0], -q[1], -q[2], -q[3])

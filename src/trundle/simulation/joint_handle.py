@@ -90,42 +90,67 @@ class JointHandle(Handle):
         mx, my, mz = cross(arm, (fx, fy, fz))
         return Wrench((fx, fy, fz), (tx - mx, ty - my, tz - mz))
 
-    def set_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
-        """Drive an axis with an effort [N·m or N], within the effort and velocity limits.
+    # -- state
+
+    def set_position(self, position: float, *, axis: int = 0) -> None:
+        """Set the position of an axis [rad or m] at once; its velocity stays, and no motor is switched.
+
+        Raises:
+            UsageError: there is no such axis, or the joint is a ball, whose three `ModelHandle.joint_positions` sets.
+        """
+        expect_finite(position)
+        driven = self._driven(axis)
+        self._simulation.engine.writer.set_axis_positions(range(driven, driven + 1), (position,))
+
+    def set_velocity(self, velocity: float, *, axis: int = 0) -> None:
+        """Set the velocity of an axis [rad/s or m/s] at once; nothing keeps it, and no motor is switched.
+
+        Raises:
+            UsageError: there is no such axis.
+        """
+        expect_finite(velocity)
+        index = self._axis(axis)
+        self._simulation.engine.writer.set_axis_velocities(range(index, index + 1), (velocity,))
+
+    # -- motors: the last command holds until the next one
+
+    def command_position(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
+        """Have a motor go to a position [rad or m], within the joint's limits, and stay there.
+
+        It closes in exponentially, a third of a second being its time constant, as far as its effort allows.
 
         Args:
-            effort: replaces the previous command.
-            axis: axis index.
+            position: where to.
+            max_effort: of the motor [N·m or N]; the joint's own effort limit holds as well.
+            axis: which.
+        """
+        driven = self._driven(axis)
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        self._simulation.engine.motors.command_position(driven, self._within_limits(position, driven), max_effort)
+
+    def command_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
+        """Have a motor keep a velocity [rad/s or m/s] with at most so much effort [N·m or N], as Gazebo's SetVelocity
+        with fmax does."""
+        self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort)
+
+    def command_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
+        """Drive with this effort [N·m or N], within the joint's effort and velocity limits.
+
+        Args:
+            effort: replaces whatever drove the axis before.
+            axis: which.
             duration_s: simulation time; None: until the next command.
         """
         self._simulation.engine.motors.command_effort(self._axis(axis), effort)
         self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
 
-    def set_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Drive an axis at a velocity [rad/s or m/s] with limited effort, as Gazebo's SetVelocity with fmax."""
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
-        self._simulation.engine.motors.set_velocity(self._driven(axis), velocity, max_effort)
-
     def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
-        """Drive the child's side at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""
+        """Move the child's side at this velocity [rad/s or m/s], at once; the parent's side feels its weight alone."""
         self._simulation.loads.set_effort_expiry(self, axis, until=None)
         engine = self._simulation.engine
         engine.motors.drive_kinematically(self._driven(axis), velocity)
         engine.reader.invalidate()
-
-    def hold(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Drive an axis to a position [rad or m] within its limits and hold it, with limited effort."""
-        driven = self._driven(axis)
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
-        self._simulation.engine.motors.hold(driven, self._within_limits(position, driven), max_effort)
-
-    def set_position(self, position: float, *, axis: int = 0) -> None:
-        """Set the joint's position at once [rad or m], at rest."""
-        self._simulation.engine.set_axis_position(self._driven(axis), position)
-
-    def start(self, velocity: float, *, axis: int = 0) -> None:
-        """Set the joint's velocity once [rad/s or m/s]."""
-        self._simulation.engine.set_axis_velocity(self._axis(axis), velocity)
 
     def _axis(self, axis: int) -> int:
         axes = self.axes

@@ -130,7 +130,7 @@ class Simulation:
 
     def run(self, duration_s: float) -> None:
         """Simulate for a duration [s], as fast as possible."""
-        self.advance(self.time_ns + round(duration_s * NS))
+        self.advance(self.time_ns + round(duration_s * NS_PER_S))
 
     def step(self, count: int = 1) -> None:
         """Simulate a number of time steps."""
@@ -366,4 +366,4 @@ class Simulation:
 
     def expiry_step(self, duration_s: float | None) -> int | None:
         """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
-        return None if duration_s is None else self.steps + max(1, round(duration_s * NS / self.step_ns))
+        return None if duration_s is None else self.steps + max(1, round(duration_s * NS_PER_S / self.step_ns))

@@ -14,7 +14,7 @@ Period: TypeAlias = int | Fraction
 
 def world_step_ns(world: World) -> int:
     """Return a world's step length [ns]."""
-    return round(world.physics.max_step_size_s * NS)
+    return round(world.physics.max_step_size_s * NS_PER_S)
 
 
 class StepClock(Struct, frozen=True):

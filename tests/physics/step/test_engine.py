@@ -319,7 +319,7 @@ def test_joints_speeding_off_slowly_are_caught_too() -> None:
 
 def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
     sim = wheel()
-    sim["wheel"].joint("hub").set_effort(1e10)
+    sim["wheel"].joint("hub").command_effort(1e10)
     with pytest.raises(SimulationUnstableError, match="'wheel::rim' diverged on joint 'wheel::hub'") as caught:
         sim.run(10.0)
     assert caught.value.divergence.joint == "wheel::hub"

@@ -49,20 +49,3 @@ def _tensor(inertial: Inertial) -> NDArray[np.float64]:
     ixx, iyy, izz = inertial.moments
     ixy, ixz, iyz = inertial.products
     return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
-
-
-def _quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Return a rotation matrix as a quaternion (w, x, y, z), by the largest of Shepperd's four forms."""
-    m = rotation
-    trace = np.trace(m)
-    four = np.array(
-        [
-            [1 + trace, m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
-            [m[2, 1] - m[1, 2], 1 + 2 * m[0, 0] - trace, m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
-            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 + 2 * m[1, 1] - trace, m[1, 2] + m[2, 1]],
-            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 + 2 * m[2, 2] - trace],
-        ]
-    )
-    best = four[int(np.argmax(np.diag(four)))]
-    w, x, y, z = (best / np.linalg.norm(best)).tolist()
-    return (w, x, y, z)

@@ -82,12 +82,6 @@ class Engine:
         self._last_state = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._steps = 0
         """Number of steps, which decides when sleeping is updated."""
-        self._was_teleported = True
-        """True if anything was teleported, and may penetrate something."""
-        self._tree_has_shapes = np.isin(
-            np.arange(self._model.ntree), self._model.body_treeid[self._model.geom_bodyid]
-        ).tolist()
-        """Per tree, True if it has shapes."""
         self.reset()
 
     def reset(self) -> None:
@@ -189,62 +183,6 @@ class Engine:
             {int(self.compiled.link_bodies[link]): motion for link, motion in motions.items()}
         )
         self._update_laws()
-
-    def set_axis_position(self, axis: int, position: float) -> None:
-        """Set the position of an axis [rad or m], at rest."""
-        self._data.qpos[self.compiled.axis_qpos[axis]] = position
-        self._data.qvel[self.compiled.axis_dof[axis]] = 0.0
-        self._sleep_policy.wake(int(self.compiled.axis_dof[axis]))
-        self.reader.invalidate()
-
-    def set_axis_velocity(self, axis: int, velocity: float) -> None:
-        """Set the speed of an axis [rad/s or m/s] once."""
-        self._data.qvel[self.compiled.axis_dof[axis]] = velocity
-        self.reader.invalidate()
-
-    def set_tree_pose(self, link: int, pose: Pose) -> None:
-        """Teleport a free link with its tree; velocities stay in world axes.
-
-        Raises:
-            UsageError: the link has a parent joint or is fixed.
-        """
-        joint = self._free_joint(link)
-        first = int(self._model.jnt_qposadr[joint])
-        dof = int(self._model.jnt_dofadr[joint])
-        turned = pose.quaternion
-        spin = np.empty(3)
-        mujoco.mju_rotVecQuat(spin, self._data.qvel[dof + 3 : dof + 6], self._data.qpos[first + 3 : first + 7])
-        self._data.qpos[first : first + 7] = (*pose.position, *turned)
-        wx, wy, wz = spin.tolist()
-        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=turned).inverse().transform_vector((wx, wy, wz))
-        self._was_teleported |= self._tree_has_shapes[self._model.dof_treeid[dof]]
-        self._sleep_policy.wake(dof)
-        self.reader.invalidate()
-
-    def set_tree_twist(self, link: int, twist: Twist) -> None:
-        """Set the velocity of a free link's origin and its angular velocity, world axes.
-
-        Raises:
-            UsageError: the link has a parent joint or is fixed.
-        """
-        joint = self._free_joint(link)
-        first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
-        w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
-        self._data.qvel[dof : dof + 3] = twist.linear
-        self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().transform_vector(twist.angular)
-        self._sleep_policy.wake(dof)
-        self.reader.invalidate()
-
-    def is_free(self, link: int) -> bool:
-        """True if a link has no parent joint and is not fixed."""
-        first = int(self._model.body_jntadr[self.compiled.link_bodies[link]])
-        return first >= 0 and self._model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE
-
-    def _free_joint(self, link: int) -> int:
-        if not self.is_free(link):
-            name = self.compiled.link_names[link]
-            raise UsageError(f"link {name!r} cannot be moved: it has a parent joint or is fixed to the world")
-        return int(self._model.body_jntadr[self.compiled.link_bodies[link]])
 
     def snapshot(self) -> EngineSnapshot:
         """Return an immutable snapshot of the state."""

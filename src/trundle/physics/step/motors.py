@@ -68,7 +68,7 @@ class Motors:
         self._always_enabled = False
         self._update_actuation_flag()
 
-    def set_effort(self, axis: int, effort: float) -> None:
+    def command_effort(self, axis: int, effort: float) -> None:
         """Apply an effort [N·m or N] to an axis within its limits, and switch its motor off.
 
         As in Gazebo, an axis beyond its velocity limit is not accelerated further: with such a limit the effort comes
@@ -82,7 +82,7 @@ class Motors:
         # Half of the effort is constant, half a motor's: together from zero to the full effort.
         self._command(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
 
-    def set_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
+    def command_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
         """Drive an axis at a speed [rad/s or m/s] with limited effort."""
         self._drive(axis, velocity, max_effort, rate=0.0)
 
@@ -100,7 +100,7 @@ class Motors:
         if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
             self._data.qvel[dof] = velocity
 
-    def hold(self, axis: int, position: float, max_effort: float) -> None:
+    def command_position(self, axis: int, position: float, max_effort: float) -> None:
         """Drive an axis to a position [rad or m] and hold it."""
         self._drive(axis, position, max_effort, rate=HOLD_RATE)
 

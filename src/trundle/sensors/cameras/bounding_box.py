@@ -48,7 +48,7 @@ class BoundingBoxCameraSensor(CameraSensor):
 
     def _box_3d(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
         """Return the box along the axes of the instance's first body: world_from_box and size [m]."""
-        world_from_body = pose_of(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
+        world_from_body = pose_from_row(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
         points = transform_points(world_from_body.inverse(), self._outline(shapes, snapshot))
         low, high = points.min(axis=0), points.max(axis=0)
         x, y, z = ((low + high) / 2).tolist()
