@@ -107,7 +107,7 @@ def test_a_joint_without_limits_is_named_and_left_out() -> None:
         {}, robot='<robot name="r"><joint name="a" type="revolute"/><joint name="b" type="continuous"/></robot>'
     )
     assert list(node.sent("/joint_states")[0].name) == ["b"]
-    assert node.logged == [("warn", "joint 'a' is neither fixed nor continuous, but has no limits; it is ignored")]
+    assert node.log.logged == [("warn", "joint 'a' is neither fixed nor continuous, but has no limits; it is ignored")]
 
 
 @pytest.mark.parametrize(

@@ -130,7 +130,7 @@ def test_a_body_that_is_nowhere_is_not_seen(opengl: EglRenderer) -> None:
 
 def test_without_opengl_one_sentence_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco.egl", None)
-    with pytest.raises(UsageError, match=r"no OpenGL over EGL here .*--renderer cpu needs none"):
+    with pytest.raises(UsageError, match=r"no OpenGL over EGL here .*--renderer cpu works without"):
         EglRenderer(scene())
 
 
