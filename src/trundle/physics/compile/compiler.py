@@ -25,7 +25,8 @@ from .initial_positions import initial_positions
 from .joints import JointBuilder
 from .kinematic_tree import WORLD, JointEdge, KinematicTree, LinkNode
 from .law_tables import fill_tables, reserve_tables
-from .shapes import CollidesWith, ShapeEntry, add_shape
+from .shape_entry import CollidesWith, ShapeEntry
+from .shapes import add_shape
 from .solver_settings import apply_settings, choose_jacobian
 from .tunnelling import enable_ccd
 from .wheels import TREAD_POINTS, tread_of, without_tread
@@ -108,7 +109,7 @@ class Compiler:
             self._close_loop(edge)
         collisions = (collision for node in self.tree.links.values() for collision in node.link.collisions)
         if self.cuts_meshes and any(isinstance(collision.geometry, MeshFile) for collision in collisions):
-            from ..mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
+            from .mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
 
             self.decomposition = cut_meshes(self.tree)
         for node in self.tree.links.values():

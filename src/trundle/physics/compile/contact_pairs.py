@@ -18,7 +18,7 @@ from trundle.model import Model
 from .compliance import is_soft, pair_name
 from .contact_params import ContactParams, bitmasks_match, combine_surfaces, friction_of, is_plain
 from .kinematic_tree import KinematicTree
-from .shapes import CollidesWith, ShapeEntry
+from .shape_entry import CollidesWith, ShapeEntry
 from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solref
 
 MAX_PAIRS = 2000

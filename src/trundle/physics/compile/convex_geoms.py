@@ -6,6 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.diagnostics import Diagnostics
+from trundle.model import Collision
 from trundle.spatial import Pose
 
 from .solver_settings import apply_settings
@@ -70,3 +72,12 @@ def thicken(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
                 thick[numbers[at]] = np.concatenate([layer - half, layer + half])
             thickest = max(thickest, float(thinnest[at]))
     return thick, thickest
+
+
+def thick_pieces(pieces: Sequence[_Points], collision: Collision, report: Diagnostics) -> list[_Points]:
+    """Return pieces (N, 3) [m] thick enough for a hull, with a warning about flat ones."""
+    thick, thickest = thicken(pieces)
+    if thickest:
+        what = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
+        report.warn(collision.at, f"collision {collision.name!r}: {what}")
+    return thick

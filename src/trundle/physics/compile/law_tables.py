@@ -15,7 +15,7 @@ from trundle.model import Link, World
 from trundle.spatial import ZERO
 
 from .contact_params import ContactParams
-from .shapes import ShapeEntry
+from .shape_entry import ShapeEntry
 
 _WIDTHS = {
     "laws": 9,

@@ -1,13 +1,9 @@
 """Collisions as MuJoCo geoms."""
 
-from collections.abc import Sequence
-from enum import Flag, auto
 from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
-from msgspec import Struct
-from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import triangulate
@@ -25,11 +21,11 @@ from trundle.model import (
     Plane,
     Polyline,
     Sphere,
-    Surface,
 )
 from trundle.spatial import Pose, Vector3, rotation_from_z
 
-from .convex_geoms import MIN_THICKNESS, add_hull, add_hulls, thicken
+from .convex_geoms import MIN_THICKNESS, add_hull, add_hulls, thick_pieces
+from .shape_entry import CollidesWith
 
 if TYPE_CHECKING:
     from ..convex.mesh_decomposition import WorldDecomposition
@@ -37,41 +33,6 @@ if TYPE_CHECKING:
 _CONE_SIDES = 32
 _MAX_CORNERS = 1000
 """Most corners of a polyline; triangulation time grows with their cube."""
-
-
-class CollidesWith(Flag):
-    """Kinds of shapes that a shape can collide with."""
-
-    PLANES = auto()
-    STANDING = auto()
-    """Fixed shapes other than planes."""
-    MOVING = auto()
-    ALL = PLANES | STANDING | MOVING
-
-
-class ShapeEntry(Struct, frozen=True):
-    """Geom that takes part in collisions."""
-
-    geom: mujoco.MjsGeom
-    name: str
-    collision: str
-    """`model::link::collision`"""
-    model: int
-    link: str
-    """`model::link`"""
-    fixed: bool
-    """True if the shape cannot move."""
-    surface: Surface
-    collides_with: CollidesWith = CollidesWith.ALL
-    points: int = 1
-    """Number of ODE contact points that each of its contacts stands for."""
-
-    @property
-    def kind(self) -> CollidesWith:
-        """Kind of the shape in the other's `collides_with`."""
-        if not self.fixed:
-            return CollidesWith.MOVING
-        return CollidesWith.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else CollidesWith.STANDING
 
 
 def add_shape(
@@ -101,7 +62,7 @@ def add_shape(
         case MeshFile(path=None) | Empty():
             return []
         case MeshFile():
-            from ..mesh_shapes import add_mesh  # a world without meshes starts without what cuts them
+            from .mesh_shapes import add_mesh  # a world without meshes starts without what cuts them
 
             return add_mesh(spec, body, collision, name, report, fixed=fixed, decomposition=decomposition)
         case Cone(radius, length):
@@ -155,17 +116,6 @@ def _add_prisms(
         return []
     prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangulate(outlines)]
     return add_hulls(spec, body, collision.link_from_collision, name, thick_pieces(prisms, collision, report))
-
-
-def thick_pieces(
-    pieces: Sequence[NDArray[np.float64]], collision: Collision, report: Diagnostics
-) -> list[NDArray[np.float64]]:
-    """Return pieces (N, 3) [m] thick enough for a hull, with a warning about flat ones."""
-    thick, thickest = thicken(pieces)
-    if thickest:
-        what = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
-        report.warn(collision.at, f"collision {collision.name!r}: {what}")
-    return thick
 
 
 def _repaired(collision: Collision, report: Diagnostics) -> Geometry:

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import mujoco
 
 from .law_tables import find_table
-from .shapes import CollidesWith, ShapeEntry
+from .shape_entry import CollidesWith, ShapeEntry
 
 _FASTEST = 15.0
 """Speed after a fall of 11 m [m/s]; bodies that cannot tunnel at it are not checked at higher ones."""

@@ -11,12 +11,12 @@ from trundle.diagnostics import Diagnostics
 from trundle.meshes import Mesh, MeshError, load_mesh
 from trundle.model import Collision, MeshFile
 
-from .compile.convex_geoms import add_hull, add_hulls
-from .compile.kinematic_tree import KinematicTree
-from .compile.shapes import CollidesWith, thick_pieces
-from .convex.hulls import hull_of
-from .convex.mesh_decomposition import FULL, DecomposedMesh, MeshRequest, WorldDecomposition
-from .convex.pieces import split_mesh
+from ..convex.hulls import hull_of
+from ..convex.mesh_decomposition import FULL, DecomposedMesh, MeshRequest, WorldDecomposition
+from ..convex.pieces import split_mesh
+from .convex_geoms import add_hull, add_hulls, thick_pieces
+from .kinematic_tree import KinematicTree
+from .shape_entry import CollidesWith
 
 
 def cut_meshes(tree: KinematicTree) -> WorldDecomposition:
