@@ -17,7 +17,7 @@ from .handles import ModelHandle
 if TYPE_CHECKING:  # a world without actors starts without their modules
     from trundle.model import Actor, AnimationState, Skin
 
-    from .simulation import Simulation
+    from .runtime import Runtime
 
 _PERSON: Vector3 = (0.3, 0.5, 1.8)
 """Size of a skin that cannot be read [m]."""
@@ -67,7 +67,7 @@ class ActorPlayer:
         """True if the actor exists and its script runs."""
         return self.is_on and any(model is self._handle for model in models)
 
-    def before_step(self, sim: "Simulation") -> None:
+    def before_step(self, sim: "Runtime") -> None:
         """Set the actor's pose and twist."""
         time_s, dt = sim.time_ns / 1e9, self.period_ns / 1e9
         self._handle.set_pose(self._script.pose_at(time_s))

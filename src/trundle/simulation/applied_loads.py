@@ -1,18 +1,30 @@
 """Timed wrenches and efforts, and surface motions of links."""
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from msgspec import Struct, field
 
 from trundle.physics import Engine
 from trundle.spatial import Wrench
 
-from .joint_handle import JointHandle
 from .step_clock import StepClock
 
 if TYPE_CHECKING:  # a world without belts starts without them
     from trundle.physics import LinkGrip
+
+
+class DrivenJoint(Protocol):
+    """Joint that an effort drives for a while."""
+
+    @property
+    def is_valid(self) -> bool:
+        """True while its model exists."""
+        ...
+
+    def command_effort(self, effort: float, *, axis: int = 0) -> None:
+        """Drive an axis with this effort [N·m or N]."""
+        ...
 
 
 class Expiries(Struct, frozen=True):
@@ -20,7 +32,7 @@ class Expiries(Struct, frozen=True):
 
     wrenches: dict[int, int] = field(default_factory=dict[int, int])
     """Link index → step."""
-    efforts: dict[tuple[JointHandle, int], int] = field(default_factory=dict[tuple[JointHandle, int], int])
+    efforts: dict[tuple[DrivenJoint, int], int] = field(default_factory=dict[tuple[DrivenJoint, int], int])
     """Joint and axis → step."""
 
     def copy(self) -> "Expiries":
@@ -76,7 +88,7 @@ class AppliedLoads:
         self._lasting.setdefault(link, now)
         self._engine.set_wrench(link, now + wrench)
 
-    def set_effort_expiry(self, joint: JointHandle, axis: int, *, until: int | None) -> None:
+    def set_effort_expiry(self, joint: DrivenJoint, axis: int, *, until: int | None) -> None:
         """Set the step at which an effort ends; None: never."""
         self.expiries.efforts.pop((joint, axis), None)
         if until is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 from trundle.diagnostics import UsageError
 
 if TYPE_CHECKING:
-    from .simulation import Simulation
+    from .runtime import Runtime
 
 
 class Handle:
@@ -15,7 +15,7 @@ class Handle:
     KIND: ClassVar[str]
     """Kind of part, for messages."""
 
-    def __init__(self, simulation: "Simulation", index: int) -> None:
+    def __init__(self, simulation: "Runtime", index: int) -> None:
         self._simulation = simulation
         self._index: int | None = index
 

@@ -25,7 +25,7 @@ from .world_edits import with_model_at
 if TYPE_CHECKING:
     from trundle.physics import LinkGrip
 
-    from .simulation import Simulation
+    from .runtime import Runtime
 
 
 class LinkHandle(Handle):
@@ -33,7 +33,7 @@ class LinkHandle(Handle):
 
     KIND = "link"
 
-    def __init__(self, simulation: "Simulation", link: Link, index: int) -> None:
+    def __init__(self, simulation: "Runtime", link: Link, index: int) -> None:
         super().__init__(simulation, index)
         self.link = link
 
@@ -111,7 +111,7 @@ _Named = TypeVar("_Named", LinkHandle, JointHandle)
 class ModelHandle:
     """Handle of a model."""
 
-    def __init__(self, simulation: "Simulation", model: Model, *, first_link: int, first_joint: int) -> None:
+    def __init__(self, simulation: "Runtime", model: Model, *, first_link: int, first_joint: int) -> None:
         self._simulation = simulation
         self.model = model
         self.links = [LinkHandle(simulation, link, first_link + i) for i, link in enumerate(model.links)]
@@ -326,7 +326,7 @@ def _find_by_name(name: str, there: Iterable[_Named], none: str) -> _Named:
     raise UsageError(f"{none} {name!r}; there are: {', '.join(repr(one.name) for one in there) or 'none'}")
 
 
-def handles_of(simulation: "Simulation", world: World, known: Mapping[str, ModelHandle]) -> list[ModelHandle]:
+def handles_of(simulation: "Runtime", world: World, known: Mapping[str, ModelHandle]) -> list[ModelHandle]:
     """Return a handle per model, in order; known ones are rebound to their new indices."""
     handles: list[ModelHandle] = []
     link, joint = 0, 0
@@ -343,7 +343,7 @@ def handles_of(simulation: "Simulation", world: World, known: Mapping[str, Model
     return handles
 
 
-def world_joints_of(simulation: "Simulation", world: World, known: Mapping[str, JointHandle]) -> list[JointHandle]:
+def world_joints_of(simulation: "Runtime", world: World, known: Mapping[str, JointHandle]) -> list[JointHandle]:
     """Return a handle per joint between models, in order; known ones are rebound to their new indices."""
     gone = dict(known)
     first = sum(len(model.joints) for model in world.models)

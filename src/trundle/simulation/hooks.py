@@ -7,19 +7,27 @@ which is called on all due hooks before the first `after_step`.
 """
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import Generic, Protocol, TypeVar
 
 from .snapshot import Snapshot
 from .step_clock import Period, StepClock
 
-if TYPE_CHECKING:
-    from .simulation import Simulation
+
+class SteppedWorld(Protocol):
+    """World that hooks act on."""
+
+    steps: int
+    """Number of steps made."""
 
 
-class BeforeStep(Protocol):
+WorldT = TypeVar("WorldT", bound=SteppedWorld)
+_WorldT = TypeVar("_WorldT", contravariant=True)
+
+
+class BeforeStep(Protocol[_WorldT]):
     """Hook that acts on the world."""
 
-    def before_step(self, sim: "Simulation", /) -> None:
+    def before_step(self, sim: _WorldT, /) -> None:
         """Write efforts, velocities and wrenches."""
         ...
 
@@ -67,7 +75,7 @@ class PeriodicTimer:
         return True
 
 
-class ScheduledHook:
+class ScheduledHook(Generic[WorldT]):
     """Hook with its timers: `before_step` is first due at once, `after_step` after one period."""
 
     def __init__(
@@ -77,7 +85,7 @@ class ScheduledHook:
         self.enabled = enabled
         self.was_enabled = True
         """Value of `enabled` at the last check."""
-        self.before: Callable[[Simulation], None] | None = getattr(hook, "before_step", None)
+        self.before: Callable[[WorldT], None] | None = getattr(hook, "before_step", None)
         self.after: Callable[[Snapshot], None] | None = getattr(hook, "after_step", None)
         self.prepare: Callable[[Snapshot], None] | None = getattr(hook, "prepare", None)
         assert self.before or self.after, f"{hook!r} has neither before_step nor after_step"

@@ -10,7 +10,7 @@ from trundle.spatial import Pose, Wrench, cross
 from .handle import Handle, expect_finite
 
 if TYPE_CHECKING:
-    from .simulation import Simulation
+    from .runtime import Runtime
 
 
 class JointHandle(Handle):
@@ -20,7 +20,7 @@ class JointHandle(Handle):
 
     KIND = "joint"
 
-    def __init__(self, simulation: "Simulation", joint: Joint, index: int) -> None:
+    def __init__(self, simulation: "Runtime", joint: Joint, index: int) -> None:
         super().__init__(simulation, index)
         self.joint = joint
 

@@ -1,25 +1,27 @@
 """Schedule: the hooks of one simulation."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Generic
 
-from .hooks import AfterStep, BeforeStep, ScheduledHook
+from .hooks import AfterStep, BeforeStep, ScheduledHook, WorldT
 from .snapshot import Snapshot
 from .step_clock import Period, StepClock
 
-if TYPE_CHECKING:
-    from .simulation import Simulation
 
-
-class Schedule:
+class Schedule(Generic[WorldT]):
     """Hooks in order of registration."""
 
     def __init__(self, clock: StepClock) -> None:
         self._clock = clock
-        self._hooks: list[ScheduledHook] = []
+        self._hooks: list[ScheduledHook[WorldT]] = []
 
     def add(
-        self, hook: BeforeStep | AfterStep, period_ns: Period, *, now_ns: int, enabled: Callable[[], bool] | None
+        self,
+        hook: BeforeStep[WorldT] | AfterStep,
+        period_ns: Period,
+        *,
+        now_ns: int,
+        enabled: Callable[[], bool] | None,
     ) -> None:
         """Register a hook from now [ns] on; see `Simulation.add_hook`."""
         self._hooks.append(ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled))
@@ -45,19 +47,19 @@ class Schedule:
         for hook in self._hooks:
             hook.restart(step)
 
-    def enabled(self, step: int) -> list[ScheduledHook]:
+    def enabled(self, step: int) -> list[ScheduledHook[WorldT]]:
         """Return the enabled hooks of the stride that begins with this step."""
         return [hook for hook in self._hooks if hook.update_enabled(step)]
 
 
-def run_before(hooks: list[ScheduledHook], sim: "Simulation") -> None:
+def run_before(hooks: list[ScheduledHook[WorldT]], sim: WorldT) -> None:
     """Call `before_step` of the hooks that are due."""
     for hook in hooks:
         if hook.before is not None and hook.before_timer.due(sim.steps):
             hook.before(sim)
 
 
-def run_after(hooks: list[ScheduledHook], step: int, snapshot: Callable[[], Snapshot]) -> None:
+def run_after(hooks: list[ScheduledHook[WorldT]], step: int, snapshot: Callable[[], Snapshot]) -> None:
     """Call `after_step` of the hooks that are due; the snapshot is taken only if there are any."""
     due = [hook for hook in hooks if hook.after is not None and hook.after_timer.due(step)]
     if not due:

@@ -75,7 +75,7 @@ class Simulation:
         self.lines_are_shown = False
         """True if a viewer shows the lines; plugins with expensive lines draw none before."""
         self._commands: deque[Command] = deque()
-        self._schedule = Schedule(self._clock)
+        self._schedule = Schedule[Simulation](self._clock)
         self._on_change: list[Callable[[], None]] = []
         self.actors = {
             actor.name: ActorPlayer(actor, self[actor.name])
@@ -173,7 +173,11 @@ class Simulation:
         return simulated_ns
 
     def add_hook(
-        self, hook: BeforeStep | AfterStep, *, period_ns: Period = 0, enabled: Callable[[], bool] | None = None
+        self,
+        hook: "BeforeStep[Simulation] | AfterStep",
+        *,
+        period_ns: Period = 0,
+        enabled: Callable[[], bool] | None = None,
     ) -> None:
         """Register a periodic hook.
 

@@ -1,0 +1,62 @@
+"""Imports: no module reaches itself, types included.
+
+Names that come through a room's front door count as imports of the module that defines them.
+"""
+
+import ast
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import trundle
+
+_ROOT = Path(trundle.__file__).parent
+_REPLACED_NEXT = _ROOT / "viewer"
+
+
+def _name(path: Path) -> str:
+    parts = path.relative_to(_ROOT.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+_FILES = {_name(path): path for path in _ROOT.rglob("*.py") if _REPLACED_NEXT not in path.parents}
+
+
+def _base(module: str, path: Path, node: ast.ImportFrom) -> str:
+    """The module that a `from … import` names, as an absolute name."""
+    if node.level == 0:
+        return node.module or ""
+    package = module.split(".") if path.stem == "__init__" else module.split(".")[:-1]
+    return ".".join([*package[: len(package) - node.level + 1], *filter(None, [node.module])])
+
+
+def _origin(base: str, name: str) -> str:
+    """The module that defines `name` of `base`, followed through front doors."""
+    if f"{base}.{name}" in _FILES:
+        return f"{base}.{name}"
+    door = _FILES[base].with_suffix(".pyi")
+    if door.exists():
+        for node in ast.parse(door.read_text()).body:
+            if isinstance(node, ast.ImportFrom) and any(alias.asname == name for alias in node.names):
+                return _origin(_base(base, door, node), name)
+    return base
+
+
+def _imports(module: str, path: Path) -> Iterator[str]:
+    """Modules of ours that one imports: at its top, in functions, and for types only."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in _FILES)
+        elif isinstance(node, ast.ImportFrom) and (base := _base(module, path, node)) in _FILES:
+            yield from (_origin(base, alias.name) for alias in node.names)
+
+
+def test_no_module_imports_itself_in_a_circle() -> None:
+    graph = {module: set(_imports(module, path)) for module, path in _FILES.items()}
+    circle: list[str] = []
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        circle = error.args[1]
+
+    assert circle == []
