@@ -17,8 +17,9 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.diagnostics import UsageError
-from trundle.ros.node.loop import GraphLoop, close_server
+from trundle.ros.node.loop import GraphLoop
 from trundle.ros.node.node import Node
+from trundle.ros.transport.closing_loop import close_server
 
 
 @pytest.mark.parametrize("passes", range(5))

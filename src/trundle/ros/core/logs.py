@@ -11,8 +11,8 @@ from trundle.names import resolve_name
 from ..log import LEVELS
 from ..log_file import LogFile
 from ..master.parameters import ParameterTree
-from ..master.registry import Answer
 from ..messages.messages import Message
+from ..xmlrpc.rpc_methods import Answer
 
 ROSOUT_BYTES, ROSOUT_BACKUPS = 100 * 1024 * 1024, 10
 """Limits of the original rosout node."""

@@ -11,11 +11,11 @@ from trundle.names import canonical_name, parent_namespace, resolve_name
 
 from ..errors import ParameterError
 from ..transport.network import LOOPBACK, server_address
-from ..xmlrpc.rpc_methods import BadArgumentError, Method, answer_call, name_argument
+from ..xmlrpc.rpc_methods import Answer, BadArgumentError, Method, answer_call, name_argument
 from ..xmlrpc.rpc_server import RpcServer
 from ..xmlrpc.xmlrpc import encode_response
 from .parameters import ParameterTree, updates
-from .registry import Answer, RegistrationTable, Registry
+from .registry import RegistrationTable, Registry
 from .slave_calls import SlaveCalls
 
 ANY_TYPE = "*"

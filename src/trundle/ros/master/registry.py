@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-Answer = tuple[int, str, object]
+from ..xmlrpc.rpc_methods import Answer
 
 
 class RegistrationTable:

@@ -1,16 +1,15 @@
 """Serialization of one message type: its layout, compiled once, drives the C++ reader and writer."""
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from ..errors import MessageError
+from ..transport.framing import Pieces
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosbags.typesys.store import Typestore
 
-Pieces: TypeAlias = tuple[bytes | memoryview, ...]
-"""Buffers of one frame, in order."""
 ENCODING_ERRORS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
 """Raised if a field's value does not fit its type, or the bytes are not a message."""
 

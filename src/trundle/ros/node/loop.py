@@ -5,15 +5,15 @@ import contextlib
 import logging
 import threading
 import time
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
 from typing import Any, Self, TypeVar
-from weakref import WeakSet
 
 from trundle.diagnostics import DescriptionError, UsageError
 
 from .. import _wire
 from ..messages.messages import Messages
+from ..transport.closing_loop import ClosingLoop
 from ..transport.fast_selector import FastSelector
 from .local_graph import LocalGraph
 from .pending_work import PendingWork
@@ -22,10 +22,6 @@ _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
 _LAST_CALLBACK_S = 8.0
 """How much longer a callback at work may hold the thread: a loop that is left behind leaks its sockets."""
-_OPENING_S, _ENDING_S = 1.0, 1.0
-"""How long servers may take to open, and tasks to end, when the loop is left."""
-_ENDING_ROUNDS = 10
-"""How often the loop looks again for what came while the rest was ended."""
 _CALM_PASSES = 5
 """Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
 nothing outside the process get this many steps."""
@@ -62,7 +58,7 @@ class GraphLoop:
         """Whether the loop was given anything to do since `settle` was last called."""
         self.selector = FastSelector()
         """Takes sockets that are read without asyncio's help; used on the loop."""
-        self._loop = _ClosingLoop(self.selector)
+        self._loop = ClosingLoop(self.selector)
         self._thread = threading.Thread(target=self._run, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
         self._unstarted: dict[Future[Any], Coroutine[Any, Any, Any]] = {}
@@ -239,84 +235,6 @@ class GraphLoop:
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
             self._drop_unstarted()
-
-
-class _ClosingLoop(asyncio.SelectorEventLoop):
-    """An event loop that can close whatever was opened in it, however far that had come."""
-
-    def __init__(self, selector: FastSelector) -> None:
-        super().__init__(selector)
-        self._servers: WeakSet[asyncio.Server] = WeakSet()
-        """Those that listen: the loop's readers keep them."""
-        self._opening: set[asyncio.Task[asyncio.Server]] = set()
-
-    async def create_server(self, *args: Any, **options: Any) -> asyncio.Server:
-        """As asyncio's, but a server is closed in the end even if whoever asked for it is cancelled meanwhile."""
-        task = self.create_task(super().create_server(*args, **options))
-        self._opening.add(task)
-        task.add_done_callback(self._opened)
-        return await asyncio.shield(task)
-
-    async def close_all(self) -> None:
-        """Close servers, end tasks, drop connections; in this order, so that little new comes in between.
-
-        What does is ended in the next round, however slow the machine is; a task that will not end is left.
-        """
-        told: set[asyncio.Task[Any]] = set()
-        for _ in range(_ENDING_ROUNDS):
-            await self._close_servers()
-            others = self._others()
-            for task in others - told:
-                task.cancel()
-            told |= others
-            if others:
-                await asyncio.wait(others, timeout=_ENDING_S / _ENDING_ROUNDS)
-            for transport in self._connected():
-                transport.abort()
-            await _passes()
-            if not (self._others() or self._opening or self._connected()):
-                return
-
-    async def _close_servers(self) -> None:
-        if self._opening:
-            opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
-            for task in opened:  # their own callbacks may come only after this
-                self._opened(task)
-        while self._servers:
-            await close_server(self._servers.pop())
-
-    def _others(self) -> "set[asyncio.Task[Any]]":
-        """Tasks beside the one that asks; half made, a server could not be closed."""
-        return asyncio.all_tasks() - self._opening - {asyncio.current_task()}
-
-    def _connected(self) -> list[asyncio.Transport]:
-        # asyncio keeps the list to itself before Python 3.12.
-        transports: Mapping[int, asyncio.Transport] = getattr(self, "_transports", {})
-        return [transport for transport in list(transports.values()) if not transport.is_closing()]
-
-    def _opened(self, task: "asyncio.Task[asyncio.Server]") -> None:
-        self._opening.discard(task)
-        if not task.cancelled() and task.exception() is None:
-            self._servers.add(task.result())
-
-
-async def close_server(server: asyncio.Server) -> None:
-    """Close a server once nobody is at its door.
-
-    A connection that was accepted just now becomes a transport in a pass of its own. asyncio forgets one whose server
-    is closed by then, with its socket open.
-    """
-    loop = asyncio.get_running_loop()
-    for socket in server.sockets:
-        loop.remove_reader(socket.fileno())
-    await _passes()
-    server.close()
-
-
-async def _passes() -> None:
-    """Let the loop go round a few times: transports open and close their sockets in passes of their own."""
-    for _ in range(_CALM_PASSES):
-        await asyncio.sleep(0)
 
 
 def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:

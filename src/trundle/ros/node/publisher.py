@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import MessageError
-from ..messages.codec import ENCODING_ERRORS, Codec, Pieces
+from ..messages.codec import ENCODING_ERRORS, Codec
 from ..messages.messages import Message
-from ..transport.framing import LENGTH
+from ..transport.framing import LENGTH, Pieces
 from ..transport.headers import check_md5
 from ..transport.send_queue import SendQueue
 from ..transport.tcpros import FrameProtocol

@@ -7,14 +7,13 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, cast
 
-from ..master.registry import Answer
+from ..transport.closing_loop import close_server
 from ..transport.network import ServerAddress
 from ..transport.tcpros import FrameProtocol
 from ..transport.unix_sockets import UNIXROS, is_of_this_user, listen_unix
-from ..xmlrpc.rpc_methods import BadArgumentError, Method, answer_call, name_argument
+from ..xmlrpc.rpc_methods import Answer, BadArgumentError, Method, answer_call, name_argument
 from ..xmlrpc.rpc_server import RpcServer
 from .endpoints import NodeEndpoints
-from .loop import close_server
 from .node_context import NodeContext
 from .param_client import ParamClient
 from .publisher import Publisher

@@ -4,11 +4,13 @@ import struct
 import threading
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import Any
+from typing import Any, TypeAlias
 
 from ..errors import WireError
 
 LENGTH = struct.Struct("<I")
+Pieces: TypeAlias = tuple[bytes | memoryview, ...]
+"""Buffers of one frame, in order."""
 _SHARED_BYTES = 16 * 1024
 """Room for hundreds of small messages; a larger buffer would delay other connections of a busy graph."""
 _LONG_BYTES = 4 * 1024

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from itertools import islice
 
 from ..errors import WireError
-from ..messages.codec import Pieces
+from .framing import Pieces
 from .shared_ring import LONG_BYTES, SharedRing
 from .unix_sockets import peer_process
 

@@ -12,8 +12,7 @@ import struct
 from typing import Any, Final
 
 from ..errors import WireError
-from ..messages.codec import Pieces
-from .framing import LENGTH, encode_note
+from .framing import LENGTH, Pieces, encode_note
 from .unix_sockets import peer_process
 
 LONG_BYTES: Final = 32 * 1024

@@ -5,9 +5,10 @@ from typing import Any, TypeAlias
 
 from trundle.names import resolve_name
 
-from ..master.registry import Answer
 from .rpc_server import UnknownMethodError
 
+Answer: TypeAlias = tuple[int, str, object]
+"""Code, text and value."""
 Method: TypeAlias = tuple[int, object, Callable[..., Answer]]
 """Argument count after caller_id, the value in a refusal, and the function."""
 

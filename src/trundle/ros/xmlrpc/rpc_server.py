@@ -9,7 +9,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from ..errors import PortTakenError, RosError, WireError
-from ..node.loop import close_server
+from ..transport.closing_loop import close_server
 from .http import MAX_HEAD_BYTES, Head, answer, browser_refusal, parse_head
 from .xmlrpc import decode_call, encode_fault, encode_response
 
