@@ -7,7 +7,8 @@ from pathlib import Path
 
 from trundle.garbage import no_garbage
 
-from .main import add_allow_outside, add_lenient, quiet_imports
+from .options import add_allow_outside, add_lenient
+from .quiet_imports import quiet_imports
 
 EXAMPLES = """
   trundle check model.sdf                             everything worth knowing, worst first

@@ -5,7 +5,8 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_lenient, quiet_imports
+from .options import add_allow_outside, add_lenient
+from .quiet_imports import quiet_imports
 
 EXAMPLES = """
   trundle convert robot.urdf.xacro --to sdf           what Gazebo would make of it, on standard output

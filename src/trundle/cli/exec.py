@@ -15,7 +15,7 @@ from .graph_command import interrupted_by_signals
 from .prompt import read_number
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Sequence
+    from collections.abc import Generator
 
     from trundle.bringup.console import Console
     from trundle.bringup.gazebo.world import GazeboWorld
@@ -86,7 +86,7 @@ def main(args: argparse.Namespace) -> int:
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
             command = stand_in.command
-            return _stand_in(args, stand_in) if command is None else _tool(command, args.arguments)
+            return _stand_in(args, stand_in) if command is None else args.run_command(command, args.arguments)
 
 
 def _chosen(first: Path, programs: list[Path]) -> Path:
@@ -114,17 +114,6 @@ class _List(argparse.Action):
 
         print("\n".join(f"{package} {executable}" for package, executable in sorted(BUILTIN_NODES)))
         parser.exit()
-
-
-def _tool(command: "Sequence[str]", arguments: list[str]) -> int:
-    """Be the command: there is no other process, so that a signal reaches what it is meant for."""
-    from trundle.names import parse_arguments
-
-    from .main import REMAPPED
-    from .main import main as run_command
-
-    words = arguments if command[0] in REMAPPED else parse_arguments(arguments).rest
-    return run_command([*command, *words])
 
 
 def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:

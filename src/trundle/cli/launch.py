@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from trundle.diagnostics import UsageError
 from trundle.ros import DISTROS
 
-from .main import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access, quiet_imports
+from .options import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access
+from .quiet_imports import quiet_imports
 from .speed import read_speed
 
 if TYPE_CHECKING:

@@ -8,20 +8,16 @@ import argparse
 import errno
 import importlib
 import os
-import signal
 import sys
-from collections.abc import Callable, Generator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from io import TextIOWrapper
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import Protocol, cast
 
 from trundle import __version__
 from trundle.diagnostics import TrundleError
-from trundle.garbage import no_garbage
 from trundle.names import Arguments, parse_arguments
 
-if TYPE_CHECKING:
-    from trundle.page_address import AllowedNames
+from .quiet_imports import quiet_imports
 
 COMMANDS: dict[str, str] = {
     "run": "simulate a robot or a world",
@@ -84,6 +80,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         return EXIT_OK if arguments and arguments[0] in _OF_ROS else EXIT_INTERRUPTED
 
 
+def run_command(command: Sequence[str], arguments: Sequence[str]) -> int:
+    """Be another command, in this process; of its arguments it gets the remappings if it has a use for them."""
+    words = arguments if command[0] in REMAPPED else parse_arguments(arguments).rest
+    return main([*command, *words])
+
+
 def _main(arguments: list[str]) -> int:
     if "_ARGCOMPLETE" in os.environ:
         _complete()
@@ -102,7 +104,7 @@ def _main(arguments: list[str]) -> int:
         words = parse_arguments(arguments[1:]) if name in REMAPPED else Arguments(rest=tuple(arguments[1:]))
         _apply_remap_arguments(words)
         parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
-        parsed = parse(words.rest, argparse.Namespace(words=words))
+        parsed = parse(words.rest, argparse.Namespace(words=words, run_command=run_command))
         _set_variables(parsed)
         code = _command(name).main(parsed)
         if sys.stdout is not None:  # it was closed: `trundle … >&-`
@@ -152,57 +154,6 @@ def _set_variables(parsed: argparse.Namespace) -> None:
         from trundle import packages
 
         os.environ.update({getattr(packages, name.upper()): "1" for name in options})
-
-
-def add_allow_outside(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of every command that reads a description."""
-    parser.add_argument(
-        "--allow-outside", action="store_true", help="read files outside the packages and resource paths too"
-    )
-
-
-def add_lenient(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of every command that reads robots as their authors wrote them."""
-    parser.add_argument(
-        "--lenient", action="store_true", help="leave out xacro:includes of packages that are not there, and say so"
-    )
-
-
-def add_page_access(parser: argparse.ArgumentParser) -> None:
-    """Declare the options of every command that serves a page."""
-    for option, metavar, what in (
-        ("--allow-host", "NAME", "serve the page at this name too, as behind a proxy; may be given again"),
-        ("--allow-origin", "ORIGIN", "let web pages of this origin in, such as https://robot.example:8443"),
-    ):
-        parser.add_argument(option, action="append", default=[], metavar=metavar, help=what)
-
-
-def page_access(args: argparse.Namespace) -> "AllowedNames":
-    """Return what `add_page_access` declared.
-
-    Raises:
-        UsageError: a name is none.
-    """
-    from trundle.page_address import AllowedNames
-
-    return AllowedNames(hosts=tuple(args.allow_host), origins=tuple(args.allow_origin))
-
-
-def add_renderer(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of every command that draws."""
-    what = "what draws: Trundle's own renderer, or OpenGL over EGL, without textures and fog (cpu)"
-    parser.add_argument("--renderer", choices=("cpu", "egl"), default="cpu", help=what)
-
-
-@contextmanager
-def quiet_imports() -> Generator[None]:
-    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own."""
-    before = signal.signal(signal.SIGINT, signal.SIG_DFL)
-    try:
-        with no_garbage():
-            yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _has_location(message: str) -> bool:

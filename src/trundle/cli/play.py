@@ -3,7 +3,8 @@
 import argparse
 from pathlib import Path
 
-from .main import add_allow_outside, add_page_access, page_access, quiet_imports
+from .options import add_allow_outside, add_page_access, page_access
+from .quiet_imports import quiet_imports
 
 EXAMPLES = """
   trundle run world.sdf --record run.log              record where everything is, 50 times a second

@@ -24,7 +24,7 @@ from trundle.ros import (
 )
 
 from .graph_command import global_name, master, ros_errors, running_node
-from .topic.wait import wait_for_topic
+from .wait_for_topic import wait_for_topic
 
 EXAMPLES = """
   trundle plot /odom/twist/twist/linear/x              in the terminal, until Ctrl-C

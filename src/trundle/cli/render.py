@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_lenient, add_renderer
+from .options import add_allow_outside, add_lenient, add_renderer
 
 EXAMPLES = """
   trundle render model://rp2w -o rp2w.png             the whole robot from a good side

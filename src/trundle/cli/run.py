@@ -5,7 +5,8 @@ import json
 import sys
 from pathlib import Path
 
-from .main import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access, quiet_imports
+from .options import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access
+from .quiet_imports import quiet_imports
 from .speed import read_speed
 
 EXAMPLES = """

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from .graph_command import interrupted_by_signals
-from .main import quiet_imports
+from .quiet_imports import quiet_imports
 
 EXAMPLES = """
   trundle test my_robot drive.test                    a package and a file in it

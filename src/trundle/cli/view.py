@@ -2,7 +2,8 @@
 
 import argparse
 
-from .main import add_allow_outside, add_page_access, page_access, quiet_imports
+from .options import add_allow_outside, add_page_access, page_access
+from .quiet_imports import quiet_imports
 
 EXAMPLES = """
   trundle view                                        the graph that ROS_MASTER_URI names

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from trundle.garbage import no_garbage
 
-from .main import add_allow_outside, add_lenient
+from .options import add_allow_outside, add_lenient
 
 EXAMPLES = """
   trundle xacro robot.urdf.xacro                      the expanded XML on standard output

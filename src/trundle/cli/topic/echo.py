@@ -25,7 +25,7 @@ from trundle.ros import (
 
 from ..expression import expression
 from ..graph_command import global_name, master, running_node
-from .wait import wait_for_topic
+from ..wait_for_topic import wait_for_topic
 
 _FIRST_S = 2.0
 _WAITING = 1000

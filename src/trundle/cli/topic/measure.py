@@ -14,7 +14,7 @@ from trundle.ros import Clock, MessageView, RawMessage, WallClock, follow_time, 
 
 from ..expression import Expression, expression
 from ..graph_command import global_name, master, running_node
-from .wait import wait_for_topic
+from ..wait_for_topic import wait_for_topic
 
 _MAX_WINDOW = 50_000
 """Messages averaged over when no window is given; rostopic's number."""
