@@ -9,6 +9,7 @@ import math
 
 from trundle import ros
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.plugins import Plugin
 from trundle.simulation import ModelHandle, Simulation
 
@@ -19,23 +20,22 @@ class Motors(Plugin):
     period_ns = 1 << 62  # never again
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
-        self.motors = list(tag.node.all("motor"))
+        parameters = TagParameters(tag.node, sim.report)
+        self.motors = parameters.sections("motor")
         self.model = model
-        self.report = sim.report
+        self.reset()
+        parameters.report_unread()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> "Motors":
         del node  # nobody commands them
-        motors = cls(sim, model, tag)
-        motors.reset()
-        tag.node.report_unread(sim.report)
-        return motors
+        return cls(sim, model, tag)
 
     def reset(self) -> None:
         for motor in self.motors:
-            joint = self.model.joint(motor.string("joint", default=""))
-            effort = motor.number("effort", default=math.inf, report=self.report)
-            if motor.find("start") is not None:
-                joint.set_velocity(motor.number("start", default=0.0, report=self.report))
-            if motor.find("speed") is not None:
-                joint.command_velocity(motor.number("speed", default=0.0, report=self.report), max_effort=effort)
+            joint = self.model.joint(motor.text("joint"))
+            effort = motor.number("effort", math.inf)
+            if "start" in motor:
+                joint.set_velocity(motor.number("start"))
+            if "speed" in motor:
+                joint.command_velocity(motor.number("speed"), max_effort=effort)

@@ -18,6 +18,7 @@ import math
 from trundle import bridge, ros
 from trundle.control import DifferentialDrive, WheelOdometry, step_towards
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.plugins import Plugin
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
@@ -34,15 +35,15 @@ class Rp2w(Plugin):
     period_ns = round(PERIOD_S * 1e9)
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> None:
-        report, numbers = sim.report, tag.node
+        parameters = TagParameters(tag.node, sim.report)
         self.drive = DifferentialDrive(
-            wheel_radius=numbers.number("wheel_radius", default=0.0635, report=report),
-            separation=numbers.number("wheel_separation", default=0.3048, report=report),
+            wheel_radius=parameters.number("wheel_radius", 0.0635, above=0.0),
+            separation=parameters.number("wheel_separation", 0.3048, above=0.0),
         )
-        self.max_torque = numbers.number("max_torque", default=2.0, report=report)
-        self.acceleration = numbers.number("acceleration", default=0.5, report=report)
-        self.frame = numbers.string("frame", default="base_footprint")
-        numbers.report_unread(report)
+        self.max_torque = parameters.number("max_torque", 2.0)
+        self.acceleration = parameters.number("acceleration", 0.5)
+        self.frame = parameters.text("frame", "base_footprint")
+        parameters.report_unread()
         self.left = model.joint("chassis_left_wheel")
         self.right = model.joint("chassis_right_wheel")
         self.pan = model.joint("body_camera_base")

@@ -127,7 +127,7 @@ def test_a_grasp_goes_the_same_way_twice(tmp_path: Path) -> None:
         (f"{_ARM}{_ARM}", "arm 'hand': there is one of that name already"),
         (f"{_ARM}<forces_angle_tolerance>60</forces_angle_tolerance>", "nothing is ever held"),
         (f"{_ARM}<contact_topic>touch</contact_topic>", "<contact_topic> is ignored"),
-        (f"{_ARM}<update_rate>0</update_rate>", "<update_rate> must be > 0 Hz, got 0"),
+        (f"{_ARM}<update_rate>0</update_rate>", "<update_rate> must be ≥ 1, got 0; 5 is used"),
         (f"{_ARM}<grip>1</grip>", "<grip>"),
     ],
 )

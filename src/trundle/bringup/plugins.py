@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeVar
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
 from trundle.model import PluginTag, Visual
 from trundle.names import ros_name
+from trundle.parameters import TagParameters
 from trundle.plugins import (
     Hooks,
     Plugin,
@@ -134,7 +135,7 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
                 report.warn(tag.at, f"{who} is not supported yet; the sensor has topics without")
                 continue
             try:
-                attach(sensor, node, tag, report)
+                attach(sensor, node, TagParameters(tag.node, report))
                 attached += 1
             except TrundleError as error:
                 report.warn_error(error, tag.at, "the sensor has topics without", who=who)

@@ -14,9 +14,11 @@ from importlib.metadata import entry_points
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.diagnostics import DescriptionError, Source
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 
+from .gazebo_ros.namespaces import WITHOUT_EFFECT
 from .plugin import Hooks, Plugin, VisualPlugin, WorldPlugin
 
 if TYPE_CHECKING:
@@ -147,15 +149,22 @@ def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[t
     return _find(tag, environment, WorldPlugin)
 
 
-def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
+def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, TagParameters], None] | None":
     """Function that publishes a sensor's readings as its plugin does; None: no such plugin."""
     target = SENSOR_PLUGINS.get(_base_name(tag))
-    return None if target is None else _imported(target)
+    if target is None:
+        return None
+    publish = _imported(target)
+
+    def attach(sensor: Any, node: "Node", parameters: TagParameters) -> None:
+        publish(sensor, node, parameters)
+        parameters.ignore(*WITHOUT_EFFECT)
+        parameters.report_unread()
+
+    return attach
 
 
-def find_model_sensor_plugin(
-    tag: PluginTag, sensor: str
-) -> "Callable[[Any, Node, PluginTag, Diagnostics], None] | None":
+def find_model_sensor_plugin(tag: PluginTag, sensor: str) -> "Callable[[Any, Node, TagParameters], None] | None":
     """Function that publishes a sensor's readings as a plugin of its model does; None: the plugin does not."""
     target = _OF_MODELS.get(_base_name(tag))
     return None if target is None else _imported(target)(tag, sensor)

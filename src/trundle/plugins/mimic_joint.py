@@ -5,6 +5,7 @@ from typing import Self
 
 from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -22,21 +23,17 @@ class MimicJoint(Plugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        self._leader = model.joint(parameters.string("joint"))
-        self._follower = model.joint(parameters.string("mimicJoint"))
+        parameters = TagParameters(tag.node, sim.report)
+        self._leader = model.joint(parameters.text("joint"))
+        self._follower = model.joint(parameters.text("mimicJoint"))
         if not self._follower.is_driven:
             raise TrundleError(f"joint {self._follower.name!r} has no axis to drive")
 
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
-
-        self._multiplier, self._offset = number("multiplier", 1.0), number("offset", 0.0)
-        self._sensitiveness, max_effort = number("sensitiveness", 0.0), number("maxEffort", 1.0)
-        self._max_effort = math.inf if parameters.find("hasPID") is None else max_effort
-        for name in ("robotNamespace", "namespace"):
-            parameters.find(name)
-        parameters.report_unread(report)
+        self._multiplier, self._offset = parameters.number("multiplier", 1.0), parameters.number("offset", 0.0)
+        self._sensitiveness, max_effort = parameters.number("sensitiveness", 0.0), parameters.number("maxEffort", 1.0)
+        self._max_effort = max_effort if "hasPID" in parameters else math.inf
+        parameters.ignore("robotNamespace", "namespace")
+        parameters.report_unread()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:

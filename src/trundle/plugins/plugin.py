@@ -3,6 +3,7 @@
 Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `rp2w.py`) in the model's
 <plugin filename="…">, and `trundle run` loads it:
 
+    from trundle.parameters import TagParameters
     from trundle.plugins import Plugin
 
     class Spinner(Plugin):
@@ -11,7 +12,8 @@ Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `
         @classmethod
         def load(cls, sim, model, node, tag):
             spinner = cls()
-            spinner.joint = model.joint(tag.node.string("joint", default="wheel"))
+            parameters = TagParameters(tag.node, sim.report)
+            spinner.joint = model.joint(parameters.text("joint", "wheel"))
             return spinner
 
         def before_step(self, sim):
@@ -58,7 +60,7 @@ class Plugin(Hooks):
             sim: the running simulation.
             model: the one that names the plugin.
             node: advertises and subscribes; callbacks run between steps. None under `--no-ros`.
-            tag: the <plugin> element; read parameters with `tag.node.number(…)` and the like.
+            tag: the <plugin> element; `TagParameters(tag.node, sim.report)` reads its parameters.
         """
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, node, tag)")
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from trundle.bridge import image_encoder, point_cloud_encoder
-from trundle.diagnostics import Diagnostics, UsageError
+from trundle.diagnostics import UsageError
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 from trundle.simulation import ModelHandle, Simulation
 
-from .gazebo_ros.namespaces import mark_read
 from .gazebo_ros.sensor_publisher import SensorPublisher
 from .plugin import Plugin
 
@@ -43,34 +43,37 @@ class RealSense(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """Report missing sensors; those there are publish by `attach`."""
         del node
-        parameters = tag.node
+        parameters = TagParameters(tag.node, sim.report)
         there = {sensor.name for link in model.model.links for sensor in link.sensors}
-        wanted = [f"{parameters.string('prefix')}{end}" for end in _STREAMS]
+        wanted = [f"{parameters.text('prefix', '')}{end}" for end in _STREAMS]
         missing = [name for name in wanted if name not in there]
         if missing:
             names = ", ".join(map(repr, sorted(there))) or "none"
-            sim.report.warn(tag.at, f"plugin {tag.name!r}: no sensor {missing[0]!r}; sensors here: {names}")
+            parameters.warn(f"plugin {tag.name!r}: no sensor {missing[0]!r}; sensors here: {names}")
         names = [f"{start}{what}" for start in _STREAMS.values() for what in _PARAMETERS]
-        mark_read(parameters, *_UNUSED, *_OF_POINTS, *names)
-        parameters.report_unread(sim.report)
+        parameters.ignore(*_UNUSED, *_OF_POINTS, *names)
+        parameters.report_unread()
         return cls()
 
 
-def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, PluginTag, Diagnostics], None] | None":
+def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, TagParameters], None] | None":
     """Return `attach` if the name is that of one of the RealSense's sensors, else None."""
     ends = {f"{tag.node.string('prefix')}{end}" for end in _STREAMS}
     return attach if sensor in ends else None
 
 
-def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
     """Publish one of the four streams; see `RealSense`."""
-    stream = _STREAMS[sensor.name.removeprefix(tag.node.string("prefix"))]
+    stream = _STREAMS[sensor.name.removeprefix(parameters.text("prefix", ""))]
     image = image_encoder(sensor.optics.format)
     if stream == "depth":
         if not isinstance(sensor, DepthCameraSensor):
             raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
-        image = _depth_maker(tag, report)
-    topic, frame = _topic(tag, tag.node.string(f"{stream}TopicName")), tag.node.string(f"{stream}OpticalframeName")
+        image = _depth_maker(parameters)
+    topic, frame = (
+        _topic(parameters, parameters.text(f"{stream}TopicName", "")),
+        parameters.text(f"{stream}OpticalframeName", ""),
+    )
     images = SensorPublisher(node, topic, "sensor_msgs/Image", frame)
     infos = SensorPublisher(node, f"{topic.rpartition('/')[0]}/camera_info", "sensor_msgs/CameraInfo", frame)
     outlets, calibration = [images, infos], _calibration(sensor)
@@ -80,12 +83,12 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
         infos.publish(reading, lambda: calibration)
 
     sensor.listen(publish, enabled=lambda: any(outlet.has_subscribers() for outlet in outlets))
-    if stream == "depth" and tag.node.flag("pointCloud", default=False, report=report):
-        _publish_points(sensor, node, tag, report, frame)
+    if stream == "depth" and parameters.flag("pointCloud", default=False):
+        _publish_points(sensor, node, parameters, frame)
 
 
-def _topic(tag: PluginTag, name: str) -> str:
-    return name if name.startswith("/") else f"/{tag.name}/{name}"
+def _topic(parameters: TagParameters, name: str) -> str:
+    return name if name.startswith("/") else f"/{parameters.attribute('name')}/{name}"
 
 
 def _as_bytes(image: dict[str, object]) -> dict[str, object]:
@@ -93,10 +96,10 @@ def _as_bytes(image: dict[str, object]) -> dict[str, object]:
     return {**image, "encoding": "8UC1"} if image["encoding"] == "mono8" else image
 
 
-def _publish_points(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics, frame: str) -> None:
-    near = tag.node.number("pointCloudCutoff", default=0.0, report=report)
-    far = tag.node.number("pointCloudCutoffMax", default=5.0, report=report)
-    topic = _topic(tag, tag.node.string("pointCloudTopicName"))
+def _publish_points(sensor: CameraSensor, node: Node, parameters: TagParameters, frame: str) -> None:
+    near = parameters.number("pointCloudCutoff", 0.0)
+    far = parameters.number("pointCloudCutoffMax", 5.0)
+    topic = _topic(parameters, parameters.text("pointCloudTopicName", ""))
     points, cloud = SensorPublisher(node, topic, "sensor_msgs/PointCloud2", frame), point_cloud_encoder(sensor)
 
     def cut(reading: CameraReading) -> CameraReading:
@@ -111,9 +114,9 @@ def _publish_points(sensor: CameraSensor, node: Node, tag: PluginTag, report: Di
     sensor.listen(publish, enabled=points.has_subscribers)
 
 
-def _depth_maker(tag: PluginTag, report: Diagnostics) -> Callable[[CameraReading], dict[str, object]]:
-    near = tag.node.number("rangeMinDepth", default=0.0, report=report)
-    far = tag.node.number("rangeMaxDepth", default=math.inf, report=report)
+def _depth_maker(parameters: TagParameters) -> Callable[[CameraReading], dict[str, object]]:
+    near = parameters.number("rangeMinDepth", 0.0)
+    far = parameters.number("rangeMaxDepth", math.inf)
 
     def make(reading: CameraReading) -> dict[str, object]:
         depth = _depth(reading)

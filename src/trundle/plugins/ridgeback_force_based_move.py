@@ -1,6 +1,6 @@
 """libridgeback_ros_force_based_move.so: hector's force-based move, with commands that expire."""
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -12,9 +12,9 @@ class RidgebackForceBasedMove(ForceBasedMove):
 
     SIDEWAYS = False
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        self._timeout_s = tag.node.number("cmdVelTimeOut", default=0.25, report=sim.report)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        self._timeout_s = parameters.number("cmdVelTimeOut", 0.25)
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the force and torque."""

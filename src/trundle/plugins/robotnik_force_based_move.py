@@ -1,6 +1,6 @@
 """librobotnik_force_based_move.so: hector's force-based move, which holds its pose when commands end."""
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Twist
@@ -14,9 +14,9 @@ class RobotnikForceBasedMove(ForceBasedMove):
     Meanwhile no force is applied and no odometry is published, as in the original.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        self._watchdog_s = tag.node.number("commandWatchdog", default=2.0, report=sim.report)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        self._watchdog_s = parameters.number("commandWatchdog", 2.0)
         self._held = model.pose
 
     def before_step(self, sim: Simulation) -> None:

@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -18,13 +19,12 @@ class WarthogSuspension(Plugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+        parameters = TagParameters(tag.node, sim.report)
         self._joints = [model.joint(name) for name in _JOINTS]
-        self._stiffness = parameters.number("suspension_k", default=0.0, report=report)
-        self._damping = parameters.number("suspension_b", default=0.0, report=report)
-        for name in ("robotNamespace", "namespace"):
-            parameters.find(name)
-        parameters.report_unread(report)
+        self._stiffness = parameters.number("suspension_k", 0.0)
+        self._damping = parameters.number("suspension_b", 0.0)
+        parameters.ignore("robotNamespace", "namespace")
+        parameters.report_unread()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:

@@ -6,6 +6,7 @@ from typing import Self
 import numpy as np
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose, Vector3, normalized, subtract
@@ -36,22 +37,19 @@ class WanderingActor(Plugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+        parameters = TagParameters(tag.node, sim.report)
         self._model = model
-        self._first = parameters.vector("target", default=(0.0, -5.0, _HIPS), report=report)
-        self._target_weight = parameters.number("target_weight", default=1.15, report=report)
-        self._obstacle_weight = parameters.number("obstacle_weight", default=1.5, report=report)
-        ignored = parameters.find("ignore_obstacles")
-        self._ignored = {model.name, *(child.text for child in (ignored.all("model") if ignored else ()))}
-        self._factor = parameters.number("animation_factor", default=4.5, report=report)
-        parameters.report_unread(report)
+        self._first = parameters.vector("target", (0.0, -5.0, _HIPS))
+        self._target_weight = parameters.number("target_weight", 1.15)
+        self._obstacle_weight = parameters.number("obstacle_weight", 1.5)
+        self._ignored = {model.name, *parameters.section("ignore_obstacles").texts("model")}
+        self._factor = parameters.number("animation_factor", 4.5)
+        parameters.report_unread()
         self._seed = sim.seed
         walk = self._walk = sim.actors.get(model.name)
         self.reset()
         if walk is None:
-            report.warn(
-                tag.at, f"plugin {tag.name!r} is for actors; {model.name!r} is a model and is moved all the same"
-            )
+            parameters.warn(f"plugin {tag.name!r} is for actors; {model.name!r} is a model and is moved all the same")
         else:
             walk.stop()
 

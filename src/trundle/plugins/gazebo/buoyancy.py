@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Geometry, Link, PluginTag, Sphere
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Vector3, Wrench
@@ -40,18 +41,18 @@ class Buoyancy(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         del node
-        parameters, report = tag.node, sim.report
-        density = parameters.number("fluid_density", default=_WATER, report=report)
+        parameters = TagParameters(tag.node, sim.report)
+        density = parameters.number("fluid_density", _WATER)
         given: dict[str, _Volume] = {}
-        for child in parameters.all("link"):
-            link = model.link(child.required_attribute("name"))
-            volume = child.number("volume", default=0.0, report=report)
-            centre = child.vector("center_of_volume", default=ZERO, report=report)
-            child.report_unread(report)
+        for child in parameters.sections("link"):
+            link = model.link(child.attribute("name"))
+            volume = child.number("volume", 0.0)
+            centre = child.vector("center_of_volume", ZERO)
+            child.report_unread()
             if volume <= 0.0:
-                report.warn(child.at, f"link {link.name!r}: a volume of {volume:g} m³ floats nothing; it is left out")
+                child.warn(f"link {link.name!r}: a volume of {volume:g} m³ floats nothing; it is left out")
             given[link.name] = _Volume(link, max(volume, 0.0), centre)
-        parameters.report_unread(report)
+        parameters.report_unread()
         volumes = [given.get(link.name) or _Volume(link, *_of_collisions(link.link)) for link in model.links]
         return cls([each for each in volumes if each.volume > 0.0], density)
 

@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag, model_from_joint
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose
@@ -21,11 +22,11 @@ class DiffDrive(Plugin):
     """
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
-        parameters = tag.node
-        self._left = model.joint(parameters.string("left_joint"))
-        self._right = model.joint(parameters.string("right_joint"))
-        self._torque = parameters.number("torque", default=5.0, report=sim.report)
-        parameters.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        self._left = model.joint(parameters.text("left_joint"))
+        self._right = model.joint(parameters.text("right_joint"))
+        self._torque = parameters.number("torque", 5.0)
+        parameters.report_unread()
         self._separation = _distance(
             model_from_joint(model.model, self._left.joint), model_from_joint(model.model, self._right.joint)
         )

@@ -6,17 +6,21 @@ from msgspec.structs import replace
 
 from trundle.control import Pid
 from trundle.description import read_extra_joint
-from trundle.diagnostics import Diagnostics, UsageError
+from trundle.diagnostics import UsageError
 from trundle.model import Joint, JointAxis, PluginTag
 from trundle.names import ros_name
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation
 from trundle.spatial import Pose
-from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 
-_PID = (("p", "p"), ("i", "i"), ("d", "d"), ("i_min", "i_min"), ("i_max", "i_max"), ("low", "cmd_min"))
+_PID = (
+    *((name, name) for name in ("p", "i", "d", "i_min", "i_max")),
+    ("low", "cmd_min"),
+    ("high", "cmd_max"),
+)
 _STILL = 1e-6
 """Winch velocity [m/s] below which the position is held."""
 
@@ -32,20 +36,20 @@ class Harness(Plugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
         self._sim = sim
-        report = sim.report
+        parameters = TagParameters(tag.node, sim.report)
         self._joints: list[JointHandle] = []
         for child in tag.node.all("joint"):
-            joint = read_extra_joint(child, model.model, report)
+            joint = read_extra_joint(child, model.model, sim.report)
             if joint is not None:
                 self._joints.append(sim.attach(_in_world(joint, model)))
         if not self._joints:
             raise UsageError("a harness needs a <joint>")
-        winch = tag.node.find("winch")
-        self._winch: JointHandle | None = self._named(winch, "joint", model, tag, report)
-        self._opens: JointHandle | None = self._named(tag.node, "detach", model, tag, report)
-        self._position = _read_pid(winch and winch.find("pos_pid"), report)
-        self._speed = _read_pid(winch and winch.find("vel_pid"), report)
-        tag.node.report_unread(report)
+        winch = parameters.section("winch")
+        self._winch: JointHandle | None = self._find_joint(model.name, winch, "joint", parameters)
+        self._opens: JointHandle | None = self._find_joint(model.name, parameters, "detach", parameters)
+        self._position = _read_pid(winch.section("pos_pid"))
+        self._speed = _read_pid(winch.section("vel_pid"))
+        parameters.report_unread()
         self._target, self._target_speed = 0.0, 0.0
         if node is not None:
             base = f"/{ros_name(model.name)}/harness"
@@ -93,16 +97,14 @@ class Harness(Plugin):
         if message.data:
             self.detach()
 
-    def _named(
-        self, node: XmlNode | None, tag: str, model: ModelHandle, plugin: PluginTag, report: Diagnostics
-    ) -> JointHandle:
+    def _find_joint(self, model: str, section: TagParameters, tag: str, parameters: TagParameters) -> JointHandle:
         """Joint that a tag names; if there is none, warn and return the first."""
-        name = "" if node is None else node.string(tag)
+        name = section.text(tag, "")
         for joint in self._joints:
-            if joint.name == f"{model.name}::{name}":
+            if joint.name == f"{model}::{name}":
                 return joint
-        at = plugin.at if node is None else node.at
-        report.warn(at, f"harness: no joint {name!r} for <{tag}>; the first one is used")
+        where = parameters if section.node is None else section
+        where.warn(f"harness: no joint {name!r} for <{tag}>; the first one is used")
         return self._joints[0]
 
 
@@ -125,10 +127,6 @@ def _in_world(joint: Joint, model: ModelHandle) -> Joint:
     )
 
 
-def _read_pid(node: XmlNode | None, report: Diagnostics) -> Pid:
+def _read_pid(parameters: TagParameters) -> Pid:
     """Gains and limits; all default to 0, the command's limits as well."""
-    pid = Pid(high=0.0)
-    if node is not None:
-        for name, tag in (*_PID, ("high", "cmd_max")):
-            setattr(pid, name, node.number(tag, default=0.0, report=report))
-    return pid
+    return Pid(**{field: parameters.number(name, 0.0) for field, name in _PID})

@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import ZERO, Twist
@@ -24,10 +25,10 @@ class InitialVelocity(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         del node
-        parameters = tag.node
-        linear = parameters.vector("linear", default=ZERO, report=sim.report)
-        angular = parameters.vector("angular", default=ZERO, report=sim.report)
-        parameters.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        linear = parameters.vector("linear", ZERO)
+        angular = parameters.vector("angular", ZERO)
+        parameters.report_unread()
         return cls(model, Twist(linear, angular))
 
     def before_step(self, sim: Simulation) -> None:

@@ -4,9 +4,9 @@ import re
 from typing import Self
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
-from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .joint_controller import ControlledJoint, gazebo_pid
@@ -25,9 +25,10 @@ class JointControl(Plugin):
     def __init__(self, model: ModelHandle, tag: PluginTag, sim: Simulation) -> None:
         self._model = model
         self._joints: dict[str, ControlledJoint] = {}
-        for controller in tag.node.all("controller"):
-            self._read(controller, sim)
-        tag.node.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        for controller in parameters.sections("controller"):
+            self._read(controller)
+        parameters.report_unread()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -45,22 +46,19 @@ class JointControl(Plugin):
         for joint in self._joints.values():
             joint.reset()
 
-    def _read(self, controller: XmlNode, sim: Simulation) -> None:
-        report, kind = sim.report, controller.attribute("type")
+    def _read(self, controller: TagParameters) -> None:
+        kind = controller.attribute("type")
         if kind not in _TYPES:
-            report.warn(controller.at, f"no controller type {kind!r}; types: {', '.join(_TYPES)}; it is ignored")
-            controller.mark_all_read()
+            controller.warn(f"no controller type {kind!r}; types: {', '.join(_TYPES)}; it is ignored")
             return
-        target = None
-        if controller.find("target") is not None:
-            target = controller.number("target", default=0.0, report=report)
-        gains = controller.vector("pid_gains", default=(1.0, 0.1, 0.01), report=report)
-        if kind == "force" and controller.find("pid_gains") is not None:
-            report.warn(controller.at, "a force controller does not use <pid_gains>; they are left out")
-        for name in controller.all("joint"):
-            for joint in self._matching(name, sim):
+        target = controller.number("target", 0.0) if "target" in controller else None
+        gains = controller.vector("pid_gains", (1.0, 0.1, 0.01))
+        if kind == "force" and "pid_gains" in controller:
+            controller.warn("a force controller does not use <pid_gains>; they are left out")
+        for pattern in controller.texts("joint"):
+            for joint in self._matching(pattern, controller):
                 pid = gazebo_pid()
-                if controller.find("pid_gains") is not None:
+                if "pid_gains" in controller:
                     pid.p, pid.i, pid.d = gains
                 if kind == "position":
                     joint.command_position(target, pid)
@@ -68,16 +66,16 @@ class JointControl(Plugin):
                     joint.command_velocity(target, pid)
                 elif target is not None:
                     joint.command_effort(target)
-        controller.report_unread(report)
+        controller.report_unread()
 
-    def _matching(self, name: XmlNode, sim: Simulation) -> list[ControlledJoint]:
+    def _matching(self, text: str, controller: TagParameters) -> list[ControlledJoint]:
         try:
-            pattern = re.compile(name.text)
+            pattern = re.compile(text)
         except (re.error, RecursionError, OverflowError) as error:
-            sim.report.warn(name.at, f"{name.text!r} is not a regular expression ({error}); it is left out")
+            controller.warn(f"{text!r} is not a regular expression ({error}); it is left out")
             return []
         found = [joint for joint in self._model.joints if joint.axes and pattern.fullmatch(joint.name)]
         if not found:
             there = ", ".join(repr(joint.name) for joint in self._model.joints) or "none"
-            sim.report.warn(name.at, f"no movable joint matches {name.text!r}; joints here: {there}")
+            controller.warn(f"no movable joint matches {text!r}; joints here: {there}")
         return [self._joints.setdefault(joint.name, ControlledJoint(joint)) for joint in found]

@@ -5,6 +5,7 @@ from typing import Self
 
 from trundle.model import PluginTag
 from trundle.names import ros_name
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -30,27 +31,21 @@ class KeysToCmdVel(Plugin):
     """
 
     def __init__(self, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
-        parameters, report = tag.node, sim.report
+        parameters = TagParameters(tag.node, sim.report)
 
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
-
-        topic = parameters.string("cmd_vel_topic", default="~/cmd_vel")
-        self._fastest = number("max_linear_vel", 1.0)
-        self._slowest = number("min_linear_vel", -self._fastest)
-        self._linear_step = number("linear_increment", 0.5)
-        self._fastest_turn = number("max_angular_vel", 1.0)
-        self._angular_step = number("angular_increment", 0.5)
+        topic = parameters.text("cmd_vel_topic", "~/cmd_vel")
+        self._fastest = parameters.number("max_linear_vel", 1.0)
+        self._slowest = parameters.number("min_linear_vel", -self._fastest)
+        self._linear_step = parameters.number("linear_increment", 0.5)
+        self._fastest_turn = parameters.number("max_angular_vel", 1.0)
+        self._angular_step = parameters.number("angular_increment", 0.5)
         self._keys = {key: what for what, keys in _KEYS.items() for key in keys}
-        controls = parameters.find("key_controls")
-        if controls is not None and controls.children:
+        controls = parameters.section("key_controls")
+        if any(what in controls for what in _KEYS):
             self._keys = {}
             for what in _KEYS:
-                keys = [int(child.as_number(default=0.0, report=report)) for child in controls.all(what)]
-                self._keys.update(dict.fromkeys(keys, what))
-                if not keys:
-                    report.warn(controls.at, f"<key_controls> has no <{what}>; no key is bound to it")
-        parameters.report_unread(report)
+                self._keys.update(dict.fromkeys(_read_keys(controls, what), what))
+        parameters.report_unread()
         self.speed = self.turning = 0.0
         self._topic = None
         if node is not None:
@@ -91,3 +86,14 @@ class KeysToCmdVel(Plugin):
 
     def _clamped(self, speed: float) -> float:
         return min(max(speed, self._slowest), self._fastest)
+
+
+def _read_keys(controls: TagParameters, what: str) -> list[int]:
+    """The numbers of the keys for one thing."""
+    keys = controls.texts(what)
+    for key in keys:
+        if not key.isdecimal():
+            controls.warn(f"<{what}>: {key!r} is not a key's number; it is left out", what)
+    if not keys:
+        controls.warn(f"<key_controls> has no <{what}>; no key is bound to it")
+    return [int(key) for key in keys if key.isdecimal()]

@@ -6,9 +6,9 @@ from typing import Self
 from trundle.control import Pid
 from trundle.diagnostics import UsageError
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
-from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .joint_controller import ControlledJoint
@@ -35,9 +35,10 @@ class KeysToJoints(Plugin):
     def __init__(self, model: ModelHandle, tag: PluginTag, sim: Simulation) -> None:
         self._joints: dict[str, ControlledJoint] = {}
         self._keys: dict[int, list[_Key]] = {}
-        for node in tag.node.all("map"):
-            self._read(node, model, sim)
-        tag.node.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        for entry in parameters.sections("map"):
+            self._read(entry, model)
+        parameters.report_unread()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
@@ -67,20 +68,19 @@ class KeysToJoints(Plugin):
         for joint in self._joints.values():
             joint.clear()
 
-    def _read(self, node: XmlNode, model: ModelHandle, sim: Simulation) -> None:
-        report = sim.report
-        values = {name: node.attribute(name) for name in (*_NEEDED, "kp", "ki", "kd")}
+    def _read(self, entry: TagParameters, model: ModelHandle) -> None:
+        values = {name: entry.attribute(name) for name in (*_NEEDED, "kp", "ki", "kd")}
         missing = [name for name in _NEEDED if not values[name]]
         kind = values["type"]
         try:
             numbers = {name: float(values[name] or 0.0) for name in values if name != "type"}
-            joint = model.joint(node.string("joint"))
+            joint = model.joint(entry.text("joint"))
         except (ValueError, UsageError) as error:
-            report.warn(node.at, f"<map>: {error}; it is ignored")
+            entry.warn(f"<map>: {error}; it is ignored")
             return
         if missing or kind not in ("position", "velocity", "force") or not joint.axes:
             what = f"needs {', '.join(missing)}" if missing else f"type {kind!r} of a joint with {len(joint.axes)} axes"
-            report.warn(node.at, f"<map>: {what}; it is ignored")
+            entry.warn(f"<map>: {what}; it is ignored")
             return
         controlled = self._joints.setdefault(joint.name, ControlledJoint(joint))
         pid = Pid(p=numbers["kp"], i=numbers["ki"], d=numbers["kd"])

@@ -4,6 +4,7 @@ import math
 from typing import Self
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, Wrench, add, cross, dot, multiply, normalized, subtract
@@ -26,36 +27,32 @@ class LiftDrag(Plugin):
     coefficient. With <radial_symmetry> the upward direction opposes the flow across <forward>.
     """
 
-    def __init__(self, link: LinkHandle, flap: JointHandle | None, tag: PluginTag, sim: Simulation) -> None:
+    def __init__(self, link: LinkHandle, flap: JointHandle | None, parameters: TagParameters) -> None:
         self._link = link
         self._flap = flap
-        parameters, report = tag.node, sim.report
-
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
 
         def direction(name: str, default: Vector3) -> Vector3:
-            return normalized(parameters.vector(name, default=default, report=report)) or default
+            return normalized(parameters.vector(name, default)) or default
 
-        self._alpha0 = number("a0", 0.0)
-        self._lift, self._lift_stalled = number("cla", 1.0), number("cla_stall", 0.0)
-        self._drag, self._drag_stalled = number("cda", 0.01), number("cda_stall", 1.0)
-        self._stall = number("alpha_stall", math.pi / 2)
-        self._area, self._density = number("area", 1.0), number("air_density", 1.2041)
-        self._centre = parameters.vector("cp", default=(0.0, 0.0, 0.0), report=report)
+        self._alpha0 = parameters.number("a0", 0.0)
+        self._lift, self._lift_stalled = parameters.number("cla", 1.0), parameters.number("cla_stall", 0.0)
+        self._drag, self._drag_stalled = parameters.number("cda", 0.01), parameters.number("cda_stall", 1.0)
+        self._stall = parameters.number("alpha_stall", math.pi / 2)
+        self._area, self._density = parameters.number("area", 1.0), parameters.number("air_density", 1.2041)
+        self._centre = parameters.vector("cp", (0.0, 0.0, 0.0))
         self._forward, self._upward = direction("forward", (1.0, 0.0, 0.0)), direction("upward", (0.0, 0.0, 1.0))
-        self._flap_lift = number("control_joint_rad_to_cl", 4.0)
-        self._is_round = parameters.flag("radial_symmetry", default=False, report=report)
-        for name in ("link_name", "control_joint_name", "cma", "cma_stall"):
-            parameters.find(name)
-        parameters.report_unread(report)
+        self._flap_lift = parameters.number("control_joint_rad_to_cl", 4.0)
+        self._is_round = parameters.flag("radial_symmetry", default=False)
+        parameters.ignore("link_name", "control_joint_name", "cma", "cma_stall")
+        parameters.report_unread()
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         del node
-        flap = tag.node.string("control_joint_name")
-        return cls(model.link(tag.node.string("link_name")), model.joint(flap) if flap else None, tag, sim)
+        parameters = TagParameters(tag.node, sim.report)
+        flap = parameters.text("control_joint_name", "")
+        return cls(model.link(parameters.text("link_name")), model.joint(flap) if flap else None, parameters)
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the forces at the current velocity."""

@@ -7,6 +7,7 @@ from typing import Self
 from trundle.description import GAZEBO_MATERIALS
 from trundle.diagnostics import UsageError
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import DebugLine, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Pose, Vector3
@@ -34,26 +35,25 @@ class LinkPlot3D(Plugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
-        report = sim.report
-        frequency = tag.node.number("frequency", default=30.0, report=report)
+        parameters = TagParameters(tag.node, sim.report)
+        frequency = parameters.number("frequency", 30.0)
         self.period_ns = round(1e9 / frequency) if frequency > 0.0 else 0
         self._plots: list[_Plot] = []
-        for plot in tag.node.all("plot"):
-            pose = plot.find("pose")
-            pen = Pose() if pose is None else pose.as_pose(report=report)
-            name = plot.string("material", default="Gazebo/Black")
+        for plot in parameters.sections("plot"):
+            pen = Pose.from_rpy(*plot.numbers("pose", 6, (0.0,) * 6))
+            name = plot.text("material", "Gazebo/Black")
             colour = GAZEBO_MATERIALS.get(name)
             if colour is None:
-                report.warn(plot.at, f"no material {name!r} among Gazebo's; the line is black")
+                plot.warn(f"no material {name!r} among Gazebo's; the line is black")
             try:
-                link = model.link(plot.string("link"))
+                link = model.link(plot.text("link"))
             except UsageError as error:
-                report.warn(plot.at, f"<plot>: {error}; it is ignored")
+                plot.warn(f"<plot>: {error}; it is ignored")
                 continue
             line = DebugLine((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
             sim.lines[f"{model.name}::plot_{link.name}_{len(self._plots)}"] = line
             self._plots.append(_Plot(link, pen, line))
-        tag.node.report_unread(report)
+        parameters.report_unread()
         self._topic = None if node is None else node.advertise("/marker", "visualization_msgs/Marker", queue_size=10)
 
     @classmethod

@@ -6,6 +6,7 @@ from typing import Self
 import numpy as np
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import NS_PER_S, ZERO, Twist, Vector3
@@ -20,22 +21,19 @@ class RandomVelocity(Plugin):
     <min_x> … <max_z> [m/s], its bounds by axis. Rotation and collisions stay physical.
     """
 
-    def __init__(self, link: LinkHandle, tag: PluginTag, sim: Simulation) -> None:
+    def __init__(self, link: LinkHandle, parameters: TagParameters, sim: Simulation) -> None:
         self._link = link
-        parameters, report = tag.node, sim.report
-        self._start = parameters.vector("initial_velocity", default=ZERO, report=report)
-        self._speed = parameters.number("velocity_factor", default=1.0, report=report)
-        self._every_ns = round(parameters.number("update_period", default=10.0, report=report) * NS_PER_S)
+        self._start = parameters.vector("initial_velocity", ZERO)
+        self._speed = parameters.number("velocity_factor", 1.0)
+        self._every_ns = round(parameters.number("update_period", 10.0) * NS_PER_S)
         bounds = [
             sorted(
-                parameters.number(f"{end}_{axis}", default=default, report=report)
-                for end, default in (("min", -math.inf), ("max", math.inf))
+                parameters.number(f"{end}_{axis}", default) for end, default in (("min", -math.inf), ("max", math.inf))
             )
             for axis in "xyz"
         ]
         self._low, self._high = np.array(bounds).T
-        parameters.find("link")
-        parameters.report_unread(report)
+        parameters.report_unread()
         self._seed = sim.seed
         self.reset()
 
@@ -43,10 +41,11 @@ class RandomVelocity(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         del node
-        link = model.link(tag.node.string("link"))
+        parameters = TagParameters(tag.node, sim.report)
+        link = model.link(parameters.text("link"))
         if not sim.engine.writer.is_free(link.index):
-            sim.report.warn(tag.at, f"link {link.name!r} has a joint to its parent; the plugin moves free links only")
-        return cls(link, tag, sim)
+            parameters.warn(f"link {link.name!r} has a joint to its parent; the plugin moves free links only")
+        return cls(link, parameters, sim)
 
     def reset(self) -> None:
         """Restart at the initial velocity, with the same random sequence."""

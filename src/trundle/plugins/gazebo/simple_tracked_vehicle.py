@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.physics import TrackMotion
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
@@ -25,15 +26,15 @@ class SimpleTrackedVehicle(Plugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
         self._tracks = Tracks(sim, model, node, tag)
-        parameters = tag.node
-        self._body = model.link(parameters.string("body"))
+        parameters = TagParameters(tag.node, sim.report)
+        self._body = model.link(parameters.text("body"))
         sides = (("left_track", "left_flipper"), ("right_track", "right_flipper"))
         links = [
-            [model.link(parameters.string(track)), *(model.link(each.text) for each in parameters.all(flipper))]
+            [model.link(name) for name in (parameters.text(track), *parameters.texts(flipper))]
             for track, flipper in sides
         ]
-        parameters.find("collide_without_contact_bitmask")
-        parameters.report_unread(sim.report)
+        parameters.ignore("collide_without_contact_bitmask")
+        parameters.report_unread()
         self._tracks.set_friction(sim, [*links[0], *links[1]])
         self._links = links
 

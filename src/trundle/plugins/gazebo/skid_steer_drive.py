@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag, model_from_joint
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -20,12 +21,13 @@ class SkidSteerDrive(Plugin):
     """
 
     def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
-        self._torque = tag.node.number("max_force", default=5.0, report=sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        self._torque = parameters.number("max_force", 5.0)
         self._right, self._left = (
-            [model.joint(tag.node.string(name, default=name)) for name in (f"{side}_front", f"{side}_rear")]
+            [model.joint(parameters.text(name, name)) for name in (f"{side}_front", f"{side}_rear")]
             for side in ("right", "left")
         )
-        tag.node.report_unread(sim.report)
+        parameters.report_unread()
         right, left = (model_from_joint(model.model, wheels[0].joint).position for wheels in (self._right, self._left))
         self._separation = sum((a - b) ** 2 for a, b in zip(right, left, strict=True)) ** 0.5
         self._radius = max(bounding_box(model.link(self._right[0].joint.child).link)) / 2 or 1.0

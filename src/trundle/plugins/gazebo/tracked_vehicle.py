@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from trundle.model import Link, PluginTag
 from trundle.names import ros_name
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 
@@ -22,21 +23,13 @@ class Tracks:
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-
-        def positive(name: str, default: float) -> float:
-            value = parameters.number(name, default=default, report=report)
-            if value > 0.0:
-                return value
-            report.warn(tag.at, f"plugin {tag.name!r}: <{name}> must be above 0, got {value:g}; {default:g} is used")
-            return default
-
-        self.efficiency = positive("steering_efficiency", 0.5)
-        self.separation = positive("tracks_separation", 0.4)
-        self._fastest = positive("max_linear_speed", 1.0)
-        self._fastest_turn = abs(parameters.number("max_angular_speed", default=1.0, report=report))
-        namespace = ros_name(parameters.string("robot_namespace") or model.name).strip("/")
-        self._mu = _friction(tag, "track_mu", sim), _friction(tag, "track_mu2", sim)
+        parameters = TagParameters(tag.node, sim.report)
+        self.efficiency = parameters.number("steering_efficiency", 0.5, above=0.0)
+        self.separation = parameters.number("tracks_separation", 0.4, above=0.0)
+        self._fastest = parameters.number("max_linear_speed", 1.0, above=0.0)
+        self._fastest_turn = abs(parameters.number("max_angular_speed", 1.0))
+        namespace = ros_name(parameters.text("robot_namespace", "") or model.name).strip("/")
+        self._mu = _friction(parameters, "track_mu"), _friction(parameters, "track_mu2")
         self.command = VelocityCommand(f"/{namespace}/cmd_vel", node)
         self._published = (0.0, 0.0)
         self._topic = None
@@ -80,8 +73,8 @@ class Tracks:
         sim.edit(replace(sim.world, models=tuple(models)))
 
 
-def _friction(tag: PluginTag, name: str, sim: Simulation) -> float | None:
-    return None if tag.node.find(name) is None else tag.node.number(name, default=1.0, report=sim.report)
+def _friction(parameters: TagParameters, name: str) -> float | None:
+    return parameters.number(name, 1.0) if name in parameters else None
 
 
 def _clamped(value: float, most: float) -> float:

@@ -6,11 +6,11 @@ from typing import Self
 from trundle.diagnostics import UsageError
 from trundle.model import Cylinder, Joint, JointType, PluginTag, Sphere
 from trundle.names import ros_name
+from trundle.parameters import TagParameters
 from trundle.physics import WheelGrip
 from trundle.ros import Message, Node, Publisher
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, cross, dot, normalized
-from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 
@@ -41,15 +41,15 @@ class WheelSlip(Plugin):
     tenth of the velocity change that its force causes within a step.
     """
 
-    def __init__(self, model: ModelHandle, node: Node | None, tag: PluginTag, sim: Simulation) -> None:
+    def __init__(self, model: ModelHandle, node: Node | None, parameters: TagParameters, sim: Simulation) -> None:
         self._model = model
         self._down = model.pose.inverse().transform_vector(normalized(sim.world.physics.gravity) or (0.0, 0.0, -1.0))
         self._wheels: list[_Wheel] = []
-        for wheel in tag.node.all("wheel"):
+        for wheel in parameters.sections("wheel"):
             try:
-                self._wheels.append(_read(wheel, model, sim))
+                self._wheels.append(_read(wheel, model))
             except UsageError as error:
-                sim.report.warn(wheel.at, f"<wheel>: {error}; it does not slip")
+                wheel.warn(f"<wheel>: {error}; it does not slip")
         if node is not None:
             base = f"/{ros_name(model.name)}/wheel_slip"
             for wheel in self._wheels:
@@ -62,8 +62,9 @@ class WheelSlip(Plugin):
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
-        plugin = cls(model, node, tag, sim)
-        tag.node.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        plugin = cls(model, node, parameters, sim)
+        parameters.report_unread()
         return plugin
 
     def set_compliance(self, *, lateral: float = -1.0, longitudinal: float = -1.0) -> None:
@@ -100,26 +101,23 @@ class WheelSlip(Plugin):
         self.set_compliance(longitudinal=max(float(message.data), 0.0))
 
 
-def _read(node: XmlNode, model: ModelHandle, sim: Simulation) -> _Wheel:
+def _read(parameters: TagParameters, model: ModelHandle) -> _Wheel:
     """Read one wheel.
 
     Raises:
         UsageError: a required value is missing.
     """
-    report = sim.report
-    link = model.link(node.attribute("link_name") or "")
-    radius = node.number("wheel_radius", default=0.0, report=report)
-    normal_force = node.number("wheel_normal_force", default=0.0, report=report)
-    lateral = node.number("slip_compliance_lateral", default=0.0, report=report)
-    longitudinal = node.number("slip_compliance_longitudinal", default=0.0, report=report)
-    node.report_unread(report)
+    link = model.link(parameters.attribute("link_name"))
+    radius = parameters.number("wheel_radius", 0.0)
+    normal_force = parameters.number("wheel_normal_force", above=0.0)
+    lateral = parameters.number("slip_compliance_lateral", 0.0)
+    longitudinal = parameters.number("slip_compliance_longitudinal", 0.0)
+    parameters.report_unread()
     joints = [joint.joint for joint in model.joints if joint.joint.child == link.name]
     if len(joints) != 1 or joints[0].axis is None:
         raise UsageError(f"link {link.name!r} is the child of {len(joints)} joints with an axis; one is needed")
     if radius <= 0.0:
         radius = _radius(link)
-    if not normal_force > 0.0:
-        raise UsageError(f"<wheel_normal_force> must be above 0 N, got {normal_force:g}")
     return _Wheel(link, _axis_in_link(joints[0], link), radius, normal_force, max(lateral, 0.0), max(longitudinal, 0.0))
 
 

@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import Cylinder, PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation
 
@@ -20,13 +21,14 @@ class WheelTrackedVehicle(Plugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> None:
         self._tracks = Tracks(sim, model, node, tag)
-        self._torque = tag.node.number("max_torque", default=5.0, report=sim.report)
-        sides = [[model.joint(each.text) for each in tag.node.all(f"{side}_joint")] for side in ("left", "right")]
+        parameters = TagParameters(tag.node, sim.report)
+        self._torque = parameters.number("max_torque", 5.0)
+        sides = [[model.joint(name) for name in parameters.texts(f"{side}_joint")] for side in ("left", "right")]
         for side, joints in zip(("left", "right"), sides, strict=True):
             if len(joints) < 2:
                 what = f"plugin {tag.name!r} needs two or more <{side}_joint>, got {len(joints)}"
-                sim.report.warn(tag.at, f"{what}; it drives those")
-        tag.node.report_unread(sim.report)
+                parameters.warn(f"{what}; it drives those")
+        parameters.report_unread()
         self._wheels = [[(joint, _radius(model, joint)) for joint in joints] for joints in sides]
         self._tracks.set_friction(sim, [model.link(joint.joint.child) for joints in sides for joint in joints])
 

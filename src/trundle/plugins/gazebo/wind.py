@@ -5,13 +5,12 @@ from typing import Self
 
 import numpy as np
 
-from trundle.diagnostics import Diagnostics
 from trundle.model import Noise, PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import NoiseSource
 from trundle.simulation import LinkHandle, Simulation
 from trundle.spatial import Vector3, Wrench
-from trundle.xmlnode import XmlNode
 
 from ..plugin import WorldPlugin
 
@@ -26,16 +25,16 @@ class Wind(WorldPlugin):
     """
 
     def __init__(self, sim: Simulation, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        horizontal = parameters.find("horizontal")
-        self._speed = _WindComponent(horizontal and horizontal.find("magnitude"), "amplitude_percent", sim)
-        self._heading = _WindComponent(horizontal and horizontal.find("direction"), "amplitude", sim)
-        self._rise = _WindComponent(parameters.find("vertical"), "", sim)
-        self._factor = parameters.number("force_approximation_scaling_factor", default=0.0, report=report)
-        parameters.report_unread(report)
+        parameters = TagParameters(tag.node, sim.report)
+        horizontal = parameters.section("horizontal")
+        self._speed = _WindComponent(horizontal.section("magnitude"), "amplitude_percent", sim)
+        self._heading = _WindComponent(horizontal.section("direction"), "amplitude", sim)
+        self._rise = _WindComponent(parameters.section("vertical"), "", sim)
+        self._factor = parameters.number("force_approximation_scaling_factor", 0.0)
+        parameters.report_unread()
         if abs(self._factor) < 1e-6:
             needs = "needs a <force_approximation_scaling_factor> above 0"
-            report.warn(tag.at, f"plugin {tag.name!r} {needs}; there is no wind force")
+            parameters.warn(f"plugin {tag.name!r} {needs}; there is no wind force")
         self._links: list[LinkHandle] = []
         self._find_links(sim)
         sim.on_change(lambda: self._find_links(sim))
@@ -85,19 +84,19 @@ class Wind(WorldPlugin):
 class _WindComponent:
     """Speed, heading or vertical speed: a lagged mean, a sine and noise."""
 
-    def __init__(self, node: XmlNode | None, amplitude: str, sim: Simulation) -> None:
-        report = sim.report
-        rise = 1.0 if node is None else node.number("time_for_rise", default=1.0, report=report)
+    def __init__(self, parameters: TagParameters, amplitude: str, sim: Simulation) -> None:
+        rise = parameters.number("time_for_rise", 1.0)
         step = sim.world.physics.max_step_size_s
         self._share = min(step / rise, 1.0) if rise > 0.0 else 1.0
         self.mean = 0.0
         self._amplitude, self._period = 0.0, 1.0
-        swing = None if node is None or not amplitude else node.find("sin")
-        if swing is not None:
-            self._amplitude = swing.number(amplitude, default=0.0, report=report)
-            self._period = swing.number("period", default=1.0, report=report) or 1.0
-        noise = Noise() if node is None else _read_noise(node.find("noise"), report)
-        self._noise = NoiseSource(noise, np.random.default_rng([sim.seed, *amplitude.encode()]))
+        if amplitude:
+            swing = parameters.section("sin")
+            self._amplitude = swing.number(amplitude, 0.0)
+            self._period = swing.number("period", 1.0) or 1.0
+        self._noise = NoiseSource(
+            _read_noise(parameters.section("noise")), np.random.default_rng([sim.seed, *amplitude.encode()])
+        )
 
     def follow(self, value: float) -> float:
         """Move the mean one step towards a value; return it."""
@@ -113,12 +112,12 @@ class _WindComponent:
         return self._noise.apply_to_value(value)
 
 
-def _read_noise(node: XmlNode | None, report: Diagnostics) -> Noise:
-    if node is None or node.attribute("type") == "none":
+def _read_noise(parameters: TagParameters) -> Noise:
+    if parameters.attribute("type") == "none":
         return Noise()
     return Noise(
-        mean=node.number("mean", default=0.0, report=report),
-        stddev=abs(node.number("stddev", default=0.0, report=report)),
-        bias_mean=node.number("bias_mean", default=0.0, report=report),
-        bias_stddev=abs(node.number("bias_stddev", default=0.0, report=report)),
+        mean=parameters.number("mean", 0.0),
+        stddev=abs(parameters.number("stddev", 0.0)),
+        bias_mean=parameters.number("bias_mean", 0.0),
+        bias_stddev=abs(parameters.number("bias_stddev", 0.0)),
     )

@@ -4,19 +4,18 @@ from collections.abc import Callable
 from typing import Any
 
 from trundle.bridge import camera_info_message, image_encoder
-from trundle.diagnostics import Diagnostics
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Option, Options, ReconfigureServer
 from trundle.sensors import CameraReading, CameraSensor
 
-from .namespaces import join_topic, mark_read, read_namespace
+from .namespaces import join_topic, read_namespace
 from .sensor_publisher import SensorPublisher, read_frame_name
 
 _FASTEST_HZ = 1000.0
 _SIDES = ["left", "right"]
 
 
-def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
     """Publish images and camera_info.
 
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
@@ -25,50 +24,52 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
     one, by default that of the file.
     """
-    attach_images(sensor, node, tag, report, image_encoder(sensor.optics.format))
+    attach_images(sensor, node, parameters, image_encoder(sensor.optics.format))
 
 
 def attach_images(
     sensor: CameraSensor,
     node: Node,
-    tag: PluginTag,
-    report: Diagnostics,
+    parameters: TagParameters,
     image: Callable[[CameraReading], dict[str, object]],
 ) -> None:
     """Publish the messages that a function makes of readings, with the parameters of `attach`."""
-    read_border_crop(sensor, tag, report)
-    frame, rate_hz = read_frame_name(tag, "world"), _number(tag, "updateRate", report)
+    read_border_crop(sensor, parameters)
+    frame, rate_hz = read_frame_name(parameters, "world"), parameters.number("updateRate", 0.0)
     pictures = SensorPublisher(
-        node, camera_topic(sensor, tag, "imageTopicName", "image_raw"), "sensor_msgs/Image", frame, rate_hz=rate_hz
+        node,
+        camera_topic(sensor, parameters, "imageTopicName", "image_raw"),
+        "sensor_msgs/Image",
+        frame,
+        rate_hz=rate_hz,
     )
     infos = SensorPublisher(
         node,
-        camera_topic(sensor, tag, "cameraInfoTopicName", "camera_info"),
+        camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info"),
         "sensor_msgs/CameraInfo",
         frame,
         rate_hz=rate_hz,
     )
-    calibration = read_calibration(sensor, tag, report)
-    mark_read(tag.node, "autoDistortion", "triggerTopicName", "cameraName")
-    tag.node.report_unread(report)
+    calibration = read_calibration(sensor, parameters)
+    parameters.ignore("autoDistortion", "triggerTopicName", "cameraName")
 
     def publish(reading: CameraReading) -> None:
         pictures.publish(reading, lambda: image(reading))
         infos.publish(reading, lambda: calibration)
 
     sensor.listen(publish, enabled=lambda: pictures.has_subscribers() or infos.has_subscribers())
-    offer_rate(sensor, node, tag, rate_hz)
+    offer_rate(sensor, node, parameters, rate_hz)
 
 
-def attach_triggered(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach_triggered(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
     """Publish as `attach`, one image for each std_msgs/Empty on <triggerTopicName> (image_trigger)."""
     trigger = sensor.await_trigger()
-    topic = camera_topic(sensor, tag, "triggerTopicName", "image_trigger")
+    topic = camera_topic(sensor, parameters, "triggerTopicName", "image_trigger")
     node.subscribe(topic, "std_msgs/Empty", lambda _: trigger(), queue_size=1)
-    attach(sensor, node, tag, report)
+    attach(sensor, node, parameters)
 
 
-def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz: float) -> None:
+def offer_rate(sensor: CameraSensor, node: Node, parameters: TagParameters, plugin_rate_hz: float) -> None:
     """Offer the camera's rate as the dynamic_reconfigure option `imager_rate`.
 
     The option sets the sensor's rate, for all cameras of a multicamera; <updateRate> stays the limit of publishing.
@@ -80,23 +81,23 @@ def offer_rate(sensor: CameraSensor, node: Node, tag: PluginTag, plugin_rate_hz:
         return values
 
     option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Images per second")
-    ReconfigureServer(node, [option], apply, namespace=join_topic(_topic_prefix(sensor, tag), "").rstrip("/"))
+    ReconfigureServer(node, [option], apply, namespace=join_topic(_topic_prefix(sensor, parameters), "").rstrip("/"))
 
 
-def read_border_crop(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> None:
+def read_border_crop(sensor: CameraSensor, parameters: TagParameters) -> None:
     """Apply <borderCrop>."""
-    if not tag.node.flag("borderCrop", default=True, report=report):
+    if not parameters.flag("borderCrop", default=True):
         sensor.disable_crop()
 
 
-def camera_topic(sensor: CameraSensor, tag: PluginTag, parameter: str, default: str) -> str:
+def camera_topic(sensor: CameraSensor, parameters: TagParameters, parameter: str, default: str) -> str:
     """Topic below the robot's namespace and the camera's name; each camera of a multicamera has its own."""
-    return join_topic(_topic_prefix(sensor, tag), tag.node.string(parameter, default=default))
+    return join_topic(_topic_prefix(sensor, parameters), parameters.text(parameter, default))
 
 
-def _topic_prefix(sensor: CameraSensor, tag: PluginTag) -> str:
-    name = tag.node.string("cameraName").strip("/")
-    return "/".join(part for part in (read_namespace(tag, sensor.model.name), name, _eye(sensor)) if part)
+def _topic_prefix(sensor: CameraSensor, parameters: TagParameters) -> str:
+    name = parameters.text("cameraName", "").strip("/")
+    return "/".join(part for part in (read_namespace(parameters, sensor.model.name), name, _eye(sensor)) if part)
 
 
 def _eye(sensor: CameraSensor) -> str:
@@ -106,23 +107,22 @@ def _eye(sensor: CameraSensor) -> str:
     return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
 
 
-def read_calibration(sensor: CameraSensor, tag: PluginTag, report: Diagnostics) -> dict[str, object]:
+def read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[str, object]:
     """Make camera_info, with the plugin's overrides."""
     found: dict[str, Any] = dict(camera_info_message(sensor))
     k, p = list(found["K"]), list(found["P"])
-    focal = _number(tag, "focalLength", report)
-    cx, cy = _number(tag, "Cx", report) or _number(tag, "CxPrime", report), _number(tag, "Cy", report)
+    focal = parameters.number("focalLength", 0.0)
+    cx, cy = (
+        parameters.number("Cx", 0.0) or parameters.number("CxPrime", 0.0),
+        parameters.number("Cy", 0.0),
+    )
     for index, value in ((0, focal), (4, focal), (2, cx), (5, cy)):
         if value:
             k[index] = value
             p[index + index // 3] = value
-    baseline = _number(tag, "hackBaseline", report)
+    baseline = parameters.number("hackBaseline", 0.0)
     if baseline:
         is_origin = len(sensor.sensor.cameras) > 1 and "right" not in sensor.optics.name
         p[3] = 0.0 if is_origin else -p[0] * baseline
-    bends = [_number(tag, f"distortion{name}", report) for name in ("K1", "K2", "T1", "T2", "K3")]
+    bends = [parameters.number(f"distortion{name}", 0.0) for name in ("K1", "K2", "T1", "T2", "K3")]
     return {**found, "K": k, "P": p, "D": bends if any(bends) else found["D"]}
-
-
-def _number(tag: PluginTag, name: str, report: Diagnostics) -> float:
-    return tag.node.number(name, default=0.0, report=report)

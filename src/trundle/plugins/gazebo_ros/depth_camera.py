@@ -5,20 +5,19 @@ from functools import lru_cache
 import numpy as np
 
 from trundle.bridge import depth_image, image_encoder, point_cloud_encoder
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import PluginTag
+from trundle.diagnostics import UsageError
+from trundle.parameters import TagParameters
 from trundle.render import clip_depths
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
 from .camera import camera_topic, offer_rate, read_border_crop, read_calibration
-from .namespaces import mark_read
 from .sensor_publisher import SensorPublisher, read_frame_name
 
 _IMAGE, _INFO, _POINTS = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/PointCloud2"
 
 
-def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
     """Publish images, depth images, point clouds and camera_info.
 
     Parameters, with gazebo_ros' defaults: those of libgazebo_ros_camera.so (<imageTopicName> is image_raw), and
@@ -28,27 +27,25 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
     """
     if not isinstance(sensor, DepthCameraSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
-    read_border_crop(sensor, tag, report)
-    parameters = tag.node
-    frame, rate_hz = read_frame_name(tag, "world"), parameters.number("updateRate", default=0.0, report=report)
-    near = parameters.number("pointCloudCutoff", default=0.4, report=report)
-    far = parameters.number("pointCloudCutoffMax", default=5.0, report=report)
-    in_millimetres = parameters.flag("useDepth16UC1Format", default=False, report=report)
+    read_border_crop(sensor, parameters)
+    frame, rate_hz = read_frame_name(parameters, "world"), parameters.number("updateRate", 0.0)
+    near = parameters.number("pointCloudCutoff", 0.4)
+    far = parameters.number("pointCloudCutoffMax", 5.0)
+    in_millimetres = parameters.flag("useDepth16UC1Format", default=False)
 
     def outlet(parameter: str, default: str, kind: str) -> SensorPublisher:
-        return SensorPublisher(node, camera_topic(sensor, tag, parameter, default), kind, frame, rate_hz=rate_hz)
+        return SensorPublisher(node, camera_topic(sensor, parameters, parameter, default), kind, frame, rate_hz=rate_hz)
 
     pictures, infos = outlet("imageTopicName", "image_raw", _IMAGE), outlet("cameraInfoTopicName", "camera_info", _INFO)
     depths = outlet("depthImageTopicName", "depth/image_raw", _IMAGE)
     depth_infos = outlet("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
     points = outlet("pointCloudTopicName", "points", _POINTS)
     calibration, image, cloud = (
-        read_calibration(sensor, tag, report),
+        read_calibration(sensor, parameters),
         image_encoder(sensor.optics.format),
         point_cloud_encoder(sensor),
     )
-    mark_read(parameters, "autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
-    parameters.report_unread(report)
+    parameters.ignore("autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
 
     @lru_cache(maxsize=1)  # depths and points share a reading
     def cut(reading: CameraReading) -> CameraReading:
@@ -68,7 +65,7 @@ def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics
 
     outlets = (pictures, infos, depths, depth_infos, points)
     sensor.listen(publish, enabled=lambda: any(each.has_subscribers() for each in outlets))
-    offer_rate(sensor, node, tag, rate_hz)
+    offer_rate(sensor, node, parameters, rate_hz)
 
 
 def _millimetres(reading: CameraReading) -> dict[str, object]:

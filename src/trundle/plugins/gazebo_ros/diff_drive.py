@@ -3,12 +3,12 @@
 import math
 
 from trundle.control import DifferentialDrive, WheelOdometry, step_towards
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from .namespaces import join_topic, mark_read, rate_to_period_ns, read_namespace
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
 from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
@@ -26,39 +26,37 @@ class DiffDrive(RosPlugin):
     left wheel turns with v − ω·separation/2; <legacyMode> true mirrors the turn, the default up to Kinetic.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        del sim
         self._model = model
-        namespace = read_namespace(tag, model.name)
-
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
-
-        def flag(name: str, *, default: bool) -> bool:
-            return parameters.flag(name, default=default, report=report)
+        namespace = read_namespace(parameters, model.name)
 
         self._wheels = (
-            model.joint(parameters.string("leftJoint", default="left_joint")),
-            model.joint(parameters.string("rightJoint", default="right_joint")),
+            model.joint(parameters.text("leftJoint", "left_joint")),
+            model.joint(parameters.text("rightJoint", "right_joint")),
         )
         self._drive = DifferentialDrive(
-            separation=number("wheelSeparation", 0.34), wheel_radius=number("wheelDiameter", 0.15) / 2
+            separation=parameters.number("wheelSeparation", 0.34),
+            wheel_radius=parameters.number("wheelDiameter", 0.15) / 2,
         )
-        self._torque, self._acceleration = number("wheelTorque", 5.0), number("wheelAcceleration", 0.0)
-        self._sign = -1.0 if flag("legacyMode", default=node.profile.mirrored_diff_drive) else 1.0
-        self.period_ns = rate_to_period_ns(number("updateRate", 100.0))
-        self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
-        self._command = TwistCommand.from_tag(tag, namespace, node)
+        self._torque, self._acceleration = (
+            parameters.number("wheelTorque", 5.0),
+            parameters.number("wheelAcceleration", 0.0),
+        )
+        self._sign = -1.0 if parameters.flag("legacyMode", default=node.profile.mirrored_diff_drive) else 1.0
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
+        self._from_wheels = parameters.text("odometrySource", "world") in ("encoder", "0")
+        self._command = TwistCommand.from_tag(parameters, namespace, node)
         self._odometry = None
-        if flag("publishTf", default=True):
-            with_tf = flag("publishOdomTF", default=True)
-            self._odometry = OdometryTopic.from_tag(tag, namespace, node, variances=_VARIANCES, with_tf=with_tf)
-        states = flag("publishWheelJointState", default=False)
+        if parameters.flag("publishTf", default=True):
+            with_tf = parameters.flag("publishOdomTF", default=True)
+            self._odometry = OdometryTopic.from_tag(parameters, namespace, node, variances=_VARIANCES, with_tf=with_tf)
+        states = parameters.flag("publishWheelJointState", default=False)
         self._states = (
             node.advertise(join_topic(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
         )
-        self._frames = TransformBroadcaster(node) if flag("publishWheelTF", default=False) else None
-        mark_read(parameters, "odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
+        self._frames = TransformBroadcaster(node) if parameters.flag("publishWheelTF", default=False) else None
+        parameters.ignore("odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:

@@ -1,12 +1,12 @@
 """libgazebo_ros_f3d.so: external wrench on a link."""
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Wrench
 
 from .namespaces import join_topic, read_namespace
-from .ros_plugin import RosPlugin, required
+from .ros_plugin import RosPlugin
 
 
 class F3D(RosPlugin):
@@ -16,12 +16,11 @@ class F3D(RosPlugin):
     the original it excludes weight, contacts and joints; force_torque and contact sensors measure those.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters = tag.node
-        self._link = model.link(required(parameters, "bodyName"))
-        topic = join_topic(read_namespace(tag, model.name), required(parameters, "topicName"))
-        self._frame = parameters.string("frameName", default="world")
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        self._link = model.link(parameters.text("bodyName"))
+        topic = join_topic(read_namespace(parameters, model.name), parameters.text("topicName"))
+        self._frame = parameters.text("frameName", "world")
         self._topic = node.advertise(topic, "geometry_msgs/WrenchStamped", queue_size=1)
         self._wrench = Wrench()
 

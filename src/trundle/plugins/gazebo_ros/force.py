@@ -1,25 +1,27 @@
 """libgazebo_ros_force.so: a wrench on a link, from a topic."""
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Wrench
 
 from .namespaces import join_topic, read_namespace
-from .ros_plugin import RosPlugin, required
+from .ros_plugin import RosPlugin
 
 
 class Force(RosPlugin):
     """Applies the last geometry_msgs/Wrench of <topicName>, in world axes, to <bodyName> at every step."""
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         del sim
-        parameters = tag.node
-        self._link = model.link(parameters.string("bodyName"))
-        topic = required(parameters, "topicName")
+        self._link = model.link(parameters.text("bodyName", ""))
+        topic = parameters.text("topicName")
         self._wrench = Wrench()
         node.subscribe(
-            join_topic(read_namespace(tag, model.name), topic), "geometry_msgs/Wrench", self._on_wrench, queue_size=1
+            join_topic(read_namespace(parameters, model.name), topic),
+            "geometry_msgs/Wrench",
+            self._on_wrench,
+            queue_size=1,
         )
 
     def before_step(self, sim: Simulation) -> None:

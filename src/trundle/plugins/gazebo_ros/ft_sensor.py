@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3
 
 from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin, required
+from .ros_plugin import RosPlugin
 
 
 class FtSensor(RosPlugin):
@@ -17,15 +17,16 @@ class FtSensor(RosPlugin):
     Parameters: <jointName> and <topicName> (required), <gaussianNoise> 0, <updateRate> 0 (every step).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        self._joint = model.joint(parameters.string("jointName"))
-        topic = required(parameters, "topicName")
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        self._joint = model.joint(parameters.text("jointName", ""))
+        topic = parameters.text("topicName")
         self._child = model.link(self._joint.joint.child)
-        self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        self._noise = parameters.number("gaussianNoise", 0.0)
         self._random = np.random.default_rng(sim.seed)
-        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
-        self._topic = node.advertise(join_topic(read_namespace(tag, model.name), topic), "geometry_msgs/WrenchStamped")
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
+        self._topic = node.advertise(
+            join_topic(read_namespace(parameters, model.name), topic), "geometry_msgs/WrenchStamped"
+        )
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the wrench."""

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Vector3
 
 from .link_motion import LinkMotion
 from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin, required
+from .ros_plugin import RosPlugin
 
 
 class Imu(RosPlugin):
@@ -19,21 +19,20 @@ class Imu(RosPlugin):
     <frameName> (the body), <rpyOffset> 0 0 0, <gaussianNoise> 0, <updateRate> 0 (every step).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        link = model.link(required(parameters, "bodyName"))
-        namespace = read_namespace(tag, model.name)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        link = model.link(parameters.text("bodyName"))
+        namespace = read_namespace(parameters, model.name)
         self._motion = LinkMotion(link)
-        self._frame = parameters.string("frameName", default=link.name)
-        self._offset = Pose.from_rpy(0, 0, 0, *parameters.vector("rpyOffset", default=ZERO, report=report))
-        self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        self._frame = parameters.text("frameName", link.name)
+        self._offset = Pose.from_rpy(0, 0, 0, *parameters.vector("rpyOffset", ZERO))
+        self._noise = parameters.number("gaussianNoise", 0.0)
         self._random = np.random.default_rng(sim.seed)
-        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
-        topic = join_topic(namespace, parameters.string("topicName", default="default_imu"))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
+        topic = join_topic(namespace, parameters.text("topicName", "default_imu"))
         self._topic = node.advertise(topic, "sensor_msgs/Imu", queue_size=1)
-        service = join_topic(namespace, parameters.string("serviceName", default="default_imu"))
+        service = join_topic(namespace, parameters.text("serviceName", "default_imu"))
         node.advertise_service(service, "std_srvs/Empty", _calibrated)
-        parameters.find("xyzOffset")
+        parameters.ignore("xyzOffset")
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the reading."""

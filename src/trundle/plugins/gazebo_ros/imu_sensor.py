@@ -5,16 +5,16 @@ from typing import Any
 import numpy as np
 
 from trundle.bridge import imu_message
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import PluginTag
+from trundle.diagnostics import UsageError
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import ImuReading, ImuSensor, InstrumentSensor
 
-from .namespaces import mark_read, read_namespace, warn_unsupported
+from .namespaces import read_namespace
 from .sensor_publisher import SensorPublisher, read_frame_name, read_topic_name
 
 
-def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
     """Publish sensor_msgs/Imu.
 
     Parameters, with gazebo_ros' defaults: <topicName> imu_data, <frameName> (the link), <updateRateHZ> 1,
@@ -22,19 +22,17 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     """
     if not isinstance(sensor, ImuSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; an imu is needed")
-    parameters = tag.node
-    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "imu_data")
-    rate_hz = parameters.number("updateRateHZ", default=1.0, report=report)
-    frame = read_frame_name(tag, sensor.link.name)
+    topic = read_topic_name(parameters, read_namespace(parameters, sensor.model.name), "topicName", "imu_data")
+    rate_hz = parameters.number("updateRateHZ", 1.0)
+    frame = read_frame_name(parameters, sensor.link.name)
     outlet = SensorPublisher(node, topic, "sensor_msgs/Imu", frame, rate_hz=rate_hz)
-    noise = parameters.number("gaussianNoise", default=0.0, report=report)
+    noise = parameters.number("gaussianNoise", 0.0)
     random = np.random.default_rng(0)
     covariance = [noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
     names = ("orientation", "angular_velocity", "linear_acceleration")
     covariances = {f"{name}_covariance": covariance for name in names}
-    warn_unsupported(parameters, report, "xyzOffset", "rpyOffset", "initialOrientationAsReference")
-    mark_read(parameters, "bodyName", "serviceName")
-    parameters.report_unread(report)
+    parameters.warn_unsupported("xyzOffset", "rpyOffset", "initialOrientationAsReference")
+    parameters.ignore("bodyName", "serviceName")
 
     def message(reading: ImuReading) -> dict[str, Any]:
         fields: dict[str, Any] = {**imu_message(reading), **covariances}

@@ -4,7 +4,7 @@ from collections import deque
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node, to_nsec
 from trundle.simulation import ModelHandle, Simulation
 
@@ -21,13 +21,12 @@ class JointPoseTrajectory(RosPlugin):
     <updateRate> 0 (every step).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         self._sim, self._model, self._node = sim, model, node
-        namespace = read_namespace(tag, model.name)
-        topic = join_topic(namespace, parameters.string("topicName", default="set_joint_trajectory"))
-        service = join_topic(namespace, parameters.string("serviceName", default="set_joint_trajectory"))
-        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
+        namespace = read_namespace(parameters, model.name)
+        topic = join_topic(namespace, parameters.text("topicName", "set_joint_trajectory"))
+        service = join_topic(namespace, parameters.text("serviceName", "set_joint_trajectory"))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
         self._due: deque[tuple[int, dict[str, float]]] = deque()
         node.subscribe(topic, "trajectory_msgs/JointTrajectory", self._on_trajectory, queue_size=100)
         node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._set_trajectory)

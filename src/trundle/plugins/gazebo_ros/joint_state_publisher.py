@@ -2,7 +2,7 @@
 
 import re
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
@@ -16,12 +16,12 @@ class JointStatePublisher(RosPlugin):
     Parameters: <jointName> (names separated by commas or spaces; default: all joints), <updateRate> 100.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        names = [name for name in re.split(r"[\s,]+", parameters.string("jointName")) if name]
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        del sim
+        names = [name for name in re.split(r"[\s,]+", parameters.text("jointName", "")) if name]
         self._joints = [model.joint(name) for name in names] or [joint for joint in model.joints if joint.axes]
-        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=100.0, report=report))
-        topic = join_topic(read_namespace(tag, model.name), "joint_states")
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
+        topic = join_topic(read_namespace(parameters, model.name), "joint_states")
         self._states = node.advertise(topic, "sensor_msgs/JointState", queue_size=1000)
 
     def after_step(self, snapshot: Snapshot) -> None:

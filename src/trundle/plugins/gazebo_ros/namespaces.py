@@ -1,19 +1,16 @@
 """Namespaces, topics and update rates of gazebo_ros plugins."""
 
-from trundle.diagnostics import Diagnostics
-from trundle.model import PluginTag
 from trundle.names import ros_name
-from trundle.xmlnode import XmlNode
+from trundle.parameters import TagParameters
 
-_NOTHING = {"0", "0.0", "false"}
+WITHOUT_EFFECT = ("rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate")
+"""Parameters that any plugin of gazebo_ros may have and that mean nothing here."""
 
 
-def read_namespace(tag: PluginTag, model: str) -> str:
+def read_namespace(parameters: TagParameters, model: str) -> str:
     """<robotNamespace> without slashes at its ends; if present and empty the model's name, as in gazebo_ros."""
-    found = tag.node.find("robotNamespace")
-    if found is None:
-        return ""
-    return found.text.strip().strip("/") or (ros_name(model) if not found.text.strip() else "")
+    namespace = parameters.text("robotNamespace", "/")
+    return namespace.strip("/") if namespace else ros_name(model)
 
 
 def join_topic(namespace: str, topic: str) -> str:
@@ -26,17 +23,3 @@ def join_topic(namespace: str, topic: str) -> str:
 def rate_to_period_ns(rate_hz: float) -> int:
     """Period of an update rate [ns]; 0: every step."""
     return round(1e9 / rate_hz) if rate_hz > 0.0 else 0
-
-
-def mark_read(parameters: XmlNode, *names: str) -> None:
-    """Mark parameters as read that have no meaning here, such as debug levels and ODE's settings."""
-    for name in (*names, "rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate"):
-        parameters.find(name)
-
-
-def warn_unsupported(parameters: XmlNode, report: Diagnostics, *names: str) -> None:
-    """Mark parameters as read, and warn of those that would have an effect."""
-    for name in names:
-        found = parameters.find(name)
-        if found is not None and not set(found.text.split()) <= _NOTHING:
-            report.warn(found.at, f"<{name}> is not supported")

@@ -3,7 +3,7 @@
 import math
 from typing import Self
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import ModelHandle
 from trundle.spatial import Pose, Twist
@@ -48,7 +48,7 @@ class OdometryTopic:
     @classmethod
     def from_tag(
         cls,
-        tag: PluginTag,
+        parameters: TagParameters,
         namespace: str,
         node: Node,
         *,
@@ -60,9 +60,9 @@ class OdometryTopic:
         """Read <odometryTopic>, <odometryFrame> and <robotBaseFrame>, the parameters of every gazebo_ros drive."""
         return cls(
             node,
-            join_topic(namespace, tag.node.string("odometryTopic", default="odom")),
-            frame=tag.node.string("odometryFrame", default="odom"),
-            base=tag.node.string("robotBaseFrame", default=base),
+            join_topic(namespace, parameters.text("odometryTopic", "odom")),
+            frame=parameters.text("odometryFrame", "odom"),
+            base=parameters.text("robotBaseFrame", base),
             variances=variances,
             with_tf=with_tf,
             twist_variances=twist_variances,

@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Twist
 
 from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin, required
+from .ros_plugin import RosPlugin
 
 _WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
 
@@ -22,22 +22,18 @@ class P3D(RosPlugin):
     <xyzOffsets>, <rpyOffsets>), <gaussianNoise> 0, <updateRate> 0 (every step).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        self._link = model.link(required(parameters, "bodyName"))
-        self._frame = parameters.string("frameName", default="world")
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        self._link = model.link(parameters.text("bodyName"))
+        self._frame = parameters.text("frameName", "world")
         self._reference: LinkHandle | None = None
         if self._frame not in _WORLD:
             self._reference = model.link(self._frame.strip("/"))
-        offsets = [
-            parameters.vector(name, default=parameters.vector(f"{name}s", default=ZERO, report=report), report=report)
-            for name in ("xyzOffset", "rpyOffset")
-        ]
+        offsets = [parameters.vector(name, parameters.vector(f"{name}s", ZERO)) for name in ("xyzOffset", "rpyOffset")]
         self._offset = Pose.from_rpy(*offsets[0], *offsets[1])
-        self._noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        self._noise = parameters.number("gaussianNoise", 0.0)
         self._random = np.random.default_rng(sim.seed)
-        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=0.0, report=report))
-        topic = join_topic(read_namespace(tag, model.name), required(parameters, "topicName"))
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
+        topic = join_topic(read_namespace(parameters, model.name), parameters.text("topicName"))
         self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
         variance = self._noise**2
         self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]

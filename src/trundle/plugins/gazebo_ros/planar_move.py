@@ -2,7 +2,7 @@
 
 import math
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Twist
@@ -20,16 +20,15 @@ class PlanarMove(RosPlugin):
     <robotBaseFrame> base_footprint, <odometryRate> 20, <cmdTimeout> −1 [s] (none).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        namespace = read_namespace(tag, model.name)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        namespace = read_namespace(parameters, model.name)
         self._model = model
-        self._command = TwistCommand.from_tag(tag, namespace, node)
-        self._timeout_s = parameters.number("cmdTimeout", default=-1.0, report=report)
-        self._publish_period_ns = rate_to_period_ns(parameters.number("odometryRate", default=20.0, report=report))
+        self._command = TwistCommand.from_tag(parameters, namespace, node)
+        self._timeout_s = parameters.number("cmdTimeout", -1.0)
+        self._publish_period_ns = rate_to_period_ns(parameters.number("odometryRate", 20.0))
         self._published_ns = sim.time_ns
         self._odometry = OdometryTopic.from_tag(
-            tag,
+            parameters,
             namespace,
             node,
             variances=(1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3),

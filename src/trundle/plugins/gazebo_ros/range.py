@@ -2,18 +2,18 @@
 
 import numpy as np
 
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import PluginTag
+from trundle.diagnostics import UsageError
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from .namespaces import mark_read, read_namespace
+from .namespaces import read_namespace
 from .sensor_publisher import SensorPublisher, read_frame_name, read_topic_name
 
 _KINDS = {"ultrasound": 0, "infrared": 1}
 
 
-def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
     """Publish sensor_msgs/Range.
 
     Parameters, with gazebo_ros' defaults: <topicName> range, <frameName> world, <radiation> ultrasound or infrared,
@@ -21,18 +21,15 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     """
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
-    parameters = tag.node
-    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "range")
-    rate_hz = parameters.number("updateRate", default=0.0, report=report)
-    outlet = SensorPublisher(node, topic, "sensor_msgs/Range", read_frame_name(tag, "world"), rate_hz=rate_hz)
-    kind = parameters.string("radiation", default="ultrasound")
+    topic = read_topic_name(parameters, read_namespace(parameters, sensor.model.name), "topicName", "range")
+    rate_hz = parameters.number("updateRate", 0.0)
+    outlet = SensorPublisher(node, topic, "sensor_msgs/Range", read_frame_name(parameters, "world"), rate_hz=rate_hz)
+    kind = parameters.text("radiation", "ultrasound")
     if kind not in _KINDS:
-        report.warn(tag.at, f"radiation {kind!r} is neither of {', '.join(_KINDS)}; ultrasound is used")
-    fov = parameters.number("fov", default=0.05, report=report)
-    noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        parameters.warn(f"radiation {kind!r} is neither of {', '.join(_KINDS)}; ultrasound is used")
+    fov = parameters.number("fov", 0.05)
+    noise = parameters.number("gaussianNoise", 0.0)
     random = np.random.default_rng(0)
-    mark_read(parameters)
-    parameters.report_unread(report)
 
     def message(reading: RangeReading) -> dict[str, object]:
         near, far = reading.scan.min_m, reading.scan.max_m

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Publisher
 
 from .namespaces import join_topic, rate_to_period_ns
@@ -57,11 +57,11 @@ class SensorPublisher:
             self._topic.publish({**make(), "header": header})
 
 
-def read_frame_name(tag: PluginTag, default: str) -> str:
+def read_frame_name(parameters: TagParameters, default: str) -> str:
     """<frameName> without a leading slash, as tf2 requires."""
-    return tag.node.string("frameName", default=default).strip().lstrip("/")
+    return parameters.text("frameName", default).strip().lstrip("/")
 
 
-def read_topic_name(tag: PluginTag, namespace: str, name: str, default: str) -> str:
+def read_topic_name(parameters: TagParameters, namespace: str, name: str, default: str) -> str:
     """Global name of the topic that a parameter names."""
-    return join_topic(namespace, tag.node.string(name, default=default))
+    return join_topic(namespace, parameters.text(name, default))

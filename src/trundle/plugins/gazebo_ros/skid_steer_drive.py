@@ -1,7 +1,7 @@
 """libgazebo_ros_skid_steer_drive.so: cmd_vel in; the speeds of four wheels, odometry and tf out."""
 
 from trundle.control import DifferentialDrive
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
@@ -20,31 +20,33 @@ class SkidSteerDrive(RosPlugin):
     <covariance_yaw> 0.01.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        namespace = read_namespace(tag, model.name)
-
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        del sim
+        namespace = read_namespace(parameters, model.name)
 
         def wheel(side: str, row: str) -> str:
-            return parameters.string(f"{side}{row}Joint", default=f"{side}_{row.lower()}_joint")
+            return parameters.text(f"{side}{row}Joint", f"{side}_{row.lower()}_joint")
 
         self._model = model
         self._sides = [[model.joint(wheel(side, row)) for row in ("Front", "Rear")] for side in ("left", "right")]
         self._drive = DifferentialDrive(
-            separation=number("wheelSeparation", 0.4), wheel_radius=number("wheelDiameter", 0.15) / 2
+            separation=parameters.number("wheelSeparation", 0.4),
+            wheel_radius=parameters.number("wheelDiameter", 0.15) / 2,
         )
-        self._torque = number("torque", 5.0)
-        self.period_ns = rate_to_period_ns(number("updateRate", 100.0))
-        self._command = TwistCommand.from_tag(tag, namespace, node)
-        x, y, yaw = number("covariance_x", 1e-4), number("covariance_y", 1e-4), number("covariance_yaw", 0.01)
+        self._torque = parameters.number("torque", 5.0)
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
+        self._command = TwistCommand.from_tag(parameters, namespace, node)
+        x, y, yaw = (
+            parameters.number("covariance_x", 1e-4),
+            parameters.number("covariance_y", 1e-4),
+            parameters.number("covariance_yaw", 0.01),
+        )
         self._odometry = OdometryTopic.from_tag(
-            tag,
+            parameters,
             namespace,
             node,
             variances=(x, y, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, yaw),
-            with_tf=parameters.flag("broadcastTF", default=False, report=report),
+            with_tf=parameters.flag("broadcastTF", default=False),
         )
 
     def before_step(self, sim: Simulation) -> None:

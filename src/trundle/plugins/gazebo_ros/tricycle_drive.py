@@ -3,12 +3,12 @@
 import math
 
 from trundle.control import DifferentialDrive, WheelOdometry, step_towards
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace, warn_unsupported
+from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
 from .ros_plugin import RosPlugin
 from .twist_command import TwistCommand
@@ -28,42 +28,41 @@ class TricycleDrive(RosPlugin):
     Encoder odometry turns as the robot does; the original's is mirrored.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters, report = tag.node, sim.report
-        namespace = read_namespace(tag, model.name)
-
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        namespace = read_namespace(parameters, model.name)
 
         self._model = model
-        self._steering = model.joint(parameters.string("steeringJoint", default="front_steering_joint"))
-        self._wheel = model.joint(parameters.string("actuatedWheelJoint", default="front_wheel_joint"))
+        self._steering = model.joint(parameters.text("steeringJoint", "front_steering_joint"))
+        self._wheel = model.joint(parameters.text("actuatedWheelJoint", "front_wheel_joint"))
         self._encoders = [
-            model.joint(parameters.string(f"encoderWheel{side}Joint", default=f"{side.lower()}_wheel_joint"))
+            model.joint(parameters.text(f"encoderWheel{side}Joint", f"{side.lower()}_wheel_joint"))
             for side in ("Left", "Right")
         ]
-        self._radius = number("actuatedWheelDiameter", 0.15) / 2
+        self._radius = parameters.number("actuatedWheelDiameter", 0.15) / 2
         self._drive = DifferentialDrive(
-            separation=number("encoderWheelSeparation", 0.5), wheel_radius=number("encoderWheelDiameter", 0.15) / 2
+            separation=parameters.number("encoderWheelSeparation", 0.5),
+            wheel_radius=parameters.number("encoderWheelDiameter", 0.15) / 2,
         )
-        self._torque, self._steering_speed = number("wheelTorque", 5.0), number("steeringSpeed", 0.0)
-        self._faster = number("wheelAcceleration", 0.0)
-        self._slower = number("wheelDeceleration", self._faster)
-        self.period_ns = rate_to_period_ns(number("updateRate", 100.0))
-        self._from_wheels = parameters.string("odometrySource", default="world") in ("encoder", "0")
-        self._command = TwistCommand.from_tag(tag, namespace, node)
+        self._torque, self._steering_speed = (
+            parameters.number("wheelTorque", 5.0),
+            parameters.number("steeringSpeed", 0.0),
+        )
+        self._faster = parameters.number("wheelAcceleration", 0.0)
+        self._slower = parameters.number("wheelDeceleration", self._faster)
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
+        self._from_wheels = parameters.text("odometrySource", "world") in ("encoder", "0")
+        self._command = TwistCommand.from_tag(parameters, namespace, node)
         variances = (1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3)
         self._odometry = OdometryTopic.from_tag(
-            tag, namespace, node, variances=variances, with_tf=True, base="base_link"
+            parameters, namespace, node, variances=variances, with_tf=True, base="base_link"
         )
-        states = parameters.flag("publishWheelJointState", default=False, report=report)
+        states = parameters.flag("publishWheelJointState", default=False)
         self._states = (
             node.advertise(join_topic(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
         )
-        for name in ("wheelSpeedTolerance", "steeringAngleTolerance"):
-            parameters.find(name)
-        warn_unsupported(parameters, report, "publishWheelTF")
+        parameters.ignore("wheelSpeedTolerance", "steeringAngleTolerance")
+        parameters.warn_unsupported("publishWheelTF")
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:

@@ -3,7 +3,7 @@
 import math
 from typing import Self
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 
 from .namespaces import join_topic
@@ -22,9 +22,9 @@ class TwistCommand:
         node.subscribe(topic, "geometry_msgs/Twist", self._on_command, queue_size=1)
 
     @classmethod
-    def from_tag(cls, tag: PluginTag, namespace: str, node: Node) -> Self:
+    def from_tag(cls, parameters: TagParameters, namespace: str, node: Node) -> Self:
         """Read <commandTopic>, the parameter of every gazebo_ros drive."""
-        return cls(node, join_topic(namespace, tag.node.string("commandTopic", default="cmd_vel")))
+        return cls(node, join_topic(namespace, parameters.text("commandTopic", "cmd_vel")))
 
     def stop(self) -> None:
         """Set the command to zero."""

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Wrench
 
 from .namespaces import join_topic
-from .ros_plugin import RosPlugin, required
+from .ros_plugin import RosPlugin
 
 _REACH = 0.05
 """Range between link origins [m]."""
@@ -29,13 +29,12 @@ class VacuumGripper(RosPlugin):
     is rotated with the object.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters = tag.node
-        namespace = parameters.string("robotNamespace").strip("/")
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        namespace = parameters.text("robotNamespace", "").strip("/")
         self._node, self._model = node, model
-        self._link = model.link(required(parameters, "bodyName"))
-        topic = required(parameters, "topicName")
+        self._link = model.link(parameters.text("bodyName"))
+        topic = parameters.text("topicName")
         self._is_on = self._holds = False
         self._topic = node.advertise(join_topic(namespace, topic), "std_msgs/Bool", queue_size=1)
         node.advertise_service(join_topic(namespace, "on"), "std_srvs/Empty", lambda _: self._switch(on=True))

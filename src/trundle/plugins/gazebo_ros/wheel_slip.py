@@ -4,6 +4,7 @@ from typing import Self
 
 from trundle.model import PluginTag
 from trundle.names import ros_name
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Option, Options, ReconfigureServer
 from trundle.simulation import ModelHandle, Simulation
 
@@ -23,7 +24,7 @@ class RosWheelSlip(WheelSlip):
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
-        namespace = tag.node.string("robotNamespace", default="").strip("/") or "wheel_slip"
+        namespace = TagParameters(tag.node, sim.report).text("robotNamespace", "").strip("/") or "wheel_slip"
         plugin = super().load(sim, model, node, tag)
         if node is not None:
             plugin._offer(node, f"/{ros_name(model.name)}/{namespace}")

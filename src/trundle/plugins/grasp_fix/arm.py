@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from trundle.model import Joint, JointType, Link, Model, Surface
+from trundle.parameters import TagParameters
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
-from trundle.xmlnode import XmlNode
 
 from .contact_average import ContactAverage
 
@@ -14,29 +14,31 @@ from .contact_average import ContactAverage
 class Arm:
     """Gripper that holds one object at a time."""
 
-    def __init__(self, sim: Simulation, model: ModelHandle, tag: XmlNode, *, disable_collisions: bool) -> None:
+    def __init__(
+        self, sim: Simulation, model: ModelHandle, parameters: TagParameters, *, disable_collisions: bool
+    ) -> None:
         """Read <arm>.
 
         Args:
             sim: the simulation.
             model: of the fingers.
-            tag: <arm> with <arm_name>, <palm_link> and <gripper_link>.
+            parameters: <arm> with <arm_name>, <palm_link> and <gripper_link>.
             disable_collisions: True: a held object collides with nothing.
 
         Raises:
             UsageError: no such palm link.
         """
         self._sim, self._model, self._disable_collisions = sim, model, disable_collisions
-        self.at = tag.at
-        self.name = tag.string("arm_name")
-        self.palm = model.link(tag.string("palm_link"))
+        self.at = parameters.at
+        self.name = parameters.text("arm_name", "")
+        self.palm = model.link(parameters.text("palm_link"))
         self.fingers: dict[str, LinkHandle] = {}
         """Collision, `model::link::collision` → link of the finger."""
-        for child in tag.all("gripper_link"):
-            found = next((link for link in model.links if link.name == child.text), None)
+        for finger in parameters.texts("gripper_link"):
+            found = next((link for link in model.links if link.name == finger), None)
             if found is None:
                 there = ", ".join(repr(link.name) for link in model.links)
-                sim.report.warn(child.at, f"no link {child.text!r}; links here: {there}; it is left out")
+                parameters.warn(f"no link {finger!r}; links here: {there}; it is left out")
                 continue
             names = (f"{model.name}::{found.name}::{collision.name}" for collision in found.link.collisions)
             self.fingers |= dict.fromkeys(names, found)

@@ -7,9 +7,9 @@ from typing import Self
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
-from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .arm import Arm
@@ -29,31 +29,28 @@ class GraspFix(Plugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, say: Callable[[str], object], tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+        parameters = TagParameters(tag.node, sim.report)
         self._sim, self._say = sim, say
-        self._angle_rad = math.radians(parameters.number("forces_angle_tolerance", default=120.0, report=report))
+        self._angle_rad = math.radians(parameters.number("forces_angle_tolerance", 120.0))
         if self._angle_rad < math.pi / 2:
-            report.warn(
-                tag.at, "<forces_angle_tolerance> is less than 90 degrees: nothing is ever held, as in the original"
+            parameters.warn(
+                "<forces_angle_tolerance> is less than 90 degrees: nothing is ever held, as in the original"
             )
-        rate_hz = parameters.integer("update_rate", default=5, report=report)
-        if rate_hz <= 0:
-            raise UsageError(f"<update_rate> must be > 0 Hz, got {rate_hz}")
-        self._update_period_ns = round(1e9 / rate_hz)
-        self._max_count = parameters.integer("max_grip_count", default=10, report=report)
-        self._threshold = parameters.integer("grip_count_threshold", default=self._max_count // 2, report=report)
-        self._release_tolerance = parameters.number("release_tolerance", default=0.005, report=report)
-        disable_collisions = parameters.flag("disable_collisions_on_attach", default=False, report=report)
-        if parameters.string("contact_topic", default=_USUAL_TOPIC).strip() != _USUAL_TOPIC:
-            report.warn(tag.at, "<contact_topic> is ignored, as in the original")
+        self._update_period_ns = round(1e9 / parameters.integer("update_rate", 5, minimum=1))
+        self._max_count = parameters.integer("max_grip_count", 10)
+        self._threshold = parameters.integer("grip_count_threshold", self._max_count // 2)
+        self._release_tolerance = parameters.number("release_tolerance", 0.005)
+        disable_collisions = parameters.flag("disable_collisions_on_attach", default=False)
+        if parameters.text("contact_topic", _USUAL_TOPIC).strip() != _USUAL_TOPIC:
+            parameters.warn("<contact_topic> is ignored, as in the original")
         self._arms: dict[str, Arm] = {}
-        for child in parameters.all("arm"):
+        for child in parameters.sections("arm"):
             self._add(child, model, disable_collisions)
         if not self._arms:
             raise UsageError("it needs an <arm> with fingers that have collisions")
         self._fingers = {name: (arm, link) for arm in self._arms.values() for name, link in arm.fingers.items()}
         self._finger_names = frozenset(self._fingers)
-        parameters.report_unread(report)
+        parameters.report_unread()
         self._clear()
 
     @classmethod
@@ -99,18 +96,17 @@ class GraspFix(Plugin):
         self._count: Counter[str] = Counter()
         """Object's collision → updates in which it was held, minus those in which it was not."""
 
-    def _add(self, tag: XmlNode, model: ModelHandle, disable_collisions: bool) -> None:
-        report = self._sim.report
+    def _add(self, parameters: TagParameters, model: ModelHandle, disable_collisions: bool) -> None:
         try:
-            arm = Arm(self._sim, model, tag, disable_collisions=disable_collisions)
+            arm = Arm(self._sim, model, parameters, disable_collisions=disable_collisions)
         except UsageError as error:
-            report.warn(tag.at, f"<arm>: {error}; it is left out")
+            parameters.warn(f"<arm>: {error}; it is left out")
             return
         finally:
-            tag.report_unread(report)
+            parameters.report_unread()
         if arm.name in self._arms or not arm.fingers:
             why = "there is one of that name already" if arm.name in self._arms else "no finger has a collision"
-            report.warn(tag.at, f"arm {arm.name!r}: {why}; it is left out")
+            parameters.warn(f"arm {arm.name!r}: {why}; it is left out")
             return
         self._arms[arm.name] = arm
 

@@ -1,6 +1,6 @@
 """libhector_gazebo_ros_baro.so: height of a link, and the air pressure there."""
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Publisher
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
@@ -19,16 +19,14 @@ class Baro(LinkSensor):
     <qnh> 1013.25 [hPa]; errors by <drift>, <gaussianNoise>, … [m].
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters, report = tag.node, sim.report
-        self._elevation = parameters.number("elevation", default=0.0, report=report)
-        self._qnh = parameters.number("qnh", default=1013.25, report=report)
-        self._errors = ErrorModel(parameters, report, self.random, axes=1)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        self._elevation = parameters.number("elevation", 0.0)
+        self._qnh = parameters.number("qnh", 1013.25)
+        self._errors = ErrorModel(parameters, self.random, axes=1)
 
         def advertise(name: str, default: str, kind: str) -> Publisher | None:
-            found = parameters.find(name)
-            topic = default if found is None else found.text.strip()
+            topic = parameters.text(name, default)
             return node.advertise(self.topic(topic), kind, queue_size=10) if topic else None
 
         self._height = advertise("topicName", "pressure_height", "geometry_msgs/PointStamped")

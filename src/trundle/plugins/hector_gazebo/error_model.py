@@ -5,33 +5,28 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import Diagnostics
-from trundle.xmlnode import XmlNode
+from trundle.parameters import TagParameters
 
 
 class ErrorModel:
     """A Gauss-Markov process and white noise, by <offset>, <drift>, <driftFrequency>, <gaussianNoise>, <scaleError>."""
 
     def __init__(
-        self, parameters: XmlNode, report: Diagnostics, random: np.random.Generator, *, prefix: str = "", axes: int = 3
+        self, parameters: TagParameters, random: np.random.Generator, *, prefix: str = "", axes: int = 3
     ) -> None:
         """Read the parameters.
 
         Args:
             parameters: of the plugin.
-            report: takes what cannot be read.
             random: for noise and drift.
             prefix: of the parameters: accel for <accelDrift> and so on.
             axes: number of values; a single number holds for all.
         """
 
         def read(name: str, default: float) -> NDArray[np.float64]:
-            node = parameters.find(prefix + name[0].upper() + name[1:] if prefix else name)
-            if node is None:
-                return np.full(axes, default)
-            count = 1 if len(node.text.split()) == 1 else axes
-            values = node.as_numbers(count, report=report)
-            return np.full(axes, default) if values is None else np.resize(np.array(values), axes)
+            full = prefix + name[0].upper() + name[1:] if prefix else name
+            count = 1 if len(parameters.text(full, "").split()) == 1 else axes
+            return np.resize(np.array(parameters.numbers(full, count, (default,))), axes)
 
         self._random = random
         self._offset, self._drift = read("offset", 0.0), read("drift", 0.0)

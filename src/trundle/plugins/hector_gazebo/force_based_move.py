@@ -2,7 +2,7 @@
 
 import math
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist, Wrench
@@ -32,27 +32,24 @@ class ForceBasedMove(RosPlugin):
     SIDEWAYS = True
     """True if odometry includes sideways motion."""
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
-        namespace = read_namespace(tag, model.name)
-
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        del sim
+        namespace = read_namespace(parameters, model.name)
 
         self.model = model
-        self.command = TwistCommand.from_tag(tag, namespace, node)
-        self._link = model.link(parameters.string("robotBaseFrame", default="base_footprint"))
-        self._gains = number("x_velocity_p_gain", 1e4), number("y_velocity_p_gain", 1e4)
-        self._yaw_gain = number("yaw_velocity_p_gain", 100.0)
-        rate_hz = number("odometryRate", 20.0)
+        self.command = TwistCommand.from_tag(parameters, namespace, node)
+        self._link = model.link(parameters.text("robotBaseFrame", "base_footprint"))
+        self._gains = parameters.number("x_velocity_p_gain", 1e4), parameters.number("y_velocity_p_gain", 1e4)
+        self._yaw_gain = parameters.number("yaw_velocity_p_gain", 100.0)
+        rate_hz = parameters.number("odometryRate", 20.0)
         self._period_ns = rate_to_period_ns(rate_hz) if rate_hz > 0.0 else None
         self._odometry = OdometryTopic.from_tag(
-            tag,
+            parameters,
             namespace,
             node,
             variances=_VARIANCES,
             twist_variances=_TWIST_VARIANCES,
-            with_tf=parameters.flag("publishOdometryTf", default=True, report=report),
+            with_tf=parameters.flag("publishOdometryTf", default=True),
         )
         self._published_ns: int | None = None
         self._place = Pose()

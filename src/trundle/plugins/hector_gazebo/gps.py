@@ -2,7 +2,8 @@
 
 import math
 
-from trundle.model import PluginTag, SphericalCoordinates
+from trundle.model import SphericalCoordinates
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import geodetic
 from trundle.simulation import ModelHandle, Simulation, Snapshot
@@ -23,13 +24,12 @@ class Gps(LinkSensor):
     by <drift>, <gaussianNoise>, … [m] and <velocityDrift>, <velocityGaussianNoise>, … [m/s].
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag, frame="/world", rate_hz=4.0)
-        parameters, report = tag.node, sim.report
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters, frame="/world", rate_hz=4.0)
         world = sim.world.spherical_coordinates
 
         def reference(name: str, default: float) -> float:
-            return parameters.number(f"reference{name}", default=default, report=report)
+            return parameters.number(f"reference{name}", default)
 
         heading_deg = reference("Heading", 90.0 - world.heading_deg)
         self._heading_rad = math.radians(heading_deg)
@@ -40,13 +40,13 @@ class Gps(LinkSensor):
             heading_deg=90.0 - heading_deg,
         )
         self._status = {
-            "status": parameters.integer("status", default=0, report=report),
-            "service": parameters.integer("service", default=1, report=report),
+            "status": parameters.integer("status", 0),
+            "service": parameters.integer("service", 1),
         }
-        self._place = ErrorModel(parameters, report, self.random)
-        self._speed = ErrorModel(parameters, report, self.random, prefix="velocity")
-        fix = parameters.string("topicName", default="fix")
-        velocity = parameters.string("velocityTopicName", default="fix_velocity")
+        self._place = ErrorModel(parameters, self.random)
+        self._speed = ErrorModel(parameters, self.random, prefix="velocity")
+        fix = parameters.text("topicName", "fix")
+        velocity = parameters.text("velocityTopicName", "fix_velocity")
         self._fix = node.advertise(self.topic(fix), "sensor_msgs/NavSatFix", queue_size=10)
         self._velocity = node.advertise(self.topic(velocity), "geometry_msgs/Vector3Stamped", queue_size=10)
 

@@ -1,6 +1,6 @@
 """libhector_gazebo_ros_imu.so: an imu with gravity and an error model."""
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose
@@ -21,24 +21,23 @@ class Imu(LinkSensor):
     <…GaussianNoise>; <gaussianNoise> and <rpyOffset> as gazebo_ros_imu has them.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters, report = tag.node, sim.report
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
         self._gravity = sim.world.physics.gravity
         self._motion = LinkMotion(self.link)
-        self._acceleration = ErrorModel(parameters, report, self.random, prefix="accel")
-        self._rate = ErrorModel(parameters, report, self.random, prefix="rate")
-        self._heading = ErrorModel(parameters, report, self.random, prefix="heading", axes=1)
-        noise = parameters.number("gaussianNoise", default=0.0, report=report)
+        self._acceleration = ErrorModel(parameters, self.random, prefix="accel")
+        self._rate = ErrorModel(parameters, self.random, prefix="rate")
+        self._heading = ErrorModel(parameters, self.random, prefix="heading", axes=1)
+        noise = parameters.number("gaussianNoise", 0.0)
         if noise > 0.0:
             self._acceleration.noise[:] = self._rate.noise[:] = noise
-        roll, pitch, self._yaw = parameters.vector("rpyOffset", default=ZERO, report=report)
+        roll, pitch, self._yaw = parameters.vector("rpyOffset", ZERO)
         self._tilt = (pitch * _G, -roll * _G)
-        topic = parameters.string("topicName", default="imu")
-        service = parameters.string("serviceName", default=f"{topic}/calibrate")
+        topic = parameters.text("topicName", "imu")
+        service = parameters.text("serviceName", f"{topic}/calibrate")
         self._topic = node.advertise(self.topic(topic), "sensor_msgs/Imu", queue_size=10)
         node.advertise_service(self.topic(service), "std_srvs/Empty", self._calibrate)
-        parameters.find("xyzOffset")
+        parameters.ignore("xyzOffset")
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the reading."""

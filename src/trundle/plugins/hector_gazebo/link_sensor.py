@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -14,19 +14,24 @@ class LinkSensor(RosPlugin):
     """Sensor on <bodyName> (the first link), with header frame <frameId>, at <updateRate>."""
 
     def __init__(
-        self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag, *, frame: str = "", rate_hz: float = 0.0
+        self,
+        sim: Simulation,
+        model: ModelHandle,
+        node: Node,
+        parameters: TagParameters,
+        *,
+        frame: str = "",
+        rate_hz: float = 0.0,
     ) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters = tag.node
-        body = parameters.string("bodyName")
+        super().__init__(sim, model, node, parameters)
+        body = parameters.text("bodyName", "")
         self.link = model.link(body) if body else model.base
-        self.frame = parameters.string("frameId", default=frame or self.link.name)
-        self.period_ns = rate_to_period_ns(parameters.number("updateRate", default=rate_hz, report=sim.report))
+        self.frame = parameters.text("frameId", frame or self.link.name)
+        self.period_ns = rate_to_period_ns(parameters.number("updateRate", rate_hz))
         self.random = np.random.default_rng(sim.seed)
-        self._namespace = read_namespace(tag, model.name)
+        self._namespace = read_namespace(parameters, model.name)
         self._last_ns = sim.time_ns
-        for name in ("updatePeriod", "randomEngineSeed"):
-            parameters.find(name)
+        parameters.ignore("updatePeriod", "randomEngineSeed")
 
     def topic(self, name: str) -> str:
         """Global name of a topic."""

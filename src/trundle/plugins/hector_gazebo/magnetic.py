@@ -2,7 +2,7 @@
 
 import math
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose
@@ -19,23 +19,22 @@ class Magnetic(LinkSensor):
     from north; by the world's spherical coordinates); errors by <drift>, <gaussianNoise>, …
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters, report = tag.node, sim.report
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
 
         def angle(name: str, default_deg: float) -> float:
-            return math.radians(parameters.number(name, default=default_deg, report=report))
+            return math.radians(parameters.number(name, default_deg))
 
-        strength = parameters.number("magnitude", default=1.0, report=report)
+        strength = parameters.number("magnitude", 1.0)
         heading = angle("referenceHeading", 90.0 - sim.world.spherical_coordinates.heading_deg)
         away, down = heading - angle("declination", 0.0), angle("inclination", 60.0)
         level = strength * math.cos(down)
         self._field = (level * math.cos(away), level * math.sin(away), -strength * math.sin(down))
-        self._errors = ErrorModel(parameters, report, self.random)
-        with_field = parameters.flag("useMagneticFieldMsgs", default=False, report=report)
+        self._errors = ErrorModel(parameters, self.random)
+        with_field = parameters.flag("useMagneticFieldMsgs", default=False)
         kind = "sensor_msgs/MagneticField" if with_field else "geometry_msgs/Vector3Stamped"
         self._value = "magnetic_field" if with_field else "vector"
-        topic = parameters.string("topicName", default="magnetic")
+        topic = parameters.text("topicName", "magnetic")
         self._topic = node.advertise(self.topic(topic), kind, queue_size=1)
 
     def after_step(self, snapshot: Snapshot) -> None:

@@ -2,17 +2,18 @@
 
 import numpy as np
 
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import PluginTag, ScanAxis
+from trundle.diagnostics import UsageError
+from trundle.model import ScanAxis
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from ..gazebo_ros.namespaces import mark_read, read_namespace
+from ..gazebo_ros.namespaces import read_namespace
 from ..gazebo_ros.sensor_publisher import SensorPublisher, read_topic_name
 from .error_model import ErrorModel
 
 
-def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
     """Publish sensor_msgs/Range.
 
     Parameters: <topicName> sonar, <frameId> /sonar_link, <updateRate> 10; errors by <drift>, <gaussianNoise>, … [m].
@@ -20,14 +21,11 @@ def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnos
     """
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
-    parameters = tag.node
-    topic = read_topic_name(tag, read_namespace(tag, sensor.model.name), "topicName", "sonar")
-    rate_hz = parameters.number("updateRate", default=10.0, report=report)
-    frame = parameters.string("frameId", default="/sonar_link")
+    topic = read_topic_name(parameters, read_namespace(parameters, sensor.model.name), "topicName", "sonar")
+    rate_hz = parameters.number("updateRate", 10.0)
+    frame = parameters.text("frameId", "/sonar_link")
     outlet = SensorPublisher(node, topic, "sensor_msgs/Range", frame, rate_hz=rate_hz)
-    errors = ErrorModel(parameters, report, np.random.default_rng(0), axes=1)
-    mark_read(parameters)
-    parameters.report_unread(report)
+    errors = ErrorModel(parameters, np.random.default_rng(0), axes=1)
     last_ns = 0
 
     def message(reading: RangeReading) -> dict[str, object]:

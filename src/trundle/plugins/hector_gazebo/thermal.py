@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from trundle.diagnostics import Diagnostics
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor
 
@@ -14,9 +13,9 @@ _DARKER = 8
 """Divisor of the sum of the three colours."""
 
 
-def attach(sensor: CameraSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
     """Publish sensor_msgs/Image in mono8, and camera_info; parameters are those of gazebo_ros' camera."""
-    attach_images(sensor, node, tag, report, _grey)
+    attach_images(sensor, node, parameters, _grey)
 
 
 def _grey(reading: CameraReading) -> dict[str, object]:

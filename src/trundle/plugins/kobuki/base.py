@@ -5,14 +5,14 @@ from typing import Any
 
 from trundle.control import DifferentialDrive
 from trundle.diagnostics import UsageError
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
 from ..gazebo_ros.namespaces import join_topic, rate_to_period_ns, read_namespace
 from ..gazebo_ros.odometry import OdometryTopic
-from ..gazebo_ros.ros_plugin import RosPlugin, required
+from ..gazebo_ros.ros_plugin import RosPlugin
 from .sensors import KobukiSensors, ModelSensor
 
 _BASE = "mobile_base"
@@ -31,23 +31,19 @@ class Kobuki(RosPlugin):
     from the gyro and the distance from the wheels.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        del sim
         names = ("left_wheel_joint_name", "right_wheel_joint_name")
-        self._wheels = [model.joint(required(parameters, name)) for name in names]
-        numbers = ("wheel_separation", "wheel_diameter", "torque", "velocity_command_timeout")
-        missing = [name for name in numbers if parameters.find(name) is None]
-        if missing:
-            raise UsageError(f"<{missing[0]}> is missing")
-        separation, diameter, self._torque, self._timeout_s = (
-            parameters.number(name, default=0.0, report=report) for name in numbers
+        self._wheels = [model.joint(parameters.text(name)) for name in names]
+        self._drive = DifferentialDrive(
+            separation=parameters.number("wheel_separation", above=0.0),
+            wheel_radius=parameters.number("wheel_diameter", above=0.0) / 2,
         )
-        if not (separation > 0.0 and diameter > 0.0):
-            raise UsageError("<wheel_separation> and <wheel_diameter> must be > 0 m")
-        self._drive = DifferentialDrive(separation=separation, wheel_radius=diameter / 2)
-        self.period_ns = rate_to_period_ns(parameters.number("update_rate", default=0.0, report=report))
+        self._torque = parameters.number("torque")
+        self._timeout_s = parameters.number("velocity_command_timeout")
+        self.period_ns = rate_to_period_ns(parameters.number("update_rate", 0.0))
         self._node = node
-        namespace = read_namespace(tag, model.name)
+        namespace = read_namespace(parameters, model.name)
 
         def topic(name: str) -> str:
             return join_topic(namespace, name)
@@ -59,15 +55,15 @@ class Kobuki(RosPlugin):
             base="base_footprint",
             variances=_POSE_VARIANCES,
             twist_variances=(0.0,) * 6,
-            with_tf=parameters.flag("publish_tf", default=False, report=report),
+            with_tf=parameters.flag("publish_tf", default=False),
         )
         self._states = node.advertise(topic("joint_states"), "sensor_msgs/JointState", queue_size=1)
         self._imu = node.advertise(topic(f"{_BASE}/sensors/imu_data"), "sensor_msgs/Imu", queue_size=1)
 
         def sensor(name: str) -> ModelSensor:
-            return _find_sensor(model, required(parameters, name))
+            return _find_sensor(model, parameters.text(name))
 
-        self._sensors = KobukiSensors(model, node, topic(_BASE), parameters, report, sensor)
+        self._sensors = KobukiSensors(model, node, topic(_BASE), parameters, sensor)
         self._gyro: Message | None = None
         node.subscribe(sensor("imu_name").topic("imu"), "sensor_msgs/Imu", self._on_imu, queue_size=1)
         commands = topic(f"{_BASE}/commands")

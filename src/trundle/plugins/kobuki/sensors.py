@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from trundle.bridge import sensor_topic
-from trundle.diagnostics import Diagnostics
 from trundle.model import Model, Sensor
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node, Publisher
 from trundle.simulation import ModelHandle
-from trundle.xmlnode import XmlNode
 
 _SIDES = ("left", "center", "right")
 _BITS = {"left": 4, "center": 2, "right": 1}
@@ -65,8 +64,7 @@ class KobukiSensors:
         model: ModelHandle,
         node: Node,
         base: str,
-        parameters: XmlNode,
-        report: Diagnostics,
+        parameters: TagParameters,
         sensor: Callable[[str], ModelSensor],
     ) -> None:
         """Subscribe.
@@ -76,11 +74,10 @@ class KobukiSensors:
             node: subscribes and publishes.
             base: prefix of its topics.
             parameters: of the plugin.
-            report: takes findings on them.
             sensor: returns the sensor that a parameter names.
         """
         self._model = model
-        self._edge_m = parameters.number("cliff_detection_threshold", default=0.0, report=report)
+        self._edge_m = parameters.number("cliff_detection_threshold", 0.0)
 
         def switches(name: str, kind: str, field: str, order: Iterable[str]) -> _EventPublisher:
             publisher = node.advertise(f"{base}/events/{name}", f"kobuki_msgs/{kind}Event", queue_size=10)
@@ -97,7 +94,7 @@ class KobukiSensors:
         contacts, scan = ("contacts", "gazebo_msgs/ContactsState"), ("scan", "sensor_msgs/LaserScan")
         listen("bumper_name", *contacts, self._on_bumper)
         for side in _DROP_BITS:
-            if parameters.find(f"wheel_drop_{side}_sensor_name") is None:
+            if f"wheel_drop_{side}_sensor_name" not in parameters:
                 continue
             listen(
                 f"wheel_drop_{side}_sensor_name",

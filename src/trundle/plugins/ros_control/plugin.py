@@ -5,9 +5,9 @@ from typing import Self
 
 from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, NodeParams
 from trundle.simulation import ModelHandle, Simulation
-from trundle.xmlnode import XmlNode
 
 from ..plugin import Plugin
 from .controller import Endpoints
@@ -31,22 +31,22 @@ class GazeboRosControl(Plugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        parameters, report = tag.node, sim.report
+        parameters = TagParameters(tag.node, sim.report)
         self._sim = sim
         self._model = model
         self._node = node
-        self._namespace = "/" + parameters.string("robotNamespace", default=model.name).strip("/")
-        self._param = parameters.string("robotParam", default="robot_description")
-        kind = parameters.string("robotSimType", default=_DEFAULT_SIM)
+        self._namespace = "/" + parameters.text("robotNamespace", model.name).strip("/")
+        self._param = parameters.text("robotParam", "robot_description")
+        kind = parameters.text("robotSimType", _DEFAULT_SIM)
         if kind != _DEFAULT_SIM:
-            report.warn(tag.at, f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} takes its place")
+            parameters.warn(f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} takes its place")
         self.period_ns = _period_ns(parameters, sim)
         self._stops = False
-        stop_topic = parameters.string("eStopTopic")
+        stop_topic = parameters.text("eStopTopic", "")
         if stop_topic:
             node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
-        parameters.find(_OLD_INDIGO)
-        parameters.report_unread(report)
+        parameters.ignore(_OLD_INDIGO)
+        parameters.report_unread()
         self._endpoints = Endpoints()
         self._hardware: dict[str, JointHardware] = {}
         self._manager: ControllerManager | None = None
@@ -141,9 +141,9 @@ class GazeboRosControl(Plugin):
             joint.lag_s = self._lag_s
 
 
-def _period_ns(parameters: XmlNode, sim: Simulation) -> int:
+def _period_ns(parameters: TagParameters, sim: Simulation) -> int:
     """Period of <controlPeriod> [ns], at least one step."""
-    period_ns = round(parameters.number("controlPeriod", default=0.0, report=sim.report) * 1e9)
+    period_ns = round(parameters.number("controlPeriod", 0.0) * 1e9)
     if 0 < period_ns < sim.step_ns:
-        sim.report.warn(parameters.at, f"controlPeriod {period_ns / 1e9:g} s is less than a step; one step is used")
+        parameters.warn(f"controlPeriod {period_ns / 1e9:g} s is less than a step; one step is used")
     return max(period_ns, sim.step_ns)

@@ -6,15 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Vector3
-from trundle.xmlnode import XmlNode
 
 from ..gazebo_ros.link_motion import LinkMotion
-from ..gazebo_ros.ros_plugin import RosPlugin, required
+from ..gazebo_ros.ros_plugin import RosPlugin
 from .namespaces import read_topic_name
 
 
@@ -56,10 +54,9 @@ class Imu(RosPlugin):
     <accelerometerTurnOnBiasSigma> 0.196.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters = tag.node
-        link = model.link(required(parameters, "linkName"))
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        link = model.link(parameters.text("linkName"))
         self._frame, self._motion = link.name, LinkMotion(link)
         self._gravity = sim.world.physics.gravity
         random = np.random.default_rng(sim.seed)
@@ -67,9 +64,9 @@ class Imu(RosPlugin):
         walks = ("gyroscopeBiasRandomWalk", "accelerometerRandomWalk")
         defaults = ((70.0 / 3600 * degree, 8.0 / 3600 * degree, 1000.0, 0.5 * degree), (0.004, 0.006, 300.0, 0.196))
         self._gyroscope, self._accelerometer = (
-            _axes(parameters, sim, random, walk, values) for walk, values in zip(walks, defaults, strict=True)
+            _axes(parameters, random, walk, values) for walk, values in zip(walks, defaults, strict=True)
         )
-        self._topic = node.advertise(read_topic_name(tag, "imuTopic", "imu"), "sensor_msgs/Imu", queue_size=1)
+        self._topic = node.advertise(read_topic_name(parameters, "imuTopic", "imu"), "sensor_msgs/Imu", queue_size=1)
         self._last_ns = sim.time_ns
 
     def after_step(self, snapshot: Snapshot) -> None:
@@ -96,14 +93,13 @@ class Imu(RosPlugin):
 
 
 def _axes(
-    parameters: XmlNode, sim: Simulation, random: np.random.Generator, walk: str, defaults: tuple[float, ...]
+    parameters: TagParameters, random: np.random.Generator, walk: str, defaults: tuple[float, ...]
 ) -> _NoiseModel:
     """Read the noise model whose parameters have the prefix of `walk`, a …RandomWalk parameter."""
     device = walk.removesuffix("RandomWalk").removesuffix("Bias")
     names = (f"{device}NoiseDensity", walk, f"{device}BiasCorrelationTime", f"{device}TurnOnBiasSigma")
+    bounds = (-math.inf, -math.inf, 0.0, -math.inf)
     density, spread, lag_s, sigma = (
-        parameters.number(name, default=value, report=sim.report) for name, value in zip(names, defaults, strict=True)
+        parameters.number(name, value, above=bound) for name, value, bound in zip(names, defaults, bounds, strict=True)
     )
-    if lag_s <= 0.0:
-        raise UsageError(f"<{device}BiasCorrelationTime> must be > 0 s, got {lag_s:g}")
     return _NoiseModel(random, density, spread, lag_s, np.zeros(3), sigma * random.normal(size=3))

@@ -3,6 +3,7 @@
 from typing import Self
 
 from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation
 
@@ -22,8 +23,9 @@ class GazeboRosInterface(WorldPlugin):
     def load(cls, sim: Simulation, node: Node | None, tag: PluginTag) -> Self:
         """See `WorldPlugin.load`."""
         del node
-        tag.node.find("robotNamespace")
-        tag.node.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        parameters.ignore("robotNamespace")
+        parameters.report_unread()
         return cls()
 
 
@@ -36,14 +38,14 @@ class ControllerInterface(RosPlugin):
 
     period_ns = 1 << 62
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        command_topic = read_topic_name(tag, "commandMotorSpeedSubTopic", "command/motor_speed")
-        motor_topic = read_topic_name(tag, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        command_topic = read_topic_name(parameters, "commandMotorSpeedSubTopic", "command/motor_speed")
+        motor_topic = read_topic_name(parameters, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
         self._sim, self._motors = sim, node.advertise(motor_topic, _ACTUATORS, queue_size=1)
         node.subscribe(command_topic, _ACTUATORS, self._pass, queue_size=1)
         for name in ("commandAttitudeThrustSubTopic", "commandRateThrustSubTopic", "imuSubTopic"):
-            tag.node.find(name)  # without effect in the original, too
+            parameters.ignore(name)  # without effect in the original, too
 
     def _pass(self, message: Message) -> None:
         header = {"stamp": self._sim.time_ns}

@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from trundle.control import Pid
 from trundle.diagnostics import UsageError
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Vector3, Wrench
-from trundle.xmlnode import XmlNode
 
-from ..gazebo_ros.ros_plugin import RosPlugin, required
+from ..gazebo_ros.ros_plugin import RosPlugin
 from .namespaces import read_topic_name
 
 _WAYS = {"cw": -1.0, "ccw": 1.0}
@@ -42,16 +41,12 @@ class MotorModel(RosPlugin):
     if given <motorPositionPubTopic> and <motorForcePubTopic> (std_msgs/Float32, of the joint).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters, report = tag.node, sim.report
-
-        def number(name: str, default: float) -> float:
-            return parameters.number(name, default=default, report=report)
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
 
         self._node = node
-        self._joint = model.joint(required(parameters, "jointName"))
-        self._link = model.link(required(parameters, "linkName"))
+        self._joint = model.joint(parameters.text("jointName"))
+        self._link = model.link(parameters.text("linkName"))
         if not self._joint.is_driven:
             raise UsageError(f"joint {self._joint.name!r} has no axis to drive")
         axis, parent = self._joint.joint.axis, self._joint.joint.parent
@@ -59,30 +54,41 @@ class MotorModel(RosPlugin):
         self._axis = self._link.link.model_from_link.inverse().transform_vector(axis.direction)
         """Joint axis in the rotor's frame."""
         self._parent = None if parent == "world" else model.link(parent)
-        self._number = parameters.integer("motorNumber", default=0, report=report)
-        way = parameters.string("turningDirection")
+        self._number = parameters.integer("motorNumber", 0)
+        way = parameters.text("turningDirection", "")
         if way not in _WAYS:
             raise UsageError(f"<turningDirection> is cw or ccw, got {way!r}")
         self._way = _WAYS[way]
         self._kind = _kind_of(parameters)
-        self._pid = _pid_of(parameters.find("joint_control_pid"), sim)
-        self._fastest = number("maxRotVelocity", 838.0)
-        self._lift, self._moment = number("motorConstant", 8.54858e-6), number("momentConstant", 0.016)
-        self._up_s, self._down_s = number("timeConstantUp", 1 / 80), number("timeConstantDown", 1 / 40)
-        self._drag, self._roll = number("rotorDragCoefficient", 1e-4), number("rollingMomentCoefficient", 1e-6)
-        self._slowdown = number("rotorVelocitySlowdownSim", 10.0)
-        if min(self._up_s, self._down_s, self._slowdown) <= 0.0:
-            raise UsageError("<timeConstantUp>, <timeConstantDown> and <rotorVelocitySlowdownSim> must be > 0")
+        self._pid = _pid_of(parameters.section("joint_control_pid"))
+        self._fastest = parameters.number("maxRotVelocity", 838.0)
+        self._lift, self._moment = (
+            parameters.number("motorConstant", 8.54858e-6),
+            parameters.number("momentConstant", 0.016),
+        )
+        self._up_s, self._down_s = (
+            parameters.number("timeConstantUp", 1 / 80, above=0.0),
+            parameters.number("timeConstantDown", 1 / 40, above=0.0),
+        )
+        self._drag, self._roll = (
+            parameters.number("rotorDragCoefficient", 1e-4),
+            parameters.number("rollingMomentCoefficient", 1e-6),
+        )
+        self._slowdown = parameters.number("rotorVelocitySlowdownSim", 10.0, above=0.0)
         self._wind = np.zeros(3)
         node.subscribe(
-            read_topic_name(tag, "commandSubTopic", "command/motor_speed"), "mav_msgs/Actuators", self._on_command
+            read_topic_name(parameters, "commandSubTopic", "command/motor_speed"),
+            "mav_msgs/Actuators",
+            self._on_command,
         )
-        node.subscribe(read_topic_name(tag, "windSpeedSubTopic", "wind_speed"), "rotors_comm/WindSpeed", self._on_wind)
+        node.subscribe(
+            read_topic_name(parameters, "windSpeedSubTopic", "wind_speed"), "rotors_comm/WindSpeed", self._on_wind
+        )
         topics = {"motorSpeedPubTopic": "motor_speed"} | {
-            name: "" for name in ("motorPositionPubTopic", "motorForcePubTopic") if parameters.find(name) is not None
+            name: "" for name in ("motorPositionPubTopic", "motorForcePubTopic") if name in parameters
         }
         self._topics = {
-            name: node.advertise(read_topic_name(tag, name, default), "std_msgs/Float32", queue_size=1)
+            name: node.advertise(read_topic_name(parameters, name, default), "std_msgs/Float32", queue_size=1)
             for name, default in topics.items()
         }
         self._clear()
@@ -147,21 +153,17 @@ class MotorModel(RosPlugin):
             self._wind = wind
 
 
-def _kind_of(parameters: XmlNode) -> Kind:
-    match parameters.string("motorType", default="velocity"):
+def _kind_of(parameters: TagParameters) -> Kind:
+    match parameters.text("motorType", "velocity"):
         case "velocity" | "position" | "force" as kind:
             return kind
         case other:
             raise UsageError(f"<motorType> is velocity, position or force, got {other!r}")
 
 
-def _pid_of(node: XmlNode | None, sim: Simulation) -> Pid:
+def _pid_of(parameters: TagParameters) -> Pid:
     """Gains and limits; all default to 0, the command's limits as well."""
-    pid = Pid(high=0.0)
-    if node is not None:
-        for name, tag in _GAINS:
-            setattr(pid, name, node.number(tag, default=0.0, report=sim.report))
-    return pid
+    return Pid(**{field: parameters.number(name, 0.0) for field, name in _GAINS})
 
 
 def _sum(one: Vector3, other: NDArray[np.float64]) -> Vector3:

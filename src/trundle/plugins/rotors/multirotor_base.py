@@ -2,7 +2,7 @@
 
 import re
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
 
@@ -19,17 +19,16 @@ class MultirotorBase(RosPlugin):
     are its child links with `rotor_<number>` in their names and a joint `<link>_joint`.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters = tag.node
-        base = model.link(parameters.string("linkName", default="base_link"))
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        base = model.link(parameters.text("linkName", "base_link"))
         self._frame = base.name
-        self._slowdown = parameters.number("rotorVelocitySlowdownSim", default=10.0, report=sim.report)
+        self._slowdown = parameters.number("rotorVelocitySlowdownSim", 10.0)
         self._rotors = _rotors_of(model, base.name)
         self._speeds = node.advertise(
-            read_topic_name(tag, "motorPubTopic", "motor_speed"), "mav_msgs/Actuators", queue_size=1
+            read_topic_name(parameters, "motorPubTopic", "motor_speed"), "mav_msgs/Actuators", queue_size=1
         )
-        self._states = node.advertise(join_topic(tag, "joint_states"), "sensor_msgs/JointState", queue_size=1)
+        self._states = node.advertise(join_topic(parameters, "joint_states"), "sensor_msgs/JointState", queue_size=1)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish rotor speeds and joint states."""

@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.model import PluginTag
+from trundle.parameters import TagParameters
 from trundle.ros import Node, Transform, TransformBroadcaster
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import NS_PER_S, ZERO, Pose, Quaternion, Twist, cross, quaternion_product
 
-from ..gazebo_ros.namespaces import warn_unsupported
-from ..gazebo_ros.ros_plugin import RosPlugin, required
+from ..gazebo_ros.ros_plugin import RosPlugin
 from .namespaces import read_topic_name
 
 _TOPICS = {
@@ -38,29 +37,28 @@ class Odometry(RosPlugin):
     AngularVelocity, <randomEngineSeed> (the simulation's).
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
-        super().__init__(sim, model, node, tag)
-        parameters, report = tag.node, sim.report
-        self._link = model.link(required(parameters, "linkName"))
-        self._frame = parameters.string("parentFrameId", default=_WORLD)
-        self._child = parameters.string("childFrameId", default="odometry_sensor")
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
+        super().__init__(sim, model, node, parameters)
+        self._link = model.link(parameters.text("linkName"))
+        self._frame = parameters.text("parentFrameId", _WORLD)
+        self._child = parameters.text("childFrameId", "odometry_sensor")
         self._reference: LinkHandle | None = None
         if self._frame != _WORLD:
             owner, _, name = self._frame.partition("::")
             self._reference = sim[owner].link(name) if name else sim[owner].base
-        self._divisor = max(1, parameters.integer("measurementDivisor", default=1, report=report))
-        self._delay = max(0, parameters.integer("measurementDelay", default=0, report=report))
-        self._late_ns = int(parameters.number("unknownDelay", default=0.0, report=report)) * NS_PER_S
-        self._random = np.random.default_rng(parameters.integer("randomEngineSeed", default=sim.seed, report=report))
+        self._divisor = parameters.integer("measurementDivisor", 1, minimum=1)
+        self._delay = parameters.integer("measurementDelay", 0, minimum=0)
+        self._late_ns = int(parameters.number("unknownDelay", 0.0)) * NS_PER_S
+        self._random = np.random.default_rng(parameters.integer("randomEngineSeed", sim.seed))
 
         def spread(kind: str) -> NDArray[np.float64]:
-            rows = [parameters.vector(f"noise{kind}{of}", default=ZERO, report=report) for of in _NOISES]
+            rows = [parameters.vector(f"noise{kind}{of}", ZERO) for of in _NOISES]
             return np.abs(np.array(rows))
 
         self._normal, self._uniform = spread("Normal"), spread("Uniform")
-        warn_unsupported(parameters, report, "covarianceImage", "covarianceImageScale")
+        parameters.warn_unsupported("covarianceImage", "covarianceImageScale")
         self._topics = {
-            name: node.advertise(read_topic_name(tag, name, default), kind, queue_size=1)
+            name: node.advertise(read_topic_name(parameters, name, default), kind, queue_size=1)
             for name, (default, kind) in _TOPICS.items()
         }
         self._broadcaster = TransformBroadcaster(node)

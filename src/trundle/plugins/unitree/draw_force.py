@@ -4,6 +4,7 @@ from typing import Self
 
 from trundle.description import GAZEBO_MATERIALS
 from trundle.model import Box, Cylinder, Geometry, MeshFile, Plane, PluginTag, Sphere, Visual
+from trundle.parameters import TagParameters
 from trundle.ros import Message, Node, Subscription
 from trundle.simulation import DebugLine, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Vector3
@@ -29,8 +30,9 @@ class DrawForce(VisualPlugin):
         self, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: Node | None, tag: PluginTag
     ) -> None:
         """See `VisualPlugin.load`."""
-        topic = tag.node.string("topicName", default="/default_force_draw")
-        tag.node.report_unread(sim.report)
+        parameters = TagParameters(tag.node, sim.report)
+        topic = parameters.text("topicName", "/default_force_draw")
+        parameters.report_unread()
         self._topic = f"{topic if topic.startswith('/') else f'/visual/{topic}'}/the_force"
         self._node = node
         self._subscription: Subscription | None = None

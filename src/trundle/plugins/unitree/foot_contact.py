@@ -1,27 +1,25 @@
 """libunitreeFootContactPlugin.so: contact force on a foot."""
 
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import PluginTag
+from trundle.diagnostics import UsageError
+from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 from trundle.spatial import Vector3
 
-from ..gazebo_ros.namespaces import mark_read
 from ..gazebo_ros.sensor_publisher import SensorPublisher
 
 
-def attach(sensor: InstrumentSensor, node: Node, tag: PluginTag, report: Diagnostics) -> None:
+def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
     """Publish geometry_msgs/WrenchStamped on /visual/<sensor>/the_force, zero without contact.
 
     No parameters. The force, in the axes of the sensor's link, is the mean over the contacts since the last message,
     one per step and collision in contact. All points of a contact count; the original takes the first as often as there
     are points, and calls that an error. The header, empty there, has the time and the link.
     """
+    del parameters
     if not isinstance(sensor, ContactSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a contact sensor is needed")
     outlet = SensorPublisher(node, f"/visual/{sensor.name}/the_force", "geometry_msgs/WrenchStamped", sensor.link.name)
-    mark_read(tag.node)
-    tag.node.report_unread(report)
 
     def message(reading: ContactReading) -> dict[str, object]:
         force = reading.world_from_link.inverse().transform_vector(_mean_force(reading))

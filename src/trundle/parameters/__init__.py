@@ -1,0 +1,5 @@
+"""Settings that files and users give by name: plugin parameters of SDF, parameters of the ROS graph."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
