@@ -4,6 +4,7 @@ from .compile.mjcf import compile_mjcf as compile_mjcf
 from .compile.wheels import report_wheels as report_wheels
 from .egl_renderer import EglRenderer as EglRenderer
 from .step.contact import Contact as Contact
+from .step.contact import Contacts as Contacts
 from .step.dynamics import Coordinates as Coordinates
 from .step.dynamics import JointState as JointState
 from .step.engine import Engine as Engine

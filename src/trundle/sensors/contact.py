@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from msgspec import Struct
 
-from trundle.physics import Contact
+from trundle.physics import Contact, Contacts
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
@@ -46,7 +46,9 @@ class ContactReading(Struct, frozen=True, kw_only=True):
 class ContactSensor(LiveSensor[ContactReading]):
     """Contact sensor: records the contacts of its link's collisions at every step."""
 
-    def __init__(self, mount: SensorMount, *, contacts: Callable[[frozenset[str]], list[Contact]]) -> None:
+    has_history = True
+
+    def __init__(self, mount: SensorMount, *, contacts: Callable[[frozenset[str]], Contacts]) -> None:
         """Mount a contact sensor; see `LiveSensor`.
 
         Args:

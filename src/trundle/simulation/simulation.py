@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
-from trundle.physics import Contact, Engine, compile_world
+from trundle.physics import Contacts, Engine, compile_world
 from trundle.spatial import NS_PER_S
 
 from .actors import ActorPlayer, with_actors
@@ -208,8 +208,12 @@ class Simulation:
             joint_axes=compiled.joint_axes,
         )
 
-    def contacts(self, among: frozenset[str] | None = None) -> list[Contact]:
-        """Return the contacts of the last step; among: only those of the named collisions."""
+    def contacts(self, among: frozenset[str] | None = None) -> Contacts:
+        """Return the contacts of the last step, one by one or as arrays of positions, normals and forces.
+
+        Args:
+            among: names of collisions, `model::link::collision`, that something touches; None: of all.
+        """
         return self.engine.contacts(among)
 
     def save(self) -> SavedSimulation:

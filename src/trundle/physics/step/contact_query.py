@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compile.compiled_world import CompiledWorld
-from .contact import Contact, contacts_of
+from .contact import NO_CONTACTS, Contacts, contacts_of
 from .engine_snapshot import ScratchEngine
 
 _Mask = NDArray[np.bool_]
@@ -24,10 +24,10 @@ class ContactQuery:
         self._bodies = compiled.model.geom_bodyid
         self._geom_masks: dict[frozenset[str], _Mask] = {}
         """Names of collisions → mask of their geoms."""
-        self._sleeping_contacts: tuple[bytes, list[Contact]] = (b"", [])
+        self._sleeping_contacts: tuple[bytes, Contacts] = (b"", NO_CONTACTS)
         """Key of the sleeping bodies' state, and their contacts."""
 
-    def contacts(self, among: frozenset[str] | None, asleep: Callable[[], NDArray[np.float64]] | None) -> list[Contact]:
+    def contacts(self, among: frozenset[str] | None, asleep: Callable[[], NDArray[np.float64]] | None) -> Contacts:
         """Return every contact.
 
         Args:
@@ -39,12 +39,13 @@ class ContactQuery:
             return contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, None))
         awake = self._data.body_awake[self._bodies] == _AWAKE
         found = contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, awake))
-        return found + [c for c in self._sleeping(awake, asleep) if among is None or among & set(c.collisions)]
+        sleeping = self._sleeping(awake, asleep)
+        return found + (sleeping if among is None else sleeping.among(among))
 
-    def contacts_of_state(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> list[Contact]:
+    def contacts_of_state(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> Contacts:
         """Return the contacts of a state, for data without contacts; see `contacts`."""
         found = self._scratch.contacts(state, np.zeros(len(self._bodies), dtype=bool))
-        return [c for c in found if among is None or among & set(c.collisions)]
+        return found if among is None else found.among(among)
 
     def _geom_mask(self, collisions: frozenset[str]) -> _Mask:
         if collisions not in self._geom_masks:
@@ -60,7 +61,7 @@ class ContactQuery:
                 chosen &= each[geoms].any(axis=1)
         return np.flatnonzero(chosen)
 
-    def _sleeping(self, awake: _Mask, state: Callable[[], NDArray[np.float64]]) -> list[Contact]:
+    def _sleeping(self, awake: _Mask, state: Callable[[], NDArray[np.float64]]) -> Contacts:
         data = self._data
         asleep = data.body_awake != _AWAKE
         key = b"".join(each.tobytes() for each in (asleep, data.xpos[asleep], data.xquat[asleep]))

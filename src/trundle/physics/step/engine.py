@@ -17,7 +17,7 @@ from trundle.spatial import Wrench
 
 from ..compile.compiled_world import CompiledWorld
 from ..compile.solver_settings import silence_log
-from .contact import Contact
+from .contact import Contacts
 from .contact_laws import ContactLaws
 from .contact_query import ContactQuery
 from .dynamics import Dynamics
@@ -193,7 +193,7 @@ class Engine:
         """Number of sleeping trees."""
         return self._sleep_policy.asleep
 
-    def contacts(self, among: frozenset[str] | None = None) -> list[Contact]:
+    def contacts(self, among: frozenset[str] | None = None) -> Contacts:
         """Return the current contacts.
 
         Args:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..compile.compiled_world import CompiledWorld
 from ..compile.law_tables import follow_friction
-from .contact import Contact, contacts_of
+from .contact import Contacts, contacts_of
 from .motors import MotorCommands
 from .separation import find_deep, separate
 from .state_reader import StateReader
@@ -52,7 +52,7 @@ class ScratchEngine:
             reader.set_state(qpos, qvel)
             return reader.link_twists()
 
-    def contacts(self, state: _Array, apart: NDArray[np.bool_]) -> list[Contact]:
+    def contacts(self, state: _Array, apart: NDArray[np.bool_]) -> Contacts:
         """Return the contacts of a state (mjSTATE_INTEGRATION), without those of the geoms masked by `apart`."""
         with self._lock:
             model, data = self._solve(state)
