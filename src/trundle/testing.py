@@ -13,17 +13,17 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from trundle.simulation import Simulation
+    from trundle.bringup.loaded_simulation import LoadedSimulation
 
 
 @pytest.fixture
-def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., Simulation]":
+def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., LoadedSimulation]":
     """Return a function that loads a file relative to the test's own file: `trundle_sim(file, seed=0)`.
 
     Warnings do not fail a test; they are in the simulation's `report`.
     """
 
-    def make(file: str, *, seed: int = 0) -> "Simulation":
+    def make(file: str, *, seed: int = 0) -> "LoadedSimulation":
         from trundle import load
 
         beside = request.path.parent / file

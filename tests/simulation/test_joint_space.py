@@ -210,3 +210,20 @@ def test_a_model_without_joints_has_empty_arrays() -> None:
     assert ball.mass_matrix() == pytest.approx(np.eye(6))
     simulation.spawn(ball.model, allow_renaming=True).set_pose(Pose((0.0, 3.0, 0.0)))
     assert ball.jacobian("b").tolist() == np.eye(6).tolist()
+
+
+def test_each_says_what_it_is() -> None:
+    simulation, arm = make(DOUBLE_PENDULUM, "arm")
+    arm.joint_positions, arm.joint_velocities = (0.3, -0.7), (1.0, 2.0)
+
+    assert repr(simulation) == "<Simulation 'w' at 0.000 s; models: 'ball', 'arm'>"
+    assert repr(arm) == (
+        "<ModelHandle 'arm' at (0.000, 0.000, 0.000) m; links: 'upper', 'lower', 'lamp'; "
+        "joints: 'shoulder', 'glued', 'elbow'>"
+    )
+    assert repr(arm.joint("elbow")) == "<JointHandle 'elbow': revolute, positions (-0.7,), velocities (2.0,)>"
+    assert repr(arm.joint("glued")) == "<JointHandle 'glued': fixed, rigid>"
+    assert repr(simulation["ball"].link("b")) == "<LinkHandle 'b' at (5.000, 0.000, 0.000) m>"
+    ball = simulation["ball"]
+    simulation.delete("ball")
+    assert (repr(ball), repr(ball.links[0])) == ("<ModelHandle 'ball', deleted>", "<LinkHandle 'b' of a deleted model>")

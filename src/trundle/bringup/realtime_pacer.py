@@ -12,7 +12,7 @@ from trundle.spatial import NS_PER_S
 
 _STRIDE_WALL_NS = 20_000_000
 """Stride between two checks for requests, in wall time [ns]."""
-_STRIDE_FLAT_OUT_NS = 50_000_000
+STRIDE_FLAT_OUT_NS = 50_000_000
 """Stride of a flat-out run, in simulation time [ns]: fixed, so that runs repeat."""
 _LAG_FORGIVEN_NS = 200_000_000
 """Largest lag that is caught up [ns]; a slower run is slow, not jerky."""
@@ -72,7 +72,7 @@ class RealtimePacer:
         now = self._wall_ns()
         self._recent.append((now, time_ns))
         if self._speed is None:
-            return time_ns + _STRIDE_FLAT_OUT_NS
+            return time_ns + STRIDE_FLAT_OUT_NS
         if self._anchor is None:
             self._anchor = (now, time_ns)
         wall_0, sim_0 = self._anchor

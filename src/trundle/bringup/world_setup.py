@@ -1,8 +1,6 @@
 """Worlds to simulate, from any description."""
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -11,7 +9,7 @@ from trundle.description import LoadedDescription, load
 from trundle.diagnostics import Diagnostics
 from trundle.model import World, flattened
 from trundle.packages import Packages
-from trundle.simulation import Simulation, with_actors
+from trundle.simulation import with_actors
 
 if TYPE_CHECKING:  # SDF does not load the URDF reader
     from trundle.robot import Robot
@@ -39,13 +37,6 @@ def load_world(file: str, packages: Packages, report: Diagnostics, *, seed: int 
     loaded = load(file, report, packages=packages, seed=seed)
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
     return LoadedWorld(world=with_actors(flattened(world), report), written=world, robot=loaded.robot, urdf=loaded.urdf)
-
-
-def load_simulation(file: str, *, seed: int = 0) -> Simulation:
-    """Read and compile a file, with os.environ; see `trundle.load`."""
-    report = Diagnostics()
-    stage = load_world(file, Packages(dict(os.environ), start=Path.cwd()), report, seed=seed)
-    return Simulation(stage.world, report, seed=seed)
 
 
 def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> World:

@@ -7,6 +7,8 @@ from .cameras.bounding_box import BoundingBoxCameraSensor as BoundingBoxCameraSe
 from .cameras.camera import CameraReading as CameraReading
 from .cameras.camera import CameraSensor as CameraSensor
 from .cameras.camera import SeenBox as SeenBox
+from .cameras.camera_handle import CameraHandle as CameraHandle
+from .cameras.camera_image import CameraImage as CameraImage
 from .cameras.depth import DepthCameraSensor as DepthCameraSensor
 from .cameras.lens import radius_of as radius_of
 from .cameras.mount import SIMULATED_CAMERAS as SIMULATED_CAMERAS
@@ -34,12 +36,14 @@ from .logical_camera import LogicalCameraSensor as LogicalCameraSensor
 from .magnetometer import MagnetometerReading as MagnetometerReading
 from .magnetometer import MagnetometerSensor as MagnetometerSensor
 from .mount_instruments import InstrumentSensor as InstrumentSensor
+from .mounted_sensors import MountedSensors as MountedSensors
 from .noise import NoiseSource as NoiseSource
 from .range import RangeReading as RangeReading
 from .range import RangeSensor as RangeSensor
 from .range import angles_of as angles_of
 from .range import directions_of as directions_of
 from .ray_scene import RayScene as RayScene
+from .sensor_handle import SensorHandle as SensorHandle
 from .sonar import SonarReading as SonarReading
 from .sonar import SonarSensor as SonarSensor
 from .wireless import RfidReading as RfidReading

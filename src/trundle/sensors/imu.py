@@ -29,6 +29,8 @@ class ImuSensor(LiveSensor[ImuReading]):
     last reading, as in Gazebo; the centripetal term is instantaneous, because a mean would rotate with the link.
     """
 
+    has_history = True
+
     def __init__(self, mount: SensorMount, *, gravity: Vector3, reference_from_world: Pose) -> None:
         """Mount an IMU; see `LiveSensor`.
 

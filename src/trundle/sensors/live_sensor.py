@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
-from typing import Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 import numpy as np
 from msgspec import Struct
@@ -50,6 +50,9 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
 
 class LiveSensor(Generic[Reading]):
     """Hook that measures when it is due and a listener is active; otherwise it costs nothing."""
+
+    has_history: ClassVar[bool] = False
+    """A reading depends on what was before it, and so on measuring all the time."""
 
     def __init__(self, mount: SensorMount, *, default_rate_hz: float | None = None) -> None:
         """Mount a sensor.

@@ -42,6 +42,9 @@ class LinkHandle(Handle):
         """Name as in the file."""
         return self.link.name
 
+    def __repr__(self) -> str:
+        return f"<LinkHandle {self.name!r}{_position(self.pose) if self.is_valid else ' of a deleted model'}>"
+
     @property
     def pose(self) -> Pose:
         """Pose of the link's frame in the world."""
@@ -123,6 +126,14 @@ class ModelHandle:
     def name(self) -> str:
         """Name as in the file."""
         return self.model.name
+
+    def __repr__(self) -> str:
+        if not all(link.is_valid for link in self.links):
+            return f"<ModelHandle {self.name!r}, deleted>"
+        links, joints = (", ".join(repr(each.name) for each in group) for group in (self.links, self.joints))
+        return (
+            f"<ModelHandle {self.name!r}{_position(self.pose)}; links: {links or 'none'}; joints: {joints or 'none'}>"
+        )
 
     @property
     def pose(self) -> Pose:
@@ -317,6 +328,11 @@ class ModelHandle:
     def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
         """Apply a wrench at the canonical link's centre of mass, world axes."""
         self.base.apply_wrench(wrench, duration_s=duration_s)
+
+
+def _position(pose: Pose) -> str:
+    x, y, z = pose.position
+    return f" at ({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 
 def _find_by_name(name: str, there: Iterable[_Named], none: str) -> _Named:

@@ -29,6 +29,12 @@ class JointHandle(Handle):
         """Name as in the file."""
         return self.joint.name
 
+    def __repr__(self) -> str:
+        if not self.is_valid:
+            return f"<JointHandle {self.name!r} of a deleted model>"
+        state = f"positions {_rounded(self.positions)}, velocities {_rounded(self.velocities)}"
+        return f"<JointHandle {self.name!r}: {self.joint.type.value}, {state if self.axes else 'rigid'}>"
+
     @property
     def axes(self) -> range:
         """Axes as indices into the engine's arrays; empty for a rigid joint."""
@@ -168,3 +174,7 @@ class JointHandle(Handle):
     def _within_limits(self, position: float, axis: int) -> float:
         low, high = self._simulation.engine.compiled.axis_range[axis].tolist()
         return min(max(position, low), high)
+
+
+def _rounded(values: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(round(value, 4) + 0.0 for value in values)

@@ -119,6 +119,10 @@ class Simulation:
                 return model
         raise UsageError(f"no model {name!r}; there are: {', '.join(repr(m.name) for m in self.models) or 'none'}")
 
+    def __repr__(self) -> str:
+        names = ", ".join(repr(model.name) for model in self.models) or "none"
+        return f"<{type(self).__name__} {self.world.name!r} at {self.time_ns / NS:.3f} s; models: {names}>"
+
     def animation_state(self, actor: str) -> "AnimationState":
         """Return an actor's animation state; default for a deleted actor."""
         from trundle.model import AnimationState  # a world without actors starts without theirs

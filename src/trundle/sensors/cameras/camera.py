@@ -135,10 +135,8 @@ class CameraSensor(LiveSensor[CameraReading]):
 
     def prepare(self, snapshot: Snapshot) -> None:
         """Request rendering, batched with the other cameras that are due."""
-        eye = self.world_from_camera(snapshot)
-        views = [(eye @ face, lens) for face, lens in self.projection.pinhole_views]
         self._request = self.scene.request(
-            snapshot, views, depth=self.needs_depth, segmentation=self.needs_segmentation
+            snapshot, self._views(snapshot), depth=self.needs_depth, segmentation=self.needs_segmentation
         )
 
     def render(self, snapshot: Snapshot) -> Picture:
@@ -149,6 +147,16 @@ class CameraSensor(LiveSensor[CameraReading]):
         assert self._request is not None
         request, self._request = self._request, None
         return self.projection.compose(self.scene.fetch(request))
+
+    def draw(self, snapshot: Snapshot, *, depth: bool, segmentation: bool) -> Picture:
+        """What the camera sees at an instant, whatever its kind wants to see of it."""
+        request = self.scene.request(snapshot, self._views(snapshot), depth=depth, segmentation=segmentation)
+        return self.projection.compose(self.scene.fetch(request))
+
+    def _views(self, snapshot: Snapshot) -> list[tuple[Pose, Intrinsics]]:
+        """The pinhole pictures that it needs, where they are at that instant."""
+        eye = self.world_from_camera(snapshot)
+        return [(eye @ face, lens) for face, lens in self.projection.pinhole_views]
 
     def noisy(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """Return the image with noise equal on all channels of a pixel, as in Gazebo's shader."""

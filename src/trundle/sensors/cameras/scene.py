@@ -68,6 +68,15 @@ class CameraScene:
         self.temperatures: NDArray[np.float32] = np.array([*heats, air], dtype=np.float32)
         """Temperature of each shape [K]."""
 
+    @property
+    def visuals(self) -> tuple[NDArray[np.int32], tuple[str, ...]]:
+        """By shape: the number of its visual, −1 for none; and the visuals' names, `model::link::visual`, then ""."""
+        scene = self.scene
+        owners = [f"{scene.bodies[shape.body]}::{shape.name}" for shape in scene.shapes]
+        names = tuple(dict.fromkeys(owners))
+        number = {name: i for i, name in enumerate(names)}
+        return np.array([*(number[owner] for owner in owners), -1], dtype=np.int32), (*names, "")
+
     def request(
         self, snapshot: Snapshot, views: list[tuple[Pose, Intrinsics]], *, depth: bool, segmentation: bool
     ) -> RenderRequest:

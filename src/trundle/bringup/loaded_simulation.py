@@ -1,0 +1,175 @@
+"""What `trundle.load` gives: a simulation with its sensors by name, its plugins and its ROS graph."""
+
+import os
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from trundle.diagnostics import Diagnostics, Source, UsageError
+from trundle.packages import Packages
+from trundle.simulation import Simulation
+
+from .realtime_pacer import STRIDE_FLAT_OUT_NS
+from .renderers import RENDERERS
+from .world_setup import LoadedWorld, load_world
+
+if TYPE_CHECKING:  # a simulation without a graph, or whose sensors nobody asks for, starts without their modules
+    from trundle.ros import Node
+    from trundle.sensors import CameraHandle, MountedSensors, SensorHandle
+
+    from .run.ros_interface import RosInterface
+
+
+class LoadedSimulation(Simulation):
+    """One world in motion, with everything that its file asks for.
+
+    Where it is part of a ROS graph, `close` it, or use it in a `with` statement.
+    """
+
+    def __init__(self, stage: LoadedWorld, report: Diagnostics, *, seed: int = 0) -> None:
+        """Compile a world; time is zero and nothing has moved.
+
+        Args:
+            stage: what there is.
+            report: takes what physics has to mend.
+            seed: of everything random.
+        """
+        super().__init__(stage.world, report, seed=seed)
+        self._stage = stage
+        self._ros: RosInterface | None = None
+
+    def camera(self, name: str) -> "CameraHandle":
+        """The camera of that name.
+
+        Args:
+            name: `model::link::sensor`, as in Gazebo, or the end of it where that is one camera's alone; of a
+                multicamera's: `sensor/camera`.
+
+        Raises:
+            UsageError: there is none, or there are several; with the names there are.
+        """
+        return self._sensors.camera(name)
+
+    def sensor(self, name: str) -> "SensorHandle":
+        """The sensor of that name, of any type.
+
+        Args:
+            name: `model::link::sensor`, as in Gazebo, or the end of it where that is one sensor's alone; of a joint's:
+                `model::joint::sensor`.
+
+        Raises:
+            UsageError: there is none, or there are several; with the names there are.
+        """
+        return self._sensors.sensor(name)
+
+    @property
+    def camera_names(self) -> tuple[str, ...]:
+        """`model::link::sensor` of each camera, in file order."""
+        return self._sensors.camera_names()
+
+    @property
+    def sensor_names(self) -> tuple[str, ...]:
+        """`model::link::sensor` of each sensor, cameras too; in file order."""
+        return self._sensors.names()
+
+    @cached_property
+    def _sensors(self) -> "MountedSensors":
+        from trundle.sensors import MountedSensors
+
+        return MountedSensors(self, RENDERERS["cpu"])
+
+    # -- the ROS graph
+
+    def open_graph(self, environment: Mapping[str, str]) -> None:
+        """Put clock, frames, sensors and joints on a ROS graph, as `trundle run` does.
+
+        Args:
+            environment: ROS_MASTER_URI is the master to join; without one a master is started here.
+
+        Raises:
+            UsageError: the master that it names does not answer.
+        """
+        from .run.ros_interface import RosInterface
+
+        sensors = self._sensors
+        sensors.start()
+        self._ros = RosInterface.open(
+            self, self._stage, sensors.cameras, sensors.instruments, environment, host="127.0.0.1"
+        )
+
+    @property
+    def ros_master_uri(self) -> str:
+        """Where the master of its ROS graph is.
+
+        Raises:
+            UsageError: it is part of none.
+        """
+        return self._graph.graph.master_uri
+
+    def make_node(self, name: str) -> "Node":
+        """A node on the simulation's time; its callbacks run on this thread, between two steps.
+
+        Raises:
+            UsageError: the simulation is part of no graph.
+        """
+        return self._graph.make_node(name)
+
+    @property
+    def _graph(self) -> "RosInterface":
+        if self._ros is None:
+            raise UsageError("the simulation is part of no ROS graph; load it with ros=True")
+        return self._ros
+
+    def load_plugins(self, environment: Mapping[str, str], file: str) -> None:
+        """Load the plugins that the world and its models ask for; `report` says which."""
+        from .plugins import load_plugins, load_world_plugins
+
+        def say(line: str) -> None:
+            self.report.info(Source(file), line)
+
+        make_node = None if self._ros is None else self._ros.make_node
+        load_plugins(self, make_node, environment, say=say)
+        load_world_plugins(self, make_node, environment, say=say)
+
+    def advance(self, until_ns: int) -> None:
+        """See `Simulation.advance`; every message published here reaches the nodes here within 50 ms of it."""
+        if self._ros is None:
+            super().advance(until_ns)
+            return
+        left_ns = until_ns - self.time_ns
+        while left_ns > 0:
+            before_ns = self.simulated_ns
+            super().advance(self.time_ns + min(left_ns, STRIDE_FLAT_OUT_NS))
+            left_ns -= self.simulated_ns - before_ns
+            self._ros.tick(wait=True)
+            self._drain()
+
+    def close(self) -> None:
+        """Leave the ROS graph; stop its master if it was started here."""
+        ros, self._ros = self._ros, None
+        if ros is not None:
+            ros.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def load_simulation(file: str, *, seed: int = 0, plugins: bool = False, ros: bool | str = False) -> LoadedSimulation:
+    """Read a file and compile it, with the process's environment; see `trundle.load`."""
+    environment = dict(os.environ)
+    report = Diagnostics()
+    stage = load_world(file, Packages(environment, start=Path.cwd()), report, seed=seed)
+    simulation = LoadedSimulation(stage, report, seed=seed)
+    try:
+        if ros:
+            simulation.open_graph(environment if ros is True else environment | {"ROS_MASTER_URI": ros})
+        if plugins:
+            simulation.load_plugins(environment, file)
+    except BaseException:
+        simulation.close()
+        raise
+    return simulation

@@ -1,0 +1,55 @@
+"""One picture of one instant: colours, depths, and what each pixel shows."""
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from trundle.diagnostics import UsageError
+
+
+class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
+    """What a camera sees, without noise. A notebook shows its colours."""
+
+    time_ns: int
+    """Simulation time."""
+    rgb: NDArray[np.uint8]
+    """(height, width, 3)"""
+    depth: NDArray[np.float32] | None
+    """(height, width) distance along the view axis [m]; infinite where nothing is. None: of a wide-angle camera, which
+    has no such axis."""
+    segmentation: NDArray[np.int32]
+    """(height, width) index into `names` of the visual that a pixel shows; −1, which leads to its last entry, where
+    nothing is."""
+    names: tuple[str, ...]
+    """`model::link::visual` of each label; the last is empty."""
+
+    def mask(self, name: str) -> NDArray[np.bool_]:
+        """(height, width) where a model, link or visual is seen, by `model`, `model::link` or `model::link::visual`.
+
+        Raises:
+            UsageError: nothing in the world has that name; with the visuals there are.
+        """
+        chosen = np.array([each == name or each.startswith(f"{name}::") for each in self.names])
+        if not name or not chosen.any():
+            raise UsageError(f"nothing is called {name!r}; there are: {_listed(self.names[:-1])}")
+        return chosen[self.segmentation]
+
+    def _repr_png_(self) -> bytes:
+        """Colours as PNG, for notebooks."""
+        from PIL import Image
+
+        file = io.BytesIO()
+        Image.fromarray(self.rgb).save(file, "PNG")
+        return file.getvalue()
+
+    def __repr__(self) -> str:
+        height, width, _ = self.rgb.shape
+        seen = int(np.count_nonzero(np.unique(self.segmentation) >= 0))
+        return f"<CameraImage {width}x{height} at {self.time_ns / 1e9:.3f} s: {seen} visuals seen>"
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(map(repr, names)) or "none"
