@@ -12,18 +12,19 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from trundle.bringup.loaded_simulation import LoadedSimulation
+    from trundle.description import Model, World
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "load"]
+__all__ = ["Model", "World", "__version__", "load"]
 
 
 def load(
-    file: "str | PathLike[str]", *, seed: int = 0, plugins: bool = False, ros: bool | str = False
+    file: "str | PathLike[str] | Model | World", *, seed: int = 0, plugins: bool = False, ros: bool | str = False
 ) -> "LoadedSimulation":
     """Load a robot or world, ready to simulate; a robot alone gets a ground plane and a sun.
 
     Args:
-        file: SDF, URDF or xacro; a folder with model.config; or model://NAME.
+        file: SDF, URDF or xacro; a folder with model.config; model://NAME; or what was built with `Model` or `World`.
         seed: of all random numbers.
         plugins: run the plugins that the file asks for, with ROS where `ros` says so; what they load is in `report`.
         ros: be part of a ROS graph: the one that ROS_MASTER_URI names, else one that is started here; a master's URI
@@ -32,6 +33,18 @@ def load(
     Raises:
         TrundleError: one sentence with file and line. Warnings are in the simulation's `report`.
     """
+    from os import PathLike, fspath
+
     from trundle.bringup.loaded_simulation import load_simulation
 
-    return load_simulation(str(file), seed=seed, plugins=plugins, ros=ros)
+    read = fspath(file) if isinstance(file, str | PathLike) else file
+    return load_simulation(read, seed=seed, plugins=plugins, ros=ros)
+
+
+def __getattr__(name: str) -> object:
+    """`Model` and `World`, imported on first use."""
+    if name in ("Model", "World"):
+        from trundle import description
+
+        return getattr(description, name)
+    raise AttributeError(f"module 'trundle' has no attribute {name!r}")

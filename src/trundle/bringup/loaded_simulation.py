@@ -6,15 +6,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from trundle.diagnostics import Diagnostics, Source, UsageError
+from trundle.diagnostics import Diagnostics, UsageError
 from trundle.packages import Packages
 from trundle.simulation import Simulation
 
 from .realtime_pacer import STRIDE_FLAT_OUT_NS
 from .renderers import RENDERERS
-from .world_setup import LoadedWorld, load_world
+from .world_setup import LoadedWorld, load_built, load_world
 
 if TYPE_CHECKING:  # a simulation without a graph, or whose sensors nobody asks for, starts without their modules
+    from trundle.description import Model, World
     from trundle.ros import Node
     from trundle.sensors import CameraHandle, MountedSensors, SensorHandle
 
@@ -121,12 +122,12 @@ class LoadedSimulation(Simulation):
             raise UsageError("the simulation is part of no ROS graph; load it with ros=True")
         return self._ros
 
-    def load_plugins(self, environment: Mapping[str, str], file: str) -> None:
+    def load_plugins(self, environment: Mapping[str, str]) -> None:
         """Load the plugins that the world and its models ask for; `report` says which."""
         from .plugins import load_plugins, load_world_plugins
 
         def say(line: str) -> None:
-            self.report.info(Source(file), line)
+            self.report.info(self.world.at, line)
 
         make_node = None if self._ros is None else self._ros.make_node
         load_plugins(self, make_node, environment, say=say)
@@ -158,17 +159,23 @@ class LoadedSimulation(Simulation):
         self.close()
 
 
-def load_simulation(file: str, *, seed: int = 0, plugins: bool = False, ros: bool | str = False) -> LoadedSimulation:
+def load_simulation(
+    file: "str | Model | World", *, seed: int = 0, plugins: bool = False, ros: bool | str = False
+) -> LoadedSimulation:
     """Read a file and compile it, with the process's environment; see `trundle.load`."""
     environment = dict(os.environ)
     report = Diagnostics()
-    stage = load_world(file, Packages(environment, start=Path.cwd()), report, seed=seed)
+    packages = Packages(environment, start=Path.cwd())
+    if isinstance(file, str):
+        stage = load_world(file, packages, report, seed=seed)
+    else:
+        stage = load_built(file, packages, report, seed=seed)
     simulation = LoadedSimulation(stage, report, seed=seed)
     try:
         if ros:
             simulation.open_graph(environment if ros is True else environment | {"ROS_MASTER_URI": ros})
         if plugins:
-            simulation.load_plugins(environment, file)
+            simulation.load_plugins(environment)
     except BaseException:
         simulation.close()
         raise

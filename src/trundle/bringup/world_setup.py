@@ -1,17 +1,20 @@
 """Worlds to simulate, from any description."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from trundle.description import LoadedDescription, load
+from trundle import model
+from trundle.description import LoadedDescription, load, load_text
 from trundle.diagnostics import Diagnostics
-from trundle.model import World, flattened
+from trundle.model import flattened
 from trundle.packages import Packages
 from trundle.simulation import with_actors
 
-if TYPE_CHECKING:  # SDF does not load the URDF reader
+if TYPE_CHECKING:  # SDF loads neither the URDF reader nor the builder
+    from trundle.description import Model, World
     from trundle.robot import Robot
 
 
@@ -19,9 +22,9 @@ if TYPE_CHECKING:  # SDF does not load the URDF reader
 class LoadedWorld:
     """World ready to compile, and the URDF that it came from, if any."""
 
-    world: World
+    world: model.World
     """Nested models are merged into the outer ones, as physics needs it."""
-    written: World
+    written: model.World
     """The same world, nested as in the file."""
     robot: "Robot | None"
     urdf: str | None
@@ -34,12 +37,29 @@ def load_world(file: str, packages: Packages, report: Diagnostics, *, seed: int 
     Raises:
         DescriptionError: the file cannot be read.
     """
-    loaded = load(file, report, packages=packages, seed=seed)
+    return place(load(file, report, packages=packages, seed=seed), packages, report)
+
+
+def load_built(built: "Model | World", packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:
+    """Take what was built in code, by way of its SDF; a model alone is put on a ground plane under a sun.
+
+    Raises:
+        DescriptionError: something of it cannot be made sense of.
+    """
+    text = built.to_sdf().encode()
+    name = f"<{built.name}>"
+    return place(
+        load_text(text, name=name, folder=Path.cwd(), packages=packages, report=report, seed=seed), packages, report
+    )
+
+
+def place(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> LoadedWorld:
+    """Put a robot alone on a ground plane under a sun; take a world as it is."""
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
     return LoadedWorld(world=with_actors(flattened(world), report), written=world, robot=loaded.robot, urdf=loaded.urdf)
 
 
-def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> World:
+def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> model.World:
     ground = load("model://ground_plane", report, packages=packages).world.models
     sun = load("model://sun", report, packages=packages).world.lights
     world = loaded.world

@@ -1,3 +1,7 @@
+from .builder.joint import Joint as Joint
+from .builder.link import Link as Link
+from .builder.model import Model as Model
+from .builder.world import World as World
 from .loaded import LoadedDescription as LoadedDescription
 from .read import load as load
 from .read import load_text as load_text

@@ -121,7 +121,7 @@ class Simulation:
 
     def __repr__(self) -> str:
         names = ", ".join(repr(model.name) for model in self.models) or "none"
-        return f"<{type(self).__name__} {self.world.name!r} at {self.time_ns / NS:.3f} s; models: {names}>"
+        return f"<{type(self).__name__} {self.world.name!r} at {self.time_ns / NS_PER_S:.3f} s; models: {names}>"
 
     def animation_state(self, actor: str) -> "AnimationState":
         """Return an actor's animation state; default for a deleted actor."""

@@ -24,7 +24,7 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     overall = inertial.number("density", default=_WATER, report=report)
     bodies: list[tuple[float, Pose, Vector3]] = []
     for collision, child in zip(link.collisions, node.all("collision"), strict=True):
-        found = _volume_and_moments(collision.geometry)
+        found = volume_and_moments(collision.geometry)
         if found is None:
             report.warn(collision.at, f"collision {collision.name!r}: no automatic inertia for its shape; it weighs 0")
             continue
@@ -51,7 +51,7 @@ def _pose(collision: Collision) -> Pose:
     return collision.link_from_collision
 
 
-def _volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
+def volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
     """Volume [m³] and principal moments per unit of mass [m²] about the centre of mass."""
     match geometry:
         case Box((x, y, z)):

@@ -1,0 +1,1 @@
+"""Worlds and models built in code, with SDF's names and defaults."""

@@ -1,0 +1,139 @@
+"""A link that is built: shapes, sensors, mass."""
+
+from typing import Self
+
+from trundle import model
+from trundle.diagnostics import UsageError
+from trundle.model import Collision, Inertial, Sensor, Visual
+from trundle.spatial import Pose, Vector3
+
+from ..inertia_sum import rotate_inertia, sum_inertias
+from .names import BUILT, check_name, check_positive
+from .sensors import SensorSettings, make_sensor
+from .shapes import Shape, ShapeAdder
+
+_ORIGIN = Pose()
+
+
+class Link(ShapeAdder["Link"]):
+    """One rigid body; its mass properties are those of its shapes, or as `set_inertial` says.
+
+    Without either they are SDF's defaults, 1 kg and 1 kg·m². Poses of shapes and sensors are in its frame.
+    """
+
+    def __init__(self, name: str, pose: Pose) -> None:
+        """Start an empty one; `Model.add_link` does."""
+        self.name = name
+        self.pose = pose
+        """In the model's frame."""
+        self._shapes: list[Shape] = []
+        self._sensors: list[Sensor] = []
+        self._inertial: Inertial | None = None
+
+    def set_inertial(
+        self,
+        mass: float,
+        moments: Vector3,
+        *,
+        products: Vector3 = (0.0, 0.0, 0.0),
+        center: Vector3 = (0.0, 0.0, 0.0),
+    ) -> Self:
+        """Weigh this, whatever its shapes weigh.
+
+        Args:
+            mass: [kg]
+            moments: ixx, iyy, izz about the centre of mass, along the link's axes [kg·m²].
+            products: ixy, ixz, iyz [kg·m²].
+            center: of mass, in the link's frame [m].
+
+        Raises:
+            UsageError: the mass or a moment is not above zero.
+        """
+        check_positive(f"mass and moments of link {self.name!r}", mass, *moments)
+        self._inertial = Inertial(mass=mass, link_from_com=Pose(center), moments=moments, products=products)
+        return self
+
+    def add_sensor(
+        self,
+        name: str,
+        type: str,
+        settings: SensorSettings | None = None,
+        *,
+        pose: Pose = _ORIGIN,
+        update_rate: float = 0.0,
+        always_on: bool = False,
+        visualize: bool = False,
+        topic: str = "",
+    ) -> Self:
+        """Mount a sensor.
+
+        Args:
+            name: of the sensor.
+            type: SDF's: camera, depth_camera, ray, imu, contact, gps, altimeter, …
+            settings: of its type, from `trundle.model`: `CameraOptics`, `RangeScan`, `ImuNoise`, …; None: SDF's own.
+            pose: in the link's frame.
+            update_rate: [Hz]; 0: at every step.
+            always_on: measure even while nobody wants it.
+            visualize: show its rays.
+            topic: to publish on; empty: as Gazebo names it.
+
+        Raises:
+            UsageError: there is no such type, its settings are of another kind, or the name is taken.
+        """
+        check_name(name, self._sensors, f"link {self.name!r}")
+        if type == "force_torque":
+            raise UsageError(f"sensor {name!r}: force_torque sensors sit on joints; add it to one")
+        self._sensors.append(
+            make_sensor(
+                name,
+                type,
+                settings,
+                pose=pose,
+                update_rate=update_rate,
+                always_on=always_on,
+                visualize=visualize,
+                topic=topic,
+            )
+        )
+        return self
+
+    def add_shape(self, shape: Shape) -> "Link":
+        """Add a shape to the link."""
+        check_name(shape.name, self._shapes, f"link {self.name!r}")
+        self._shapes.append(shape)
+        return self
+
+    def description(self) -> model.Link:
+        """What was built, as a file's reader would give it."""
+        return model.Link(
+            name=self.name,
+            at=BUILT,
+            model_from_link=self.pose,
+            inertial=self._inertial or self._inertial_of_shapes(),
+            visuals=tuple(
+                Visual(name=s.name, geometry=s.geometry, at=BUILT, link_from_visual=s.pose, material=s.material)
+                for s in self._shapes
+                if s.visual
+            ),
+            collisions=tuple(
+                Collision(name=s.name, geometry=s.geometry, at=BUILT, link_from_collision=s.pose, surface=s.surface)
+                for s in self._shapes
+                if s.collision
+            ),
+            sensors=tuple(self._sensors),
+        )
+
+    def _inertial_of_shapes(self) -> Inertial:
+        if not self._shapes:
+            return Inertial()
+        mass, center, (xx, yy, zz, xy, xz, yz) = sum_inertias(
+            [
+                (s.mass, s.pose.transform_point(s.center), rotate_inertia(s.inertia, s.pose.quaternion))
+                for s in self._shapes
+            ]
+        )
+        return Inertial(mass=mass, link_from_com=Pose(center), moments=(xx, yy, zz), products=(xy, xz, yz))
+
+    def __repr__(self) -> str:
+        shapes, sensors = (", ".join(repr(each.name) for each in group) for group in (self._shapes, self._sensors))
+        return f"<Link {self.name!r}; shapes: {shapes or 'none'}; sensors: {sensors or 'none'}>"
