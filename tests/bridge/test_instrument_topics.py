@@ -255,12 +255,12 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
         (
             "ray",
             "<ray><scan><horizontal><resolution>-2</resolution></horizontal></scan><range><max>1</max></range></ray>",
-            "a resolution of -2 values a ray is not possible; 1 is used",
+            "a resolution of -2 values per sample is not possible; 1 is used",
         ),
         (
             "ray",
             "<ray><scan><horizontal><samples>0</samples></horizontal></scan>" + FAR,
-            "0 samples see nothing; 1 is used",
+            "0 samples is not possible; 1 is used",
         ),
         ("ray", f"<ray>{PINK}{FAR}", "no noise type 'pink': gaussian, gaussian_quantized, none; none is used"),
         ("ray", f"<ray><noise><precision>-1</precision></noise>{FAR}", "a precision of -1 is not possible"),
@@ -271,7 +271,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
             "noise with a mean of 1e+300 is not possible; 0 is used",
         ),
         ("sonar", "<sonar><geometry>cube</geometry></sonar>", "no sonar geometry 'cube': cone or sphere; cone is used"),
-        ("logical_camera", "<logical_camera><near>3</near></logical_camera>", "near 3, far 1 hold nothing"),
+        ("logical_camera", "<logical_camera><near>3</near></logical_camera>", "near 3, far 1 is not possible"),
         (
             "logical_camera",
             "<logical_camera><horizontal_fov>4</horizontal_fov></logical_camera>",
@@ -281,7 +281,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
         (
             "imu",
             "<imu><orientation_reference_frame><localization>UP</localization></orientation_reference_frame></imu>",
-            "no localization 'UP': CUSTOM, ENU, NED, NWU, GRAV_UP, GRAV_DOWN; orientation is told against its start",
+            "no localization 'UP': CUSTOM, ENU, NED, NWU, GRAV_UP, GRAV_DOWN; the orientation is relative to the start",
         ),
     ],
 )

@@ -42,9 +42,9 @@ def model(folder: Path, body: str, report: Diagnostics | None = None) -> Model:
     [
         (
             '<link name="a"><pose relative_to="b"/></link><link name="b"><pose relative_to="a"/></link>',
-            "itself, by a → b",
+            "itself, through a → b",
         ),
-        ('<link name="a"/><frame name="f" attached_to="f"/>', "itself, by f → f"),
+        ('<link name="a"/><frame name="f" attached_to="f"/>', "itself, through f → f"),
         ('<link name="a"><pose relative_to="zzz">1 0 0 0 0 0</pose></link>', "no frame 'zzz'; frames here: 'a'"),
         ('<link name="a"/><frame name="f" attached_to="zzz"/>', "no frame 'zzz'"),
         ('<link name="a"/><link name="a"/>', "a second link 'a', after line 1; it is left out"),
@@ -166,15 +166,15 @@ def test_a_model_dissolves_in_a_world(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("more", "around", "why"),
     [
-        ('<link name="own"/>', "", "links of its own, which a world has not"),
-        ("", '<model name="left"><link name="l"/></model>', "a model 'left', as the world"),
+        ('<link name="own"/>', "", "links of its own, which a world cannot have"),
+        ("", '<model name="left"><link name="l"/></model>', "a model 'left', whose name is taken"),
     ],
 )
 def test_what_cannot_dissolve_in_a_world_stays_a_model(tmp_path: Path, more: str, around: str, why: str) -> None:
     world, report = merged_world(tmp_path, more, around)
 
     assert "stand" in [model.name for model in world.models]
-    assert any(f"model 'stand' has {why}; it is not merged, but stays one" in warning for warning in report.warnings)
+    assert any(f"model 'stand' has {why}; it is not merged" in warning for warning in report.warnings)
 
 
 ROBOT = """<?xml version="1.0"?>
@@ -243,7 +243,7 @@ def test_a_state_says_where_models_were_when_the_world_was_saved(tmp_path: Path)
 
     assert [(m.name, m.world_from_model) for m in world.models] == [("m", Pose((1.0, 2.0, 3.0)))]
     assert world.lights[0].world_from_light == Pose((0.0, 0.0, 9.0))
-    assert any("model 'nobody', which is not in this world" in each for each in report.warnings)
+    assert any("<state> of unknown model 'nobody'" in each for each in report.warnings)
 
 
 def test_a_model_that_includes_itself_is_found_out(tmp_path: Path) -> None:
@@ -263,7 +263,7 @@ def test_models_of_ten_parts_of_ten_parts_and_so_on_end(tmp_path: Path) -> None:
         inside = parts.format(*[f"size{i + 1}"] * 10) if i < 11 else "<link name='l'/>"
         (folder / "model.sdf").write_text(f"<sdf version='1.9'><model name='m'>{inside}</model></sdf>")
 
-    with pytest.raises(DescriptionError, match=r"model\.sdf:1: error: more than 5000 <include> in all"):
+    with pytest.raises(DescriptionError, match=r"model\.sdf:1: error: more than 5000 <include>s in total"):
         read(tmp_path, '<world name="w"><include><uri>model://size0</uri></include></world>')
 
 
@@ -343,7 +343,7 @@ def test_a_joint_of_the_canonical_link_and_the_model_joins_nothing(tmp_path: Pat
     ends = '<joint name="j" type="fixed"><parent>a</parent><child>__model__</child></joint>'
 
     assert model(tmp_path, f'<link name="a"/>{ends}', report).joints == ()
-    assert "joint 'j' joins 'a' to itself; the joint is left out" in report.warnings[0]
+    assert "joint 'j' connects 'a' to itself; the joint is left out" in report.warnings[0]
 
 
 @pytest.mark.parametrize(

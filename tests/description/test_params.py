@@ -73,7 +73,7 @@ def test_what_cannot_be_done_is_named_where_it_stands(tmp_path: Path) -> None:
     assert told == [
         "3: warning: <experimental:params>: no <visual> 'upper::lost' in the included model; it is left out",
         "4: warning: <visual> without element_id in <experimental:params>; it is left out",
-        "5: warning: <link>: action 'paint' is none of add, modify, remove, replace; it is left out",
+        "5: warning: <link>: action 'paint' is unknown; actions: add, modify, remove, replace; it is left out",
         "6: warning: <experimental:params>: no <pose> to modify in <visual>; it is left out",
         "7: warning: <experimental:params>: no <sensor> in <link>; it is left out",
     ]

@@ -36,7 +36,7 @@ def test_a_missing_attribute_is_named(tmp_path: Path, body: str, tag: str, attri
     """Each held against libsdformat 9.3."""
     said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
 
-    assert said == [f"<{tag}> without {attribute!r}, for which Gazebo refuses the whole file"]
+    assert said == [f"<{tag}> without {attribute!r}; Gazebo refuses the whole file"]
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_an_empty_attribute_is_named(tmp_path: Path, body: str, tag: str, attrib
     """Param::SetFromString of libsdformat 9.9.1: an empty string used when setting a required parameter."""
     said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
 
-    assert said == [f"<{tag}> with an empty {attribute!r}, for which Gazebo refuses the whole file"]
+    assert said == [f"<{tag}> with an empty {attribute!r}; Gazebo refuses the whole file"]
 
 
 def test_what_needs_none_is_not_named(tmp_path: Path) -> None:
@@ -72,7 +72,7 @@ def test_an_included_file_and_a_gazebo_block_are_looked_through(tmp_path: Path) 
     world = '<sdf version="1.7"><world name="w"><include><uri>part.sdf</uri></include></world></sdf>'
     urdf = f'<robot name="r"><link name="l">{BODY}</link><gazebo><plugin name="p"/></gazebo></robot>'
 
-    expected = "<plugin> without 'filename', for which Gazebo refuses the whole file"
+    expected = "<plugin> without 'filename'; Gazebo refuses the whole file"
     assert warnings(tmp_path, world) == [expected]
     assert warnings(tmp_path, urdf, "r.urdf") == [expected]
 
@@ -80,7 +80,7 @@ def test_an_included_file_and_a_gazebo_block_are_looked_through(tmp_path: Path) 
 def test_the_root_of_sdf_1_2_is_one_that_gazebo_refuses(tmp_path: Path) -> None:
     (said,) = warnings(tmp_path, f'<gazebo version="1.2"><model name="m">{LINK}</model></gazebo>')
 
-    assert said == "<gazebo> at the root was SDF's until 1.2; Gazebo refuses the file: it wants <sdf>"
+    assert said == "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>"
 
 
 def test_blank_lines_before_a_declaration_stop_xacro_and_not_gazebo(tmp_path: Path) -> None:

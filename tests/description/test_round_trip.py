@@ -21,7 +21,7 @@ KNOWN = {
     "models/models/joints/name": "as above",
     "models/links/visuals/geometry/uri": "a relative URI becomes a full one, to the same file",
     "models/links/collisions/geometry/uri": "as above",
-    "models/links/visuals/material/texture_scale": "SDF has no word for it, which is said",
+    "models/links/visuals/material/texture_scale": "SDF has no texture scale; the writer warns",
     "models/models/links/visuals/material/texture_scale": "as above",
 }
 """Field → why it may differ."""
@@ -43,7 +43,7 @@ def through_sdf(loaded: LoadedDescription, folder: Path, packages: Packages) -> 
     again = load_text(text, name="<stdin>", folder=folder, packages=packages, report=Diagnostics())
     said = [w for w in report.warnings if not any(f"of a {kind} sensor are not written" in w for kind in UNSETTLED)]
     assert again.kind == ("world" if is_world else "model")
-    found = {*unlike(plain(loaded.world), plain(again.world)), *(w for w in said if "texture's scale" not in w)}
+    found = {*unlike(plain(loaded.world), plain(again.world)), *(w for w in said if "texture scale" not in w)}
     return found - KNOWN.keys()
 
 

@@ -141,7 +141,7 @@ def test_sensors_of_lumped_links_are_told_apart_and_those_of_lumped_joints_named
     sensors = model.links[0].sensors
     assert [(s.name, s.link_from_sensor.position) for s in sensors] == [("eye", (0, 0, 1)), ("eye_2", (1, 0, 1))]
     twice, lumped = report.warnings
-    assert twice.endswith("link 'base' has a sensor 'eye' already; this one is called 'eye_2'")
+    assert twice.endswith("link 'base' has a second sensor 'eye'; it is renamed 'eye_2'")
     assert "<sensor> for 'weld' in <gazebo> is for a fixed joint that is lumped (<preserveFixedJoint>" in lumped
 
 
@@ -152,7 +152,7 @@ def test_cameras_of_one_name_are_told_apart(tmp_path: Path) -> None:
 
     assert [camera.name for camera in model.links[0].sensors[0].cameras] == ["c", "c_1"]
     (warning,) = report.warnings
-    assert warning.endswith("there is a camera 'c' already; this one is called 'c_1'")
+    assert warning.endswith("a second camera 'c'; it is renamed 'c_1'")
 
 
 def test_a_joint_that_tells_what_it_carries_is_nothing_to_remark(tmp_path: Path) -> None:
@@ -229,7 +229,7 @@ def test_a_property_that_cannot_be_named_is_left_out(tmp_path: Path, prefix: str
     text = expand(tmp_path, f'<{prefix}property name="" value="1"/><link name="a"/>', report)
 
     assert '<link name="a"/>' in text
-    assert report.warnings[-1].endswith("a property named '' can be used nowhere; it is left out")
+    assert report.warnings[-1].endswith("a property named '' cannot be referenced; it is left out")
 
 
 def test_plain_xml_of_a_core_tag_s_name_is_left_alone(tmp_path: Path) -> None:
@@ -259,7 +259,7 @@ def test_arguments_reach_the_file_and_do_not_stay(tmp_path: Path) -> None:
         ("${1 +}", "invalid syntax"),
         ("${__import__('os').getcwd()}", "Use of invalid name"),
         ("$(find no_such_package)", r"\$\(find no_such_package\): no package 'no_such_package'"),
-        ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', "without end"),
+        ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', "infinite recursion"),
     ],
 )
 def test_what_xacro_refuses_is_one_sentence(tmp_path, body, words) -> None:
@@ -412,8 +412,8 @@ def test_a_gazebo_block_for_nothing_says_so(tmp_path: Path) -> None:
     read(tmp_path, text, report, name="x.urdf")
 
     assert [line.partition(": warning: ")[2] for line in report.warnings] == [
-        "<mu1> for 'b' in <gazebo> means no link or joint there is; it is ignored",
-        "<x> for 'b' in <gazebo> means no link or joint there is; it is ignored",
+        "<mu1> for 'b' in <gazebo> names no known link or joint; it is ignored",
+        "<x> for 'b' in <gazebo> names no known link or joint; it is ignored",
     ]
 
 

@@ -86,8 +86,8 @@ def test_an_even_distribution_leaves_no_corner_empty() -> None:
     [
         ("<model_count>2000000</model_count><box/>", "2000000 models; 1 to 1000 are possible"),
         ("<model_count>0</model_count><box/>", "0 models"),
-        ("<model_count>2</model_count>", "no <box> or <cylinder> to fill"),
-        ("<box><size>0 1 1</size></box>", "its <box> or <cylinder> has no inside"),
+        ("<model_count>2</model_count>", "no <box> or <cylinder>"),
+        ("<box><size>0 1 1</size></box>", "its <box> or <cylinder> has no volume"),
         ("<cylinder/><distribution><type>linear-x</type></distribution>", "no distribution 'linear-x' of a cylinder"),
         ("<box/><distribution><type>heap</type></distribution>", "no distribution 'heap' of a box"),
         ("<distribution><type>grid</type><rows>-2</rows><cols>-2</cols></distribution>", "4 models"),
@@ -123,7 +123,7 @@ def test_a_saved_link_keeps_its_place_beside_where_it_was_written(tmp_path: Path
     assert tip.initial_pose is not None
     assert tip.initial_pose.position == pytest.approx((1, 0, 1))
     told = [finding.what for finding in report.findings]
-    assert "<velocity> in <link> is not heeded: everything starts at rest; it is ignored" in told
+    assert "<velocity> in <link> has no effect: everything starts at rest; it is ignored" in told
     again = load_text(
         write_sdf(world, is_world=True, uri_of=written_uri, report=report),
         name="again.sdf",
@@ -153,7 +153,7 @@ def test_a_saved_scale_stretches_what_is_on_the_links(tmp_path: Path) -> None:
     report = Diagnostics()
     base = read(tmp_path, SAVED.format("", "<scale>0 1 1</scale>"), report).models[0].links[0]
     assert base.visuals[0].geometry == Box((1.0, 2.0, 3.0))
-    assert "wants three numbers > 0" in report.warnings[0]
+    assert "needs three numbers > 0" in report.warnings[0]
 
 
 def test_what_was_inserted_is_there_and_can_have_moved(tmp_path: Path) -> None:
@@ -176,7 +176,7 @@ def test_a_road_is_a_line_with_a_width_and_a_material(tmp_path: Path) -> None:
     (road,) = world.roads
     assert (road.width, road.points) == (4.0, ((0.0, 0.0, 0.1), (5.0, 0.0, 0.1), (5.0, 5.0, 0.1)))
     assert road.material.diffuse == (0.0, 0.0, 1.0, 1.0)
-    assert "<road> 'dot' wants two points and a width > 0 m; it is left out" in report.warnings[0]
+    assert "<road> 'dot' needs two points and a width > 0 m; it is left out" in report.warnings[0]
 
 
 ACTOR = """<actor name='walker'><pose>1 0 0 0 0 0</pose><skin><filename>walk.dae</filename><scale>2</scale></skin>

@@ -31,8 +31,7 @@ def test_what_hangs_on_a_lumped_link_without_mass_falls_away(tmp_path: Path) -> 
 
     assert ([link.name for link in model.links], [joint.name for joint in model.joints]) == (["base", "hand"], ["j4"])
     assert report.warnings[-1].endswith(
-        "link 'mount' has no mass; as in Gazebo what hangs on it is left out of the simulation: 'arm'; "
-        "give it an <inertial>"
+        "link 'mount' has no mass; as in Gazebo its subtree is left out of the simulation: 'arm'; give it an <inertial>"
     )
 
 

@@ -214,8 +214,8 @@ def test_everything_stays_in_its_place_in_a_urdf() -> None:
     ("change", "said"),
     [
         (('type="fixed"', 'type="ball"'), r"<stdin>:\d+: error: joint 'weld': URDF has no ball joints; --to sdf has"),
-        (("<parent>wheel</parent>", "<parent>world</parent>"), "one link that no joint holds; here: 'base', 'world'"),
-        (("<child>plate</child>", "<child>base</child>"), "link 'base' hangs from itself; URDF is a tree"),
+        (("<parent>wheel</parent>", "<parent>world</parent>"), "one root link; here: 'base', 'world'"),
+        (("<child>plate</child>", "<child>base</child>"), "link 'base' is its own ancestor; URDF is a tree"),
         (("<parent>wheel</parent>", "<parent>base</parent><child>wheel</child>"), "link 'wheel' has 2 parents"),
     ],
 )

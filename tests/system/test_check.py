@@ -20,7 +20,7 @@ def test_the_published_robot_is_understood_and_its_oddities_are_named(trundle, s
     assert (wheel["lower"], wheel["upper"], wheel["friction"]) == (None, None, 0.3)
     assert model["links"][0]["inertia"] == [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
     said = " ".join(finding["message"] for finding in result["diagnostics"])
-    oddities = ("z of zero thickness", "turns like 1 kg·m²", "leaves no freedom", "read in the model frame")
+    oddities = ("z of zero thickness", "SDF's default of 1 kg·m²", "leaves no freedom", "read in the model frame")
     for oddity in (*oddities, "rolls on the ellipsoid inscribed in it, a surface up to 0.1 mm away"):
         assert oddity in said
 

@@ -1,4 +1,4 @@
-"""Text becomes model, and model text: SDF, URDF and xacro, each by its own rules."""
+"""Readers and writers of descriptions: SDF, URDF and xacro."""
 
 import lazy_loader
 

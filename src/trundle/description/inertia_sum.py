@@ -1,4 +1,4 @@
-"""Rigid bodies added up, by the parallel axis theorem."""
+"""Sum of rigid-body inertias, by the parallel axis theorem."""
 
 from collections.abc import Sequence
 from typing import TypeAlias
@@ -12,7 +12,7 @@ _PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 def rotate_inertia(tensor: Tensor, turn: Quaternion) -> Tensor:
-    """An inertia in other axes.
+    """Return an inertia tensor in rotated axes.
 
     Args:
         tensor: in the body's axes.
@@ -30,10 +30,10 @@ def rotate_inertia(tensor: Tensor, turn: Quaternion) -> Tensor:
 
 
 def sum_inertias(bodies: Sequence[tuple[float, Vector3, Tensor]]) -> tuple[float, Vector3, Tensor]:
-    """Mass [kg], centre of mass [m] and inertia about it of several bodies as one.
+    """Return mass [kg], centre of mass [m] and inertia about it of several bodies combined.
 
     Args:
-        bodies: mass, centre of mass and inertia about that of each, all in the same axes; not all without mass.
+        bodies: mass, centre of mass and inertia about it of each, in common axes; total mass > 0.
     """
     mass = sum(each for each, _, _ in bodies)
     x, y, z = (sum(each * centre[i] for each, centre, _ in bodies) / mass for i in range(3))

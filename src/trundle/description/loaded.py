@@ -1,4 +1,4 @@
-"""What reading a description gives."""
+"""Result of reading a description."""
 
 from typing import TYPE_CHECKING, Literal
 
@@ -10,12 +10,12 @@ if TYPE_CHECKING:
 
 
 class LoadedDescription(Struct, frozen=True, kw_only=True):
-    """Only what the file names: no added ground or sun."""
+    """Description as read, without added ground or sun."""
 
     kind: Literal["world", "model", "urdf"]
     world: "World"
-    """A model alone is the one model of a world of default settings."""
+    """A model alone is the only model of a world with default settings."""
     robot: "Robot | None" = None
-    """The URDF's own tree, unconverted."""
+    """URDF tree, unconverted."""
     urdf: str | None = None
-    """The expanded URDF text, what goes on the parameter robot_description."""
+    """Expanded URDF text, for the parameter robot_description."""

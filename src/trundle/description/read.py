@@ -1,4 +1,4 @@
-"""Finds the reader for a file, a folder or a model:// name."""
+"""Reader selection for a file, folder or URI."""
 
 import os
 from pathlib import Path
@@ -13,9 +13,9 @@ from trundle.xmlnode import XmlNode, parse_xml, read_xml
 from .loaded import LoadedDescription
 from .sdf import DEEPEST
 
-# Each reader is loaded by the files that want it.
+# Each reader is imported on first use.
 _XACRO = "<xacro:"
-"""What is not expanded yet; the name space alone stays in many files that are."""
+"""Marker of an unexpanded file; the namespace alone remains in many expanded ones."""
 
 
 def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> LoadedDescription:
@@ -23,13 +23,13 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
 
     Args:
         what: a path, a folder with model.config, model://NAME, package://NAME/FILE, or the name of a world, such as
-            empty.world; a pipe's relative URIs start in the working directory.
-        report: takes everything worth saying.
-        packages: where URIs lead.
-        seed: of what an SDF places at random.
+            empty.world; relative URIs in a pipe start in the working directory.
+        report: takes warnings and notes.
+        packages: resolves URIs.
+        seed: of random placement in SDF.
 
     Raises:
-        DescriptionError: of which nothing sensible can be made.
+        DescriptionError: the description cannot be interpreted.
         UsageError: no such model.
     """
     path = _find(what, packages)
@@ -63,34 +63,34 @@ def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: i
 def load_text(
     text: str | bytes, *, name: str, folder: Path, packages: Packages, report: Diagnostics, seed: int = 0
 ) -> LoadedDescription:
-    """Read a description that is in no file: SDF, URDF or xacro.
+    """Read a description from text: SDF, URDF or xacro.
 
     Args:
-        text: all of it.
-        name: how messages call it.
-        folder: relative URIs start here.
-        packages: where URIs lead.
-        report: takes everything worth saying.
-        seed: of what an SDF places at random.
+        text: the whole document.
+        name: file name in messages.
+        folder: base of relative URIs.
+        packages: resolves URIs.
+        report: takes warnings and notes.
+        seed: of random placement in SDF.
 
     Raises:
-        DescriptionError: of which nothing sensible can be made.
+        DescriptionError: the description cannot be interpreted.
     """
     root = parse_xml(text, name=name, report=report, deepest=DEEPEST)
     if root.tag != "robot":
         return load_sdf(root, folder / name, packages, report, seed=seed)
     text = text if isinstance(text, str) else text.decode(errors="replace")
     if _XACRO in text:
-        path = Path(os.path.relpath(folder / name))  # as messages call it, where it is read in the working folder
+        path = Path(os.path.relpath(folder / name))  # named as in messages, relative to the working folder
         text, name = _expanded(path, packages, report, text.encode()), f"{name} (expanded)"
     return load_urdf(text, name, folder / name, packages, report)
 
 
 def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedDescription:
-    """Read a parsed SDF file; `path` is where it is, `seed` of what it places at random.
+    """Read a parsed SDF file located at `path`, with `seed` for random placement.
 
     Raises:
-        DescriptionError: it is no SDF.
+        DescriptionError: not an SDF.
     """
     from .sdf import Context, name_missing_attributes, read_root, read_version, rewrite_old_style
 
@@ -104,7 +104,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
         report.info(root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2")
         rewrite_old_style(root)
     if root.tag == "gazebo":
-        report.warn(root.at, "<gazebo> at the root was SDF's until 1.2; Gazebo refuses the file: it wants <sdf>")
+        report.warn(root.at, "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>")
     name_missing_attributes(root, version, report)
 
     def read_urdf(file: Path, robot: XmlNode) -> Model:
@@ -128,10 +128,10 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
 
 
 def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diagnostics) -> LoadedDescription:
-    """Read an expanded URDF; `path` is the file it came from, `name` how messages call it.
+    """Read an expanded URDF; `path` is its file, `name` its name in messages.
 
     Raises:
-        DescriptionError: it is no robot that urdfdom would take.
+        DescriptionError: urdfdom would refuse the robot.
     """
     from trundle.robot import read_robot
 

@@ -1,4 +1,4 @@
-"""Keeps where each element of a xacro file stands, and which one the package is at."""
+"""Source positions of xacro elements, and of the expansion in progress."""
 
 import xml.dom.expatbuilder
 from collections.abc import Callable
@@ -10,18 +10,18 @@ _AT = "at"
 
 
 class _Kept:
-    """Has clones of an element know where it stands."""
+    """Copies an element's position to its clones."""
 
     @staticmethod
     def handle(operation: int, key: str, data: Any, src: Any, dst: Any) -> None:
-        """See the DOM's UserDataHandler; nothing is copied to when an element is thrown away."""
+        """See the DOM's UserDataHandler; there is no target when an element is deleted."""
         del operation, src
         if dst is not None:
             dst.setUserData(key, data, _Kept)
 
 
 class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
-    """Builds a document whose elements know where they stand."""
+    """Builder of a document with source positions."""
 
     def __init__(self, file: str, first_line: int) -> None:
         super().__init__()
@@ -35,7 +35,7 @@ class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
 
 
 def parse_with_lines(data: bytes, file: str) -> Any:
-    """The document of a file, which may start with blank lines; of its elements `place_of` knows where they stand.
+    """Parse a file, which may start with blank lines; `place_of` returns the position of its elements.
 
     Raises:
         ExpatError: it is not well-formed.
@@ -45,24 +45,24 @@ def parse_with_lines(data: bytes, file: str) -> Any:
 
 
 def place_of(element: Any) -> Source:
-    """Where an element of a parsed file stands, or the one that it is a copy of."""
+    """Return the source position of an element, or of its original."""
     return element.getUserData(_AT)
 
 
 class Cursor:
-    """The place in the files that the package is at."""
+    """Current source position of the expansion."""
 
     def __init__(self, at: Source) -> None:
         self.at = at
 
     def follow(self, package: Any) -> None:
-        """Have the functions that each element goes through move it; who calls puts them back."""
+        """Update the position in the functions that process elements; the caller restores them."""
         package.eval_all = self._within(package.eval_all)
         package.handle_macro_call = self._within(package.handle_macro_call)
         package.reqd_attrs = self._at(package.reqd_attrs)
 
     def _within(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Behind an element the one around it goes on; an error leaves the cursor where it arose."""
+        """Wrap a function so that the position is restored after an element; an error leaves it there."""
 
         def go_through(element: Any, *rest: Any) -> Any:
             around, self.at = self.at, place_of(element)
@@ -73,7 +73,7 @@ class Cursor:
         return go_through
 
     def _at(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Wrap a function of xacro so that the element it reads becomes the current place."""
+        """Wrap a function so that the element it reads becomes the current position."""
 
         def read(element: Any, *rest: Any) -> Any:
             self.at = place_of(element)

@@ -56,7 +56,7 @@ def test_an_include_of_a_missing_package_and_calls_of_its_macros_are_left_out_by
 
 
 def _unknown(name: str) -> str:
-    return f"no macro <xacro:{name}>: the call is left out, as is the include it may come from"
+    return f"no macro <xacro:{name}>: the call is left out; it may come from an include left out"
 
 
 def test_otherwise_such_a_robot_is_refused(tmp_path: Path) -> None:
@@ -100,7 +100,7 @@ def test_joints_to_what_was_left_out_go_with_it_and_all_that_hangs_there(tmp_pat
 
     assert loaded.robot is not None
     assert [link.name for link in loaded.robot.links] == ["base_link", "mast"]
-    said = "joint 'base_link_front' goes with what was left out: no link 'front'"
+    said = "joint 'base_link_front' is left out: no link 'front'"
     assert any(said in warning for warning in report.warnings)
 
 

@@ -1,4 +1,4 @@
-"""Colours and textures from Ogre's material scripts, which SDF's <material><script> names."""
+"""Colours and textures of Ogre material scripts, referenced by SDF's <material><script>."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Finds a material by name in the scripts that a description points at, and its texture beside them."""
+"""Search for a material by name in a description's scripts, and for its texture."""
 
 import os
 from collections.abc import Iterable
@@ -16,17 +16,17 @@ from .surface import name_of, parent_of, read_surface
 
 _LARGEST = 4 * 1024 * 1024
 _DEFAULT = "media/materials/scripts/gazebo.material"
-"""Gazebo's own script; its colours are known here without it."""
+"""Gazebo's own script, whose colours are built in."""
 
 
 def find_material(name: str, script: XmlNode, *, packages: Packages, report: Diagnostics) -> Material | None:
-    """The material of that name, or None where no script in reach has it.
+    """Return the material of that name, or None if no script has it.
 
     Args:
-        name: as the description writes it.
-        script: the element whose <uri> children name script files, folders of scripts and folders of textures.
-        packages: where URIs lead; its resource folders' scripts are in reach too, as in Gazebo.
-        report: takes what cannot be read.
+        name: as written.
+        script: element whose <uri> children name script files, folders of scripts and folders of textures.
+        packages: resolves URIs; scripts in its resource folders are searched too, as in Gazebo.
+        report: takes warnings of unreadable files.
     """
     beside = Path(script.at.file).parent
     named = [path for uri in script.all("uri") if (path := _resolved(uri, beside, packages, report)) is not None]
@@ -88,7 +88,7 @@ def _materials(file: Path, _changed_ns: int) -> tuple[Block, ...]:
 
 
 def _texture(name: str, places: Iterable[Path], at: Source, packages: Packages, report: Diagnostics) -> Path | None:
-    """A texture's file: in a folder that was named, or in the `textures` beside the scripts."""
+    """Find a texture file in a named folder, or in `textures` beside the scripts."""
     for place in places:
         folder = place if place.is_dir() else place.parent
         for path in (folder / name, folder.parent / "textures" / name):

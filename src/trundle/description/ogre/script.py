@@ -1,7 +1,7 @@
-"""Text of a .material script → nested blocks.
+"""Parser of .material scripts to nested blocks.
 
-A statement is a line of words; a block is a header line and more statements in braces. Quotes keep spaces together,
-`//` and `/* */` are remarks.
+A statement is a line of words; a block is a header line and statements in braces. Quotes group words with spaces, `//`
+and `/* */` are comments.
 """
 
 import re
@@ -16,7 +16,7 @@ _DEEPEST = 16
 
 @dataclass(slots=True)
 class Block:
-    """A header such as `material Box/Side : Box/Plain`, and what its braces hold."""
+    """Block with a header such as `material Box/Side : Box/Plain`, and its statements and blocks."""
 
     header: tuple[str, ...]
     at: Source
@@ -24,11 +24,11 @@ class Block:
     blocks: list["Block"] = field(default_factory=list["Block"])
 
     def value(self, keyword: str) -> tuple[str, ...] | None:
-        """The words after the last statement of that keyword."""
+        """Return the words after the keyword in its last statement."""
         return next((words[1:] for words in reversed(self.statements) if words[0] == keyword), None)
 
     def all(self, kind: str) -> list["Block"]:
-        """The blocks whose header starts with that word."""
+        """Return the blocks whose header starts with that word."""
         return [block for block in self.blocks if block.header[0] == kind]
 
 
@@ -36,7 +36,7 @@ def parse_script(text: str, *, name: str) -> Block:
     """Parse a script; the outermost block has an empty header.
 
     Raises:
-        DescriptionError: braces that do not match.
+        DescriptionError: unbalanced braces.
     """
     top = Block(("",), Source(name, 1))
     inside = [top]
@@ -51,7 +51,7 @@ def parse_script(text: str, *, name: str) -> Block:
             words = []
         if token == "{":
             if not inside[-1].statements or len(inside) > _DEEPEST:
-                raise DescriptionError(Source(name, line), "'{' without a word before it, or too deep in others")
+                raise DescriptionError(Source(name, line), "'{' without a word before it, or nested too deeply")
             block = Block(inside[-1].statements.pop(), Source(name, line))
             inside[-1].blocks.append(block)
             inside.append(block)
@@ -65,7 +65,7 @@ def parse_script(text: str, *, name: str) -> Block:
 
 
 def _tokens(text: str) -> Iterator[tuple[str, int]]:
-    """Words, braces and line ends with their line; remarks are left out, a last line end is added."""
+    """Yield words, braces and line ends with their line number; comments are dropped, a last line end is added."""
     line = 1
     for match in _TOKEN.finditer(text):
         token = match[0]

@@ -1,4 +1,4 @@
-"""Blocks of a script → the colours and the texture of one material."""
+"""Colours and texture of a material from script blocks."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -14,23 +14,23 @@ _COLOURS = ("ambient", "diffuse", "specular", "emissive")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OgreSurface:
-    """The first pass of a material's first technique, with Ogre's defaults for what it leaves out."""
+    """First pass of a material's first technique, with Ogre's defaults."""
 
     ambient: Rgba = (1.0, 1.0, 1.0, 1.0)
     diffuse: Rgba = (1.0, 1.0, 1.0, 1.0)
     specular: Rgba = (0.0, 0.0, 0.0, 1.0)
     emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
     texture: str | None = None
-    """The file's name, without its folder."""
+    """File name without folder."""
     texture_scale: tuple[float, float] = (1.0, 1.0)
 
 
 def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
-    """Read a material, what it inherits included.
+    """Read a material with its inherited values.
 
     Args:
         name: a key of `materials`.
-        materials: every material block in reach, by name.
+        materials: every material block, by name.
     """
     colours: dict[str, Rgba] = {}
     texture: str | None = None
@@ -57,7 +57,7 @@ def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
 
 
 def _ancestry(name: str, materials: Mapping[str, Block]) -> Iterator[Block]:
-    """A material's ancestors, the eldest first, and the material itself."""
+    """Return the material's ancestors, eldest first, and the material itself."""
     line: list[Block] = []
     while name in materials and len(line) < _LONGEST_ANCESTRY and materials[name] not in line:
         line.append(materials[name])
@@ -66,12 +66,12 @@ def _ancestry(name: str, materials: Mapping[str, Block]) -> Iterator[Block]:
 
 
 def name_of(material: Block) -> str:
-    """What comes between the word `material` and a colon."""
+    """Return the words between `material` and a colon."""
     return " ".join(_halves(material)[0])
 
 
 def parent_of(material: Block) -> str | None:
-    """What comes after the colon."""
+    """Return the words after the colon."""
     return " ".join(_halves(material)[1]) or None
 
 

@@ -1,4 +1,4 @@
-"""SDF 1.0 to 1.12, each file read by the rules of its own version."""
+"""Readers of SDF 1.0 to 1.12, each file by the rules of its version."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Reads <actor>."""
+"""Reader of <actor>."""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
     """Read one <actor>.
 
     Raises:
-        DescriptionError: a name is missing, or a joint names no link.
+        DescriptionError: a name is missing, or a joint names an unknown link.
     """
     report = context.report
     name = node.required_attribute("name")
@@ -26,7 +26,7 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
     links = {child.required_attribute("name"): child for child in node.all("link")}
     for link, child in links.items():
         graph.add(link, read_pose(child, context), child.at)
-    warn_ignored(node, ("static",), "is nothing that an actor can be", context)
+    warn_ignored(node, ("static",), "does not apply to actors", context)
     if node.attribute("static") is not None:
         report.info(node.at, f"attribute 'static' of actor {name!r} is ignored")
     script = node.find("script")
@@ -102,7 +102,7 @@ def _trajectories(script: XmlNode, context: Context) -> tuple[Trajectory, ...]:
     for number, node in enumerate(script.all("trajectory")):
         written = node.attribute("id") or str(number)
         if not written.isdecimal():
-            report.warn(node.at, f"<trajectory id={written!r}> wants a number; {number} is used")
+            report.warn(node.at, f"<trajectory id={written!r}> needs a number; {number} is used")
             written = str(number)
         tension = _tension(node, context)
         waypoints = [_waypoint(child, context) for child in node.all("waypoint")]
@@ -125,7 +125,7 @@ def _tension(node: XmlNode, context: Context) -> float:
         tension = -1.0
     if 0.0 <= tension <= 1.0:
         return tension
-    context.report.warn(node.at, f"<trajectory tension={text!r}> wants 0 to 1; 0 is used")
+    context.report.warn(node.at, f"<trajectory tension={text!r}> needs 0 to 1; 0 is used")
     return 0.0
 
 

@@ -1,4 +1,4 @@
-"""<inertial auto="true">, SDF 1.11: mass properties from the volumes of the collisions times their densities."""
+"""<inertial auto="true"> of SDF 1.11: mass properties from collision volumes and densities."""
 
 import math
 
@@ -14,9 +14,9 @@ _WATER = 1000.0
 
 
 def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inertial:
-    """Add up the collisions of a link; a mass that is given is kept and the inertia scaled to it.
+    """Sum the inertias of a link's collisions; a mass that is given is kept and the inertia scaled to it.
 
-    Shapes without a closed formula here weigh nothing, after a warning.
+    Shapes without a closed formula count as massless, with a warning.
     """
     report = context.report
     inertial = node.find("inertial")
@@ -33,7 +33,7 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
         bodies.append((mass, _pose(collision), (per_mass[0] * mass, per_mass[1] * mass, per_mass[2] * mass)))
     total = sum(mass for mass, _, _ in bodies)
     if not total > 0.0:
-        report.warn(node.at, f"link {link.name!r}: nothing to weigh automatically; 1 kg and 1 kg·m² are used")
+        report.warn(node.at, f"link {link.name!r}: no collision for an automatic inertia; 1 kg and 1 kg·m² are used")
         return Inertial()
     tensors = [
         (mass, pose.position, rotate_inertia((*moments, 0.0, 0.0, 0.0), pose.quaternion))
@@ -46,13 +46,13 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
 
 
 def _pose(collision: Collision) -> Pose:
-    if isinstance(collision.geometry, Cone):  # its centre of mass is a quarter of the height above its base
+    if isinstance(collision.geometry, Cone):  # centre of mass of a cone: a quarter of the height above its base
         return collision.link_from_collision @ Pose((0.0, 0.0, -collision.geometry.length / 4))
     return collision.link_from_collision
 
 
-def volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
-    """Volume [m³] and principal moments per unit of mass [m²] about the centre of mass."""
+def _volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
+    """Return volume [m³] and principal moments per unit mass [m²] about the centre of mass."""
     match geometry:
         case Box((x, y, z)):
             return x * y * z, ((y * y + z * z) / 12, (x * x + z * z) / 12, (x * x + y * y) / 12)
@@ -73,7 +73,7 @@ def volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
 
 
 def _capsule(r: float, h: float) -> tuple[float, Vector3]:
-    """A cylinder and two half spheres, whose centres of mass are 3/8 r from their flat sides."""
+    """Sum a cylinder and two hemispheres, whose centres of mass are 3/8 r from their flat sides."""
     cylinder, ball = math.pi * r * r * h, 4 / 3 * math.pi * r**3
     volume = cylinder + ball
     along = (cylinder * r * r / 2 + ball * 0.4 * r * r) / volume

@@ -1,4 +1,4 @@
-"""Reads <camera>: what a camera of any kind is made of."""
+"""Reader of <camera>, for cameras of every kind."""
 
 import math
 from collections.abc import Mapping
@@ -29,14 +29,14 @@ CAMERA_TYPES = WIDE | {
 """Sensor types with a <camera>."""
 _LARGEST_PX = 16384
 _MAX_PX = 1 << 25
-"""Of a whole picture."""
+"""Most pixels of an image."""
 _NARROWEST, _WIDEST_PINHOLE = 1e-6, 3.1
-"""[rad]"""
+"""Limits of a pinhole's field of view [rad]."""
 _FARTHEST_M = 1e30
 _MAX_BENT = 1e6
 _FOCAL_PX = (1e-3, 1e9)
 _BESIDE_PX = 1e6
-"""How far from the picture its middle may be, and how much it may be sheared."""
+"""Largest distance of the principal point from the image, and largest skew [px]."""
 _LENSES: Mapping[str, tuple[float, float, str]] = {
     "gnomonical": (1.0, 1.0, "tan"),
     "stereographic": (2.0, 2.0, "tan"),
@@ -48,7 +48,7 @@ _LENSES: Mapping[str, tuple[float, float, str]] = {
 
 
 def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraOptics, ...]:
-    """Read the sensor's <camera>; of a multicamera, all of them."""
+    """Read a sensor's <camera>, or all of them for a multicamera."""
     nodes = sensor.all("camera")
     if not nodes:
         context.report.warn(
@@ -60,7 +60,7 @@ def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraO
         for i, node in enumerate(nodes):
             name = node.attribute("name") or f"camera_{i}"
             if name in named:
-                context.report.warn(node.at, f"there is a camera {name!r} already; this one is called '{name}_{i}'")
+                context.report.warn(node.at, f"a second camera {name!r}; it is renamed '{name}_{i}'")
                 name = f"{name}_{i}"
             named[name] = replace(_read(node, type_, context), name=name)
         return tuple(named.values())
@@ -99,9 +99,9 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
         )
     node.attribute("name")
     if image is not None:
-        warn_ignored(image, ("anti_aliasing",), "is a wish to the renderer's quality, not to what is seen", context)
+        warn_ignored(image, ("anti_aliasing",), "sets the renderer's quality only", context)
     if depth is not None:
-        warn_ignored(depth, ("output",), "is not heeded: distances and points both are told", context)
+        warn_ignored(depth, ("output",), "has no effect: depths and points are both published", context)
     optics = _with_lens(_repaired(optics, node, type_, context), node.find("lens"), type_, context)
     for each in (node, image, clip, depth, depth_clip):
         if each is not None:
@@ -123,7 +123,7 @@ def _distortion(node: XmlNode | None, context: Context) -> Distortion:
     middle = None if center is None else center.as_numbers(2, report=report)
     node.report_unread(report)
     if max(map(abs, (k1, k2, k3, p1, p2, *(middle or ())))) > _MAX_BENT:
-        report.warn(node.at, f"coefficients and a center of more than {_MAX_BENT:g} show nothing; none are used")
+        report.warn(node.at, f"coefficients and a center beyond {_MAX_BENT:g} are not possible; no distortion is used")
         return Distortion()
     return Distortion(
         k1=k1, k2=k2, k3=k3, p1=p1, p2=p2, center=(0.5, 0.5) if middle is None else (middle[0], middle[1])
@@ -146,7 +146,7 @@ def _box_type(node: XmlNode, context: Context) -> str:
 
 
 def _one_of(node: XmlNode, tag: str, words: tuple[str, ...], context: Context) -> str:
-    """A child's word in lower case; the first of those there are where it is none of them."""
+    """Return a child's word in lower case, or the first valid one with a warning."""
     word = node.string(tag).lower() or words[0]
     if word not in words:
         context.report.warn(node.at, f"no {tag} {word!r}: {', '.join(words)}; {words[0]} is used")
@@ -155,7 +155,7 @@ def _one_of(node: XmlNode, tag: str, words: tuple[str, ...], context: Context) -
 
 
 def _repaired(optics: CameraOptics, node: XmlNode, type_: str, context: Context) -> CameraOptics:
-    """A camera that can make no picture becomes SDF's default one, aloud."""
+    """Replace impossible values by SDF's defaults, with a warning."""
     default, report = CameraOptics(), context.report
     width, height, fov = optics.width_px, optics.height_px, optics.horizontal_fov_rad
     if not (0 < width <= _LARGEST_PX and 0 < height <= _LARGEST_PX and width * height <= _MAX_PX):
@@ -183,7 +183,7 @@ def _with_lens(optics: CameraOptics, node: XmlNode | None, type_: str, context: 
     if node is None:
         return optics
     if type_ in WIDE:
-        warn_ignored(node, ("intrinsics",), "is nothing that a wide-angle camera has", context)
+        warn_ignored(node, ("intrinsics",), "does not apply to wide-angle cameras", context)
     else:
         wide = ("type", "scale_to_hfov", "custom_function", "cutoff_angle", "env_texture_size")
         warn_ignored(node, wide, "is for wide-angle cameras", context)

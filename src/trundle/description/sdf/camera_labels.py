@@ -1,4 +1,4 @@
-"""Reads what marks things for cameras that see more than colours: gz's Label and Thermal plugins."""
+"""Reader of labels and temperatures for segmentation and thermal cameras: gz's Label and Thermal plugins."""
 
 from msgspec.structs import replace
 
@@ -11,11 +11,11 @@ from .sensor import read_plugin
 
 _LARGEST_LABEL = 255
 _HOTTEST = 1e6
-"""[K]"""
+"""Largest temperature [K]."""
 
 
 def with_plugins(visual: Visual, nodes: list[XmlNode], context: Context) -> Visual:
-    """A visual with its plugins, of which Label and Thermal are read."""
+    """Return a visual with its plugins; Label and Thermal are applied."""
     plugins: list[PluginTag] = []
     for node in nodes:
         if _is(node, "label"):
@@ -36,7 +36,7 @@ def _temperature(node: XmlNode, report: Diagnostics) -> float | None:
 
 
 def labelled(model: Model, plugins: list[XmlNode], context: Context) -> Model:
-    """A model whose own Label plugin, if it has one, has marked each visual that has no label."""
+    """Return a model with its own Label plugin applied to every visual without a label."""
     labels = [_label(node, context.report) for node in plugins if is_label(node)]
     if not labels:
         return model
@@ -48,7 +48,7 @@ def labelled(model: Model, plugins: list[XmlNode], context: Context) -> Model:
 
 
 def is_label(node: XmlNode) -> bool:
-    """Whether a <plugin> gives labels."""
+    """True if a <plugin> is gz's Label."""
     return _is(node, "label")
 
 

@@ -1,4 +1,4 @@
-"""What every reader of one SDF file needs to know."""
+"""Shared context of reading one SDF file."""
 
 import itertools
 import math
@@ -17,35 +17,35 @@ from trundle.xmlnode import XmlNode
 from .version import Version
 
 DEEPEST = 2_000
-"""Elements within one another that are read; Gazebo has no bound. Nobody here goes down all of them."""
+"""Largest nesting depth; Gazebo has no limit. No reader here recurses to it."""
 
 
 class Context(Struct, frozen=True, kw_only=True):
-    """One file being read."""
+    """File being read."""
 
     version: Version
     folder: Path
-    """Of the file: relative URIs start here."""
+    """Folder of the file, the base of relative URIs."""
     packages: Packages
     report: Diagnostics
     including: tuple[Path, ...] = ()
-    """The files above this one, outermost first: a model that includes itself is found out."""
+    """Including files, outermost first, to detect cycles."""
     included: Iterator[int] = field(default_factory=itertools.count)
-    """Counts every <include> that is opened, in whichever file: models of ten parts of ten parts multiply."""
+    """Counter of all <include>s opened, across files, to bound exponential growth."""
     read_urdf: Callable[[Path, XmlNode], Model] | None = None
-    """Reads a <robot> that an <include> leads to, in its file."""
+    """Reads a <robot> found by an <include>, given its file."""
     seed: int = 0
-    """Of what is placed at random."""
+    """Seed of random placement."""
     ignored: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
-    """File, element and child of what `warn_unsupported` has named."""
+    """(file, element, child) already reported by `warn_ignored`."""
 
     def for_include(self, file: Path, version: Version) -> "Context":
-        """The context of a file that this one includes."""
+        """Return the context of an included file."""
         return replace(self, version=version, folder=file.parent, including=(*self.including, file))
 
 
 def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context) -> None:
-    """Name children that mean nothing here, once in a file; `why` follows their names."""
+    """Note ignored children, once per file; `why` follows the tag in the sentence."""
     for tag in tags:
         child, key = node.find(tag), (node.at.file, node.tag, tag)
         if child is not None and key not in context.ignored:
@@ -54,12 +54,12 @@ def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context)
 
 
 def read_bits(node: XmlNode, tag: str, context: Context, *, default: int = EVERY_BIT) -> int:
-    """Flags or a mask."""
+    """Return a child's bit mask."""
     return node.integer(tag, default=default, report=context.report) & EVERY_BIT
 
 
 class RawPose(Struct, frozen=True):
-    """A <pose> as written: where, and seen from which frame."""
+    """<pose> as written, with the frame it is relative to."""
 
     pose: Pose = Pose()
     relative_to: str | None = None
@@ -67,12 +67,12 @@ class RawPose(Struct, frozen=True):
 
 
 def read_pose(node: XmlNode, context: Context) -> RawPose:
-    """Read an element's <pose>; absent, it is the identity where the element is by default."""
+    """Return an element's <pose>, or the identity in its default frame."""
     child = node.find("pose")
     if child is None:
         return RawPose()
     relative_to, frame = child.attribute("relative_to"), child.attribute("frame")
-    # 1.5 and 1.6 called it `frame`; Gazebo 11 converts it to `relative_to` before it reads on, and from 1.7 on no more.
+    # SDF 1.5 and 1.6 named it `frame`; Gazebo 11 converts it to `relative_to` for versions below 1.7 only.
     if context.version < (1, 7):
         relative_to = relative_to if frame is None else frame
     elif frame:
@@ -89,7 +89,7 @@ def _numbers(child: XmlNode, context: Context) -> Pose:
         x, y, z, qx, qy, qz, qw = values
         length = math.hypot(qw, qx, qy, qz)
         if length == 0.0:
-            context.report.warn(child.at, "<pose>: a quaternion of zero length turns nothing; no rotation is used")
+            context.report.warn(child.at, "<pose>: a quaternion of zero length; no rotation is used")
             return Pose((x, y, z))
         return Pose((x, y, z), (qw / length, qx / length, qy / length, qz / length))
     if not degrees:

@@ -1,4 +1,4 @@
-"""Reads what is around the models: <physics>, <scene>, air, earth and wind."""
+"""Readers of the world environment: <physics>, <scene>, atmosphere, geographic position and wind."""
 
 from collections.abc import Mapping
 
@@ -11,16 +11,16 @@ from .context import Context, warn_ignored
 from .material import read_colour
 
 _COLDEST, _HOTTEST = 1.0, 1e6
-"""[K] That air may be at the ground."""
+"""Limits of the air temperature at the ground [K]."""
 _HIGHEST_M = 1e9
 _DENSEST = 1e15
-"""[Pa] Likewise."""
+"""Largest air pressure [Pa]."""
 _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
-"""The default before each version; 0.4 from 1.4 on."""
+"""Default before each version; 0.4 from 1.4 on."""
 
 
 def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
-    """The default <physics> profile, else the first."""
+    """Read the default <physics> profile, or the first."""
     report = context.report
     default = PhysicsSettings()
     profiles = world.all("physics")
@@ -44,7 +44,7 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     warn_ignored(
         node,
         ("max_contacts", "ode", "bullet", "simbody", "dart"),
-        "is for Gazebo's engines; the one here is MuJoCo, with settings of its own",
+        "is for Gazebo's engines; the engine here is MuJoCo",
         context,
     )
     if (node.attribute("type") or "ode") != "ode":
@@ -57,7 +57,7 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
 
 
 def _step(node: XmlNode, context: Context) -> float:
-    """The time step [s]; before SDF 1.4 it stood in the engine's own settings."""
+    """Return the time step [s], which before SDF 1.4 was part of the engine's settings."""
     default = PhysicsSettings().max_step_size_s
     if context.version < (1, 4) and node.find("max_step_size") is None:
         ode, bullet = node.find("ode"), node.find("bullet")
@@ -69,7 +69,7 @@ def _step(node: XmlNode, context: Context) -> float:
 
 
 def read_scene(world: XmlNode, context: Context) -> SceneSettings:
-    """How the world looks."""
+    """Read <scene>."""
     node = world.find("scene")
     report = context.report
     ambient = next((rgba for before, rgba in _AMBIENT.items() if context.version < before), SceneSettings().ambient)
@@ -115,7 +115,7 @@ def _fog(scene: XmlNode, context: Context) -> Fog:
 
 
 def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoordinates:
-    """Where on Earth the world is."""
+    """Read <spherical_coordinates>."""
     node = world.find("spherical_coordinates")
     if node is None:
         return SphericalCoordinates()
@@ -136,13 +136,13 @@ def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoo
 
 
 def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
-    """The air at the ground."""
+    """Read <atmosphere>."""
     node = world.find("atmosphere")
     if node is None:
         return Atmosphere()
     report, default, default_type = context.report, Atmosphere(), "adiabatic"
     if (node.attribute("type") or default_type) != default_type:
-        report.warn(node.at, f"no air of type {node.attribute('type')!r}; it is {default_type}")
+        report.warn(node.at, f"no atmosphere type {node.attribute('type')!r}; {default_type} is used")
     air = Atmosphere(
         temperature=node.number("temperature", default=default.temperature, report=report),
         pressure=node.number("pressure", default=default.pressure, report=report),

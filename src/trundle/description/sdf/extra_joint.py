@@ -1,4 +1,4 @@
-"""Reads a <joint> that stands outside its model, as in the tags of plugins that join links while the world runs."""
+"""Reader of a <joint> outside its model, as in tags of plugins that attach links at run time."""
 
 from pathlib import Path
 
@@ -13,14 +13,14 @@ from .model import JointElement
 from .version import Version
 
 _RULES = Version((1, 6))
-"""Gazebo converts nothing inside a plugin's tag: it reads it by its own version's rules."""
+"""Version of Gazebo 11, which does not convert the content of plugin tags."""
 
 
 def read_extra_joint(node: XmlNode, model: Model, report: Diagnostics) -> Joint | None:
-    """Read a joint between links of a model, or one and the world; None where it joins no two, which was said.
+    """Read a joint between links of a model, or a link and the world; None with a warning if it is unusable.
 
     Raises:
-        DescriptionError: it has no name or type, or names a link that is not there.
+        DescriptionError: it has no name or type, or names an unknown link.
     """
     folder = Path(node.at.file).parent
     context = Context(version=_RULES, folder=folder, packages=Packages({}, start=folder), report=report)

@@ -1,4 +1,4 @@
-"""Where the frames of a model or world are: each is written relative to another, and the chain ends at the root."""
+"""Frame graph of a model or world: poses relative to other frames, resolved to the root."""
 
 from msgspec import Struct, field
 
@@ -12,15 +12,15 @@ WORLD = "world"
 
 
 class Scope(Struct, frozen=True):
-    """The frames of a model that has been read, by the names its surroundings use after `model::`."""
+    """Frames of a model that has been read, by the names used outside after `model::`."""
 
     poses: dict[str, Pose]
     """model_from_frame"""
     links: dict[str, str]
-    """Frame → the link it moves with."""
+    """Frame → link it is attached to."""
 
     def inside(self, model: str) -> "Scope":
-        """What is in one of its nested models."""
+        """Return the scope of a nested model."""
         start = f"{model}::"
         return Scope(
             {
@@ -44,13 +44,13 @@ class _Entry(Struct):
 
 
 class FrameGraph(Struct):
-    """Links, joints, <frame>s and nested models of one model, or everything in a world, by name."""
+    """Graph of links, joints, <frame>s and nested models of a model or world, by name."""
 
     root: str
     """`__model__` or `world`."""
     report: Diagnostics
     canonical_link: str | None = None
-    """The link that what is attached to the model itself moves with, as far as that is known."""
+    """Link that frames attached to the model itself move with, if known."""
     _entries: dict[str, _Entry] = field(default_factory=dict[str, _Entry])
     _scopes: dict[str, Scope] = field(default_factory=dict[str, Scope])
     _resolved: dict[str, Pose] = field(default_factory=dict[str, Pose])
@@ -63,25 +63,25 @@ class FrameGraph(Struct):
         Args:
             name: unique among its siblings.
             raw: as written.
-            at: where.
-            default: what the pose is relative to where it names nothing; None: the root.
-            attached_to: the frame it moves with; None: itself, as a link.
+            at: source position.
+            default: frame of a pose without relative_to; None: the root.
+            attached_to: frame it is fixed to; None: itself, for a link.
         """
         self._entries[name] = _Entry(raw, at, default or self.root, name if attached_to is None else attached_to)
 
     def add_scope(self, name: str, scope: Scope) -> None:
-        """Make what is in a nested model known as `name::frame`; the model itself is added by `add`."""
+        """Add the frames of a nested model as `name::frame`; the model itself is added by `add`."""
         self._scopes[name] = scope
 
     def __contains__(self, name: str) -> bool:
         return name == self.root or name in self._entries or self._scoped(name) is not None
 
     def names(self) -> str:
-        """Everything there is, for a message."""
+        """Return all names, for a message."""
         return ", ".join(map(repr, self._entries)) or "none"
 
     def pose(self, name: str) -> Pose:
-        """root_from_frame of a name that is there; a chain that leads nowhere is named and cut."""
+        """Return root_from_frame of a known name; a broken or cyclic chain is cut with a warning."""
         chain: list[str] = []
         base = Pose()
         while name != self.root:
@@ -99,7 +99,7 @@ class FrameGraph(Struct):
                     self._report_cycle(chain[-1], f"no frame {name!r}; frames here: {self.names()}", last)
                 break
             if name in chain:
-                self._report_cycle(chain[0], f"it is placed relative to itself, by {' → '.join([*chain, name])}", entry)
+                self._report_cycle(chain[0], f"it is relative to itself, through {' → '.join([*chain, name])}", entry)
                 break
             chain.append(name)
             name = entry.raw.relative_to or entry.default
@@ -109,7 +109,7 @@ class FrameGraph(Struct):
         return base
 
     def pose_in(self, name: str, raw: RawPose, at: Source) -> Pose:
-        """frame_from_thing of something mounted on a frame, whose pose may be seen from another."""
+        """Return frame_from_thing of something mounted on a frame, whose pose may be relative to another."""
         if raw.relative_to is None:
             return raw.pose
         if raw.relative_to not in self:
@@ -119,7 +119,9 @@ class FrameGraph(Struct):
         return self.pose(name).inverse() @ self.pose(raw.relative_to) @ raw.pose
 
     def link(self, name: str) -> str | None:
-        """The link that a frame moves with; `world` and the root stand for themselves; None: there is none."""
+        """Return the link that a frame is attached to; `world` and the root return themselves; None if
+        there is none.
+        """
         seen: set[str] = set()
         while name not in (self.root, WORLD):
             if name in seen:
@@ -134,7 +136,7 @@ class FrameGraph(Struct):
         return name
 
     def scope(self) -> Scope:
-        """Everything here, for the surroundings; what is attached to nothing moves with the canonical link."""
+        """Return all frames for the enclosing scope; those attached to the root move with the canonical link."""
         poses = {self.root: Pose(), **{name: self.pose(name) for name in self._entries}}
         links = {name: link for name in poses if (link := self.link(name)) is not None}
         links = {name: self.canonical_link if link == self.root else link for name, link in links.items()}
@@ -153,7 +155,7 @@ class FrameGraph(Struct):
         return None
 
     def _scoped_link(self, name: str) -> str | None:
-        """`model::frame`, or the name of a nested model, which stands for its own frame."""
+        """Return the link of `model::frame`, or of a nested model by its name."""
         if name in self._scopes:
             inner = self._scopes[name].links.get(MODEL)
             return None if inner is None else f"{name}::{inner}"

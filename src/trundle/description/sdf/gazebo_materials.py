@@ -1,4 +1,4 @@
-"""The colours of Gazebo's named materials, as its Ogre scripts state them."""
+"""Colours of Gazebo's named materials, from its Ogre scripts."""
 
 from trundle.model import Material, Rgba
 
@@ -69,7 +69,7 @@ GAZEBO_MATERIALS: dict[str, Material] = {
     "Gazebo/Editor": _material((1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (0.1, 0.1, 0.1), _NONE),
     "Gazebo/EditorPlane": _material((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), (0.01, 0.01, 0.01), _NONE),
 }
-"""Name → colours. The *Transparent ones carry a green overlay in the scripts by mistake; here they are plain."""
+"""Name → colours. The *Transparent ones have a green overlay in the scripts by mistake, omitted here."""
 
 TEXTURED: dict[str, _Rgb] = {
     "Gazebo/Wood": (0.55, 0.35, 0.2),
@@ -101,4 +101,4 @@ TEXTURED: dict[str, _Rgb] = {
     "Gazebo/PioneerBody": (1.0, 0.0, 0.0),
     "Gazebo/WindowFrame": (0.5, 0.5, 0.5),
 }
-"""Names whose picture only Gazebo ships → a colour of about the same look, Trundle's own choice."""
+"""Materials whose texture only Gazebo ships → similar plain colour, chosen for Trundle."""

@@ -1,4 +1,4 @@
-"""Reads <geometry>."""
+"""Reader of <geometry>."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -29,7 +29,7 @@ _UNSUPPORTED = ("image", "voxel_grid")
 
 
 def read_geometry(owner: XmlNode, context: Context) -> Geometry:
-    """The shape of a visual or collision; none, after a warning, where it is none we have."""
+    """Return the shape of a visual or collision; Empty with a warning if it is unsupported."""
     node = owner.find("geometry")
     report = context.report
     if node is None:
@@ -87,7 +87,7 @@ def _plane(shape: XmlNode, context: Context) -> Plane:
     written = shape.vector("normal", default=(0.0, 0.0, 1.0), report=context.report)
     normal = normalized(written)
     if normal is None:
-        context.report.warn(shape.at, "<plane> with a normal of no length; 0 0 1 is used")
+        context.report.warn(shape.at, "<plane> with a normal of zero length; 0 0 1 is used")
         normal = (0.0, 0.0, 1.0)
     size = shape.find("size")
     values = None if size is None else size.as_numbers(2, report=context.report, fallback="1 1 is used")
@@ -117,7 +117,7 @@ def _heightmap(shape: XmlNode, context: Context) -> Geometry:
     if not uri:
         report.warn(shape.at, "<heightmap> without <uri>; it has no shape")
         return Empty()
-    warn_ignored(shape, ("use_terrain_paging",), "is for terrain that does not fit in memory", context)
+    warn_ignored(shape, ("use_terrain_paging",), "does not apply: terrain is kept in memory", context)
     return Heightmap(
         path=_path(uri, shape, context, "the terrain is left out"),
         uri=uri,
@@ -129,7 +129,7 @@ def _heightmap(shape: XmlNode, context: Context) -> Geometry:
 
 
 def _layers(shape: XmlNode, context: Context) -> tuple[TerrainLayer, ...]:
-    """Each <texture>, with the <blend> that lies between the layer below and it."""
+    """Read each <texture>, with the <blend> between it and the layer below."""
     report = context.report
     layers: list[TerrainLayer] = []
     blends = shape.all("blend")

@@ -1,4 +1,4 @@
-"""Reads <include>: a model from another file, with what is to be different about it."""
+"""Reader of <include>: a model from another file, with overrides."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,18 +21,18 @@ from .version import read_version
 
 _DEEPEST_INCLUDE = 16
 _MAX_INCLUDES = 5_000
-"""Files opened for one description; the published world of the most has 89."""
+"""Most files opened for one description; the largest published world has 89."""
 ReadModel: TypeAlias = Callable[[XmlNode, Context], UnplacedModel]
 
 
 def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | None:
-    """The root element that an <include> leads to; None, after a warning, where it leads nowhere, as in Gazebo.
+    """Return the root element of an included file; None with a warning if it is missing, as in Gazebo.
 
     Raises:
-        DescriptionError: there is no end of them.
+        DescriptionError: too many includes.
     """
     if next(context.included) >= _MAX_INCLUDES:
-        raise DescriptionError(node.at, f"more than {_MAX_INCLUDES} <include> in all, models within models")
+        raise DescriptionError(node.at, f"more than {_MAX_INCLUDES} <include>s in total")
     report = context.report
     uri = node.string("uri") or (node.attribute("filename") or "")
     if not uri:
@@ -51,7 +51,7 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
 def read_included_model(
     node: XmlNode, root: XmlNode, inner: Context, context: Context, read_model: ReadModel
 ) -> UnplacedModel | None:
-    """The model of an opened <include>; None where there is no model in it."""
+    """Return the model of an opened <include>; None if it contains none."""
     if root.tag == "robot" and inner.read_urdf is not None:
         try:
             robot = inner.read_urdf(inner.including[-1], root)
@@ -78,7 +78,7 @@ def _with_overrides(part: UnplacedModel, node: XmlNode, context: Context) -> Unp
         static=part.model.static if static is None else static.as_flag(default=False, report=context.report),
         plugins=(*part.model.plugins, *(read_plugin(tag) for tag in node.all("plugin"))),
     )
-    # A pose or placement of the model's own file is seen from nowhere here; Gazebo keeps its numbers.
+    # A pose or placement in the model's own file has no frame here; Gazebo keeps its numbers.
     raw = read_pose(node, context) if has_pose or placement else RawPose(part.raw.pose)
     merge = (node.attribute("merge") or "").lower() in ("true", "1")
     node.report_unread(context.report)
@@ -99,7 +99,7 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
 
 
 def _robot(model: Model, context: Context) -> UnplacedModel:
-    """A converted URDF, its links and frames known by their names."""
+    """Return a converted URDF with its links and frames as a scope."""
     graph = FrameGraph(MODEL, context.report, model.canonical_link)
     for link in model.links:
         graph.add(link.name, RawPose(link.model_from_link), link.at)

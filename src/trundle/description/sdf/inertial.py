@@ -1,4 +1,4 @@
-"""Reads <inertial>: what a link weighs and how it resists being turned."""
+"""Reader of <inertial>."""
 
 from trundle.model import Inertial
 from trundle.xmlnode import XmlNode
@@ -7,21 +7,21 @@ from .context import Context, read_pose, warn_ignored
 
 
 def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
-    """Read a link's <inertial> as written; what physics cannot use is mended there."""
+    """Read a link's <inertial> as written; physics replaces unusable values."""
     node = link.find("inertial")
     if node is None:
         return Inertial()
     report = context.report
     mass = node.number("mass", default=1.0, report=report)
     inertia = node.find("inertia")
-    pose = read_pose(node, context).pose  # seen from the link always, whatever the file says
-    warn_ignored(node, ("auto_inertia_params",), "is for calculators of one's own", context)
-    node.find("density")  # for automatic inertias, which read it themselves
+    pose = read_pose(node, context).pose  # always in the link frame, whatever the file says
+    warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)
+    node.find("density")  # read by automatic inertias
     node.attribute("auto")
     if inertia is None:
         report.info(
             node.at,
-            f"link {name!r}: {mass:g} kg without <inertia> turns like 1 kg·m² on every axis, as SDF says; rarely meant",
+            f"link {name!r}: {mass:g} kg without <inertia>; SDF's default of 1 kg·m² is used, rarely intended",
         )
         node.report_unread(report)
         return Inertial(mass=mass, link_from_com=pose)

@@ -1,4 +1,4 @@
-"""Reads what sensors other than cameras, rays and imus are set to."""
+"""Reader of settings of sensors other than cameras, rays, IMUs, GPS and force-torque sensors."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -24,7 +24,7 @@ _Read: TypeAlias = Callable[[XmlNode, Context], Instrument]
 
 
 def read_instrument(sensor: XmlNode, type_: str, context: Context) -> Instrument | None:
-    """Read the settings of a sensor; without any, SDF's defaults are taken. None: its type, as rfid, has none."""
+    """Read the settings of a sensor, or SDF's defaults. None for a type without any, such as rfid."""
     if type_ not in _READERS:
         return None
     tag, default, read = _READERS[type_]
@@ -43,7 +43,7 @@ def _logical_camera(node: XmlNode, context: Context) -> LogicalCamera:
     ratio = node.number("aspect_ratio", default=default.aspect_ratio, report=report)
     fov = node.number("horizontal_fov", default=default.horizontal_fov_rad, report=report)
     if not 0.0 <= near < far:
-        report.warn(node.at, f"near {near:g}, far {far:g} hold nothing; 0 and 1 are used")
+        report.warn(node.at, f"near {near:g}, far {far:g} is not possible; 0 and 1 are used")
         near, far = default.near_m, default.far_m
     if not 0.0 < fov < math.pi or not ratio > 0.0:
         what = f"horizontal_fov {fov:g} rad with aspect_ratio {ratio:g}"
@@ -105,7 +105,7 @@ def _air_speed(node: XmlNode, context: Context) -> AirSpeed:
 
 
 def _inner(node: XmlNode, tag: str, context: Context) -> Noise:
-    """The noise of one quantity."""
+    """Return the noise of one quantity."""
     quantity = node.find(tag)
     return Noise() if quantity is None else read_noise(quantity.find("noise"), context)
 
@@ -120,4 +120,4 @@ _READERS: Mapping[str, tuple[str, Instrument, _Read]] = {
     "wireless_receiver": ("transceiver", Transceiver(), _transceiver),
     "wireless_transmitter": ("transceiver", Transceiver(), _transceiver),
 }
-"""Type → the element with its settings, what it is without, what reads it."""
+"""Type → settings element, default, reader."""

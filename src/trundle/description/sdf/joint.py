@@ -1,4 +1,4 @@
-"""Reads <joint>: SDF 1.0 to 1.4 write axes in the model frame, later ones in the joint's or in the one they name."""
+"""Reader of <joint>: SDF 1.0 to 1.4 give axes in the model frame, later versions in the joint's or a named frame."""
 
 import math
 from collections.abc import Callable
@@ -15,9 +15,9 @@ from .sensor import read_sensor
 _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _TWO_AXES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX})
 TYPES = {"continuous": JointType.REVOLUTE} | {each.value: each for each in JointType if each is not JointType.PLANAR}
-"""By the word a file has for it."""
+"""Name in the file → type."""
 FrameOf: TypeAlias = Callable[[str], Pose | None]
-"""model_from_frame by name; "" is the joint's own frame."""
+"""Returns model_from_frame by name; "" is the joint frame."""
 
 
 def read_joint(
@@ -30,15 +30,15 @@ def read_joint(
     graph: FrameGraph,
     context: Context,
 ) -> Joint:
-    """Read one joint whose links and pose have been found.
+    """Read a joint whose links and pose are resolved.
 
     Args:
         node: the element.
         parent: link, or "world".
         child: link.
-        child_from_joint: the joint's frame.
-        frame: for `expressed_in`.
-        graph: for the poses of its sensors.
+        child_from_joint: the joint frame.
+        frame: resolves `expressed_in`.
+        graph: resolves the poses of its sensors.
         context: the file.
     """
     report = context.report
@@ -67,7 +67,7 @@ def read_joint(
 
 
 def _thread_pitch(node: XmlNode, context: Context) -> float:
-    """Gazebo's [rad/m]; SDF 1.10 brought metres a turn of a right-hand thread beside it."""
+    """Return the thread pitch in Gazebo's convention [rad/m]; SDF 1.10 added metres per turn of a right-hand thread."""
     per_turn = node.number("screw_thread_pitch", default=0.0, report=context.report)
     if per_turn:
         node.find("thread_pitch")
@@ -106,7 +106,7 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, 
         mimic=_mimic(node, context),
     )
     if axis.initial_position:
-        report.info(node.at, f"joint {name!r} starts at its <initial_position>, which Gazebo does not heed")
+        report.info(node.at, f"joint {name!r} starts at its <initial_position>, which Gazebo ignores")
     for each in (node, limit, dynamics):
         if each is not None:
             each.report_unread(report)
@@ -130,18 +130,18 @@ def _mimic(axis: XmlNode, context: Context) -> Mimic | None:
 
 
 def _unit(node: XmlNode, name: str, context: Context) -> Vector3:
-    """The axis as written, unit."""
+    """Return the axis direction as written, normalised."""
     unit = normalized(node.vector("xyz", default=(0.0, 0.0, 1.0), report=context.report))
     if unit is None:
-        context.report.warn(node.at, f"joint {name!r}: an axis of no length; 0 0 1 is used")
+        context.report.warn(node.at, f"joint {name!r}: an axis of zero length; 0 0 1 is used")
     return unit or (0.0, 0.0, 1.0)
 
 
 def _expressed_in(node: XmlNode, name: str, frame: FrameOf, root: str, context: Context) -> str:
-    """The frame an axis is written in; "" is the joint's own.
+    """Return the frame in which an axis is given; "" is the joint frame.
 
     Gazebo 11 converts every version to 1.7: 1.4's rule and a true <use_parent_model_frame> become
-    expressed_in="__model__", and otherwise an `expressed_in` means what it says in every version.
+    expressed_in="__model__"; otherwise `expressed_in` has its meaning in every version.
     """
     report = context.report
     xyz = node.find("xyz")
@@ -166,7 +166,7 @@ def _seen_from(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3
 
 
 def _number(node: XmlNode, tag: str, default: float, context: Context) -> float:
-    """A number that may be infinite: SDF 1.10 and later write limits so."""
+    """Return a number that may be infinite, as limits are in SDF 1.10 and later."""
     child = node.find(tag)
     if child is not None and child.text.lower() in ("inf", "+inf", "-inf", "infinity", "-infinity"):
         return float(child.text)
@@ -178,5 +178,5 @@ def _limit(value: float) -> float:
 
 
 def _positive(value: float) -> float:
-    """−1 stands for none."""
+    """Return infinity for negative values (−1 is SDF's unlimited)."""
     return math.inf if value < 0 or value >= UNLIMITED else value

@@ -1,4 +1,4 @@
-"""The middles of groups of points that lie close together: Lloyd's k-means."""
+"""Lloyd's k-means clustering."""
 
 import random
 from collections.abc import Sequence
@@ -9,12 +9,12 @@ _MAX_ROUNDS = 100
 
 
 def kmeans_centers(points: Sequence[Vector3], count: int, chance: random.Random) -> list[Vector3]:
-    """So many middles, spread as evenly as the points are.
+    """Return cluster centres that are spread as evenly as the points.
 
     Args:
-        points: (N, 3); fewer than `count` are used over and over.
-        count: of groups.
-        chance: picks where the groups start.
+        points: (N, 3); reused cyclically if fewer than `count`.
+        count: number of clusters.
+        chance: random generator of the initial centres.
     """
     import numpy as np
 
@@ -24,7 +24,7 @@ def kmeans_centers(points: Sequence[Vector3], count: int, chance: random.Random)
     middles = cloud[chance.sample(range(len(cloud)), count)]
     nearest = np.zeros(0, dtype=np.int64)
     for _ in range(_MAX_ROUNDS):
-        # |p − m|² without |p|², which is the same for every middle
+        # |p − m|² without |p|², which is the same for every centre
         distances = (middles**2).sum(axis=1) - 2.0 * cloud @ middles.T
         found = distances.argmin(axis=1)
         if np.array_equal(found, nearest):

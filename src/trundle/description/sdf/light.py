@@ -1,4 +1,4 @@
-"""Reads <light>: directional, point or spot."""
+"""Reader of <light>: directional, point or spot."""
 
 from msgspec.structs import replace
 
@@ -14,12 +14,12 @@ _TYPES: dict[str, LightType] = {"directional": "directional", "point": "point", 
 
 
 def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Light:
-    """Read one light, placed in its owner's frame: a link's, or the world's."""
+    """Read one light, posed in its owner's frame: a link's, or the world's."""
     report = context.report
     default = Light(name="", type="point", at=node.at)
     written = node.attribute("type") or "point"
     if written not in _TYPES:
-        report.warn(node.at, f"no light type {written!r}; types: {', '.join(_TYPES)}; it is taken for a point light")
+        report.warn(node.at, f"no light type {written!r}; types: {', '.join(_TYPES)}; point is used")
     direction = normalized(node.vector("direction", default=default.direction, report=report))
     attenuation, spot = node.find("attenuation"), node.find("spot")
 
@@ -47,7 +47,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
     if not node.flag("light_on", default=True, report=report):
         report.info(node.at, f"light {light.name!r} is off")
         light = replace(light, intensity=0.0)
-    warn_ignored(node, ("visualize",), "is for the window, where lights are not drawn", context)
+    warn_ignored(node, ("visualize",), "has no effect: lights are not drawn", context)
     for each in (node, attenuation, spot):
         if each is not None:
             each.report_unread(report)

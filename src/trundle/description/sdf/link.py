@@ -1,4 +1,4 @@
-"""Reads <link>: what is seen, touched, weighed and mounted."""
+"""Reader of <link>: visuals, collisions, inertia, sensors and lights."""
 
 from msgspec.structs import replace
 
@@ -42,7 +42,7 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
     inertial = node.find("inertial")
     if inertial is not None and (inertial.attribute("auto") or "").lower() in ("true", "1"):
         link = replace(link, inertial=inertial_of_collisions(link, node, context))
-    warn_ignored(node, ("must_be_base_link",), "tells Simbody where to cut a loop", context)
+    warn_ignored(node, ("must_be_base_link",), "is for Simbody", context)
     node.report_unread(report)
     return link
 
@@ -64,7 +64,7 @@ def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) 
 
 
 def with_appearance(visual: Visual, node: XmlNode, context: Context) -> Visual:
-    """A visual with all that a <visual> says of it besides its place, shape and material."""
+    """Return a visual with the properties of <visual> other than pose, shape and material."""
     report = context.report
     visual = replace(
         visual,
@@ -88,8 +88,8 @@ def _read_collision(node: XmlNode, link: str, graph: FrameGraph, context: Contex
         surface=read_surface(node, context),
         laser_retro=node.number("laser_retro", default=0.0, report=context.report),
     )
-    warn_ignored(node, ("max_contacts",), "is ODE's; MuJoCo makes as many contacts as the shapes need", context)
-    warn_ignored(node, ("auto_inertia_params",), "is for calculators of one's own", context)
-    node.find("density")  # for automatic inertias, which read it themselves
+    warn_ignored(node, ("max_contacts",), "is for ODE; MuJoCo creates as many contacts as needed", context)
+    warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)
+    node.find("density")  # read by automatic inertias
     node.report_unread(context.report)
     return collision

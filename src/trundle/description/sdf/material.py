@@ -1,4 +1,4 @@
-"""Reads <material>: colours given outright, a Gazebo material by name, or the image of <pbr>."""
+"""Reader of <material>: explicit colours, a named Gazebo material, or the texture of <pbr>."""
 
 from pathlib import Path
 
@@ -12,18 +12,18 @@ from .context import Context, warn_ignored
 from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
 
 _WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
-"""What an image is tinted with where nothing else is said."""
+"""Default tint of a texture."""
 
 
 def read_material(visual: XmlNode, context: Context) -> Material:
-    """The colours of a visual; those written out override the named script's."""
+    """Return the material of a visual; explicit colours override the named script's."""
     node = visual.find("material")
     if node is None:
         return GREY
     script = node.find("script")
     base = GREY
     if script is not None:
-        name = script.string("name") or script.text  # SDF 1.0 has the name as the text
+        name = script.string("name") or script.text  # SDF 1.0 has the name as text
         base = named_material(name, script, context)
         script.report_unread(context.report)
     image = _albedo(node, context)
@@ -43,7 +43,7 @@ def read_material(visual: XmlNode, context: Context) -> Material:
 
 
 def _albedo(material: XmlNode, context: Context) -> Path | None:
-    """The image of <pbr> that gives the colours; what else it says is for renderers of another kind."""
+    """Return the albedo texture of <pbr>; its other maps are not drawn."""
     pbr = material.find("pbr")
     if pbr is None:
         return None
@@ -64,7 +64,7 @@ def _albedo(material: XmlNode, context: Context) -> Path | None:
 
 
 def named_material(name: str, node: XmlNode, context: Context) -> Material:
-    """A material of Gazebo's, or of the scripts that the <uri>s name; an unknown one is grey, after a warning."""
+    """Return a material of Gazebo's or of the scripts in the <uri>s; grey with a warning if unknown."""
     if name in GAZEBO_MATERIALS:
         node.all("uri")
         return GAZEBO_MATERIALS[name]
@@ -82,7 +82,7 @@ def named_material(name: str, node: XmlNode, context: Context) -> Material:
 
 
 def read_colour(node: XmlNode, tag: str, default: Rgba, context: Context) -> Rgba:
-    """A child's r g b a, each held to 0…1."""
+    """Return a child's r g b a, each clamped to 0…1."""
     child = node.find(tag)
     if child is None:
         return default
@@ -90,7 +90,7 @@ def read_colour(node: XmlNode, tag: str, default: Rgba, context: Context) -> Rgb
     if len(values) == 3:
         values.append(1.0)
     if len(values) != 4:
-        context.report.warn(child.at, f"<{tag}> wants r g b a, got {child.text!r}; the default is used")
+        context.report.warn(child.at, f"<{tag}> needs r g b a, got {child.text!r}; the default is used")
         return default
     r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
     return (r, g, b, a)

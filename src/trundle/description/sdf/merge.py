@@ -1,4 +1,4 @@
-"""Dissolves an included model in the model or world around it: <include merge="true">."""
+"""Merging of an included model into its parent: <include merge="true">."""
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -12,14 +12,14 @@ from .unplaced_model import UnplacedModel
 
 
 class MergedModel(Struct, frozen=True):
-    """A model whose parts have become known as the outer model's, or the world's."""
+    """Model whose parts are merged into the outer model or the world."""
 
     part: UnplacedModel
     frame: str
-    """What stands for the lost model's frame."""
+    """Name of the frame that replaces the merged model's."""
 
     def merge_into(self, outer: Model, graph: FrameGraph) -> Model:
-        """The outer model with everything of the inner one added."""
+        """Return the outer model with the inner one's parts added."""
         inner = self.part.model
         turn = graph.pose(self.frame)
         frame = Frame(
@@ -39,7 +39,7 @@ class MergedModel(Struct, frozen=True):
 
 
 def merge_model(part: UnplacedModel, graph: FrameGraph) -> MergedModel:
-    """Make everything in a model known by its own names, relative to a frame that stands for the model."""
+    """Add the frames of a model to the outer graph under their own names, relative to a proxy frame for the model."""
     frame = f"_merged__{part.model.name}__model__"
     graph.add(frame, part.placed(graph), part.model.at, attached_to=part.model.canonical_link or graph.root)
     for each, pose in part.scope.poses.items():

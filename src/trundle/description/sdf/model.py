@@ -1,4 +1,4 @@
-"""Reads <model>: links, joints, frames and nested models, with every pose resolved to the model's frame."""
+"""Reader of <model>: links, joints, frames and nested models, with all poses resolved to the model frame."""
 
 from collections.abc import Iterable
 
@@ -20,15 +20,14 @@ from .sensor import read_plugin
 from .unplaced_model import UnplacedModel
 
 _DEEPEST = 200
-"""Models within models."""
+"""Largest nesting depth of models."""
 
 
 def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel:
-    """Read one model, nested and included ones with it.
+    """Read one model with its nested and included models.
 
     Raises:
-        DescriptionError: a name is missing, a joint names no link, or models are nested deeper than any honest file
-            has them.
+        DescriptionError: a name is missing, a joint names an unknown link, or models are nested too deeply.
     """
     if depth > _DEEPEST:
         raise DescriptionError(node.at, f"models nested more than {_DEEPEST} deep")
@@ -59,7 +58,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
         model = each.merge_into(model, graph)
     model = replace(model, canonical_link=graph.canonical_link)
     if model.canonical_link is None and not model.static:
-        context.report.warn(node.at, f"model {name!r} has no links; nothing of it can move")
+        context.report.warn(node.at, f"model {name!r} has no links and cannot move")
     raw = read_pose(node, context)
     if node.attribute("namespace"):
         context.report.info(node.at, f"attribute 'namespace' of model {name!r} is not supported; it is ignored")
@@ -69,7 +68,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
 
 
 def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) -> dict[str, XmlNode]:
-    """The <link>s of a model by name, made known with their poses."""
+    """Return the <link>s of a model by name, and add their frames."""
     links: dict[str, XmlNode] = {}
     for child in nodes:
         name = child.required_attribute("name")
@@ -86,7 +85,7 @@ def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) 
 def _nested(
     node: XmlNode, graph: FrameGraph, context: Context, depth: int
 ) -> tuple[list[UnplacedModel], list[MergedModel]]:
-    """Models in this one, in file order, and those that dissolve in it."""
+    """Return the nested models in file order, and those to be merged."""
     parts: list[UnplacedModel] = []
     dissolved: list[MergedModel] = []
     for child in node.children:
@@ -98,7 +97,7 @@ def _nested(
                 child, root, inner, context, lambda model, within: read_model(model, within, depth + 1)
             )
             if found is None:
-                context.report.warn(child.at, "no <model> in what this <include> leads to; it is left out")
+                context.report.warn(child.at, "no <model> in the included file; it is left out")
                 continue
             part = found
         else:
@@ -116,12 +115,12 @@ def _nested(
 
 
 def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Frame]:
-    """The <frame>s of a model or world, made known but not yet placed."""
+    """Read the <frame>s of a model or world, not yet posed."""
     frames: list[Frame] = []
     for child in node.all("frame"):
         name = child.required_attribute("name")
         if name in graph:
-            context.report.warn(child.at, f"a second thing named {name!r} here; this <frame> is left out")
+            context.report.warn(child.at, f"the name {name!r} is taken; this <frame> is left out")
             continue
         attached_to = child.attribute("attached_to") or graph.root
         graph.add(name, read_pose(child, context), child.at, default=attached_to, attached_to=attached_to)
@@ -137,7 +136,7 @@ def _canonical(
     dissolved: Iterable[MergedModel],
     graph: FrameGraph,
 ) -> str | None:
-    """The link a model rides on: the one it names, else its first, its own before those of nested models."""
+    """Return the canonical link: the named one, else the first, own links before those of nested models."""
     named = node.attribute("canonical_link")
     if named:
         if named in graph and (link := graph.link(named)) not in (None, MODEL):
@@ -151,14 +150,14 @@ def _canonical(
 
 
 class JointElement:
-    """A <joint> whose ends are known but whose place is not."""
+    """<joint> whose links are known but whose pose is not."""
 
     def __init__(self, node: XmlNode, graph: FrameGraph, context: Context) -> None:
         self._node = node
         self._name = node.required_attribute("name")
         self._raw = read_pose(node, context)
         self._ends = [_end(node, tag) for tag in ("parent", "child")]
-        # Before SDF 1.7 a joint may be called like a link, and then it is no frame to refer to.
+        # Before SDF 1.7 a joint may have a link's name, and then it is not a frame.
         self._frame = f"joint {self._name}" if self._name in graph else self._name
         self.is_sound = self._frame not in graph and self._has_known_type(graph) and self._has_two_links(graph)
         if not self.is_sound:
@@ -176,10 +175,10 @@ class JointElement:
         who = f"joint {self._name!r}"
         for tag, end in zip(("parent", "child"), self._ends, strict=True):
             if not end:
-                why = f"{who} has no <{tag}>, for which Gazebo refuses the whole file"
+                why = f"{who} has no <{tag}>; Gazebo refuses the whole file"
             elif end != WORLD and end not in graph:
                 why = f"{who}: no link {end!r}; links here: {graph.names()}"
-                if "::" not in end:  # else it reaches into a model whose <include> was left out
+                if "::" not in end:  # otherwise it refers to a model whose <include> was left out
                     raise DescriptionError(self._node.at, why)
             else:
                 continue
@@ -187,17 +186,17 @@ class JointElement:
             return False
         parent, child = (_link(end, graph) for end in self._ends)
         if parent == child:
-            graph.report.warn(self._node.at, f"{who} joins {parent!r} to itself; the joint is left out")
+            graph.report.warn(self._node.at, f"{who} connects {parent!r} to itself; the joint is left out")
         return parent != child
 
     def add_to(self, graph: FrameGraph) -> None:
-        """Make the joint's frame known: it is where its child is."""
+        """Add the joint's frame, which is relative to its child."""
         child = self._ends[1]
         default = graph.root if child == WORLD else child
         graph.add(self._frame, self._raw, self._node.at, default=default, attached_to=default)
 
     def read(self, graph: FrameGraph, context: Context) -> Joint:
-        """Read the rest."""
+        """Read the joint."""
         written_parent, written_child = self._ends
         parent, child = _link(written_parent, graph), _link(written_child, graph)
         model_from_joint = graph.pose(self._frame)
@@ -225,13 +224,13 @@ class JointElement:
 
 
 def _end(node: XmlNode, tag: str) -> str:
-    """A joint's parent or child; SDF 1.0 writes it as an attribute."""
+    """Return a joint's parent or child, which SDF 1.0 writes as an attribute."""
     child = node.find(tag)
     return "" if child is None else child.text or (child.attribute("link") or "")
 
 
 def _link(name: str, graph: FrameGraph) -> str:
-    """The link that an end of a joint moves with; what moves with the model, with the link the model rides on."""
+    """Return the link of a joint's parent or child; the model frame stands for its canonical link."""
     link = graph.link(name)
     if link == MODEL:
         link = graph.canonical_link

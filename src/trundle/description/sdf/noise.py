@@ -1,4 +1,4 @@
-"""Reads <noise>."""
+"""Reader of <noise>."""
 
 from trundle.model import Noise
 from trundle.xmlnode import XmlNode
@@ -6,12 +6,12 @@ from trundle.xmlnode import XmlNode
 from .context import Context
 
 _LOUDEST = 1e15
-"""In whatever unit."""
+"""Largest noise parameter, in any unit."""
 _TYPES = ("gaussian", "gaussian_quantized", "none")
 
 
 def read_noise(node: XmlNode | None, context: Context) -> Noise:
-    """Gaussian noise; every other type is none."""
+    """Read Gaussian noise; other types are none."""
     if node is None:
         return Noise()
     report = context.report

@@ -1,7 +1,7 @@
-"""Reads <experimental:params> of an <include>: what is to be different inside the included model.
+"""Reader of <experimental:params> in an <include>: changes inside the included model.
 
-Each child names an element of the model by tag and path (`element_id="link::sensor"`) and says what becomes of it, or
-its own children say so: add, modify, remove or replace, by the rules of libsdformat's parameter passing.
+Each child names an element of the model by tag and path (`element_id="link::sensor"`) and an action for it or for its
+children: add, modify, remove or replace, by the rules of libsdformat's parameter passing.
 """
 
 from trundle.diagnostics import Diagnostics
@@ -12,7 +12,7 @@ _ACTIONS = ("add", "modify", "remove", "replace")
 
 
 def apply_params(include: XmlNode, model: XmlNode, report: Diagnostics) -> None:
-    """Change a model's tree before it is read."""
+    """Change a model's XML before it is read."""
     for params in include.all("experimental:params"):
         for change in params.children:
             path = change.attribute("element_id")
@@ -38,12 +38,12 @@ def _change(change: XmlNode, model: XmlNode, path: list[str], report: Diagnostic
         else:
             _act(action, change, found, parent, report)
         return
-    told = "::".join(path)
-    report.warn(change.at, f"<experimental:params>: no <{change.tag}> {told!r} in the included model; it is left out")
+    name = "::".join(path)
+    report.warn(change.at, f"<experimental:params>: no <{change.tag}> {name!r} in the included model; it is left out")
 
 
 def _change_part(change: XmlNode, parent: XmlNode, report: Diagnostics) -> None:
-    """One of the children of a changed element, each with an action of its own."""
+    """Apply one child of a changed element, which has its own action."""
     action = change.attribute("action") or ""
     if action == "add":
         _add(parent, change)
@@ -70,7 +70,7 @@ def _act(action: str, change: XmlNode, found: XmlNode, parent: XmlNode, report: 
             _modify(found, change, report)
         case _:
             known = ", ".join(_ACTIONS)
-            report.warn(change.at, f"<{change.tag}>: action {action!r} is none of {known}; it is left out")
+            report.warn(change.at, f"<{change.tag}>: action {action!r} is unknown; actions: {known}; it is left out")
 
 
 def _add(parent: XmlNode, what: XmlNode) -> None:
@@ -79,7 +79,7 @@ def _add(parent: XmlNode, what: XmlNode) -> None:
 
 
 def _modify(found: XmlNode, change: XmlNode, report: Diagnostics) -> None:
-    """Take over values of what is there already."""
+    """Overwrite existing values."""
     found.merge_values(change, report)
     found.drop_attributes(*_OWN)
     for part in change.children:
@@ -91,7 +91,7 @@ def _modify(found: XmlNode, change: XmlNode, report: Diagnostics) -> None:
 
 
 def _element(model: XmlNode, path: list[str], tag: str | None) -> XmlNode | None:
-    """What a path of names leads to; its last one bears the tag."""
+    """Return the element at a path of names; the last one must have the tag."""
     node: XmlNode | None = model
     for i, name in enumerate(path):
         last = i == len(path) - 1

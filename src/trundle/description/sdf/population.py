@@ -1,8 +1,7 @@
-"""Reads <population>: one model, many times, where a rule or chance puts them.
+"""Reader of <population>: copies of a model, placed by a pattern or at random.
 
-Chance comes from the seed and the population's name, so that the same seed gives the same world. The rules are
-Gazebo's, of which two may surprise: a region's corner is moved to its middle before it is turned, and rows begin at
-the edge and end one step before the other.
+Random numbers come from the seed and the population's name. The patterns are Gazebo's, two of which may surprise: a
+region's corner is offset from its centre before rotation, and rows start at one edge and end one step before the other.
 """
 
 import math
@@ -20,17 +19,17 @@ from .kmeans import kmeans_centers
 from .unplaced_model import UnplacedModel
 
 _MOST = 1_000
-"""Models of one population; more than any machine moves."""
+"""Most models of one population."""
 _SAMPLES = 10_000
 _SPACING = 0.1
-"""[m] Of the points that an even distribution is made from."""
+"""Spacing of the samples for a uniform distribution [m]."""
 _Places: TypeAlias = list[Vector3]
 
 
 def read_population(
     node: XmlNode, read_model: Callable[[XmlNode, Context], UnplacedModel], context: Context
 ) -> list[UnplacedModel]:
-    """The models of one <population>, each in its place; none, after a warning, where it makes no sense."""
+    """Return the posed models of a <population>; none with a warning if it is invalid."""
     report = context.report
     name = node.attribute("name") or ""
     template = node.find("model")
@@ -56,7 +55,7 @@ def read_population(
 
 
 class _Region:
-    """What a population fills, and how."""
+    """Region and distribution of a population."""
 
     def __init__(self, node: XmlNode, context: Context) -> None:
         report = context.report
@@ -82,7 +81,7 @@ class _Region:
 
     @property
     def corner(self) -> Vector3:
-        """Where places are counted from, seen from the population's pose and not turned with it."""
+        """Corner of the region, relative to the population's pose and not rotated with it."""
         if self.kind == "grid":
             return (-self.step[0] * (self.columns - 1) / 2, -self.step[1] * (self.rows - 1) / 2, 0.0)
         if self.size is not None:
@@ -90,7 +89,7 @@ class _Region:
         return (0.0, 0.0, 0.0)
 
     def places(self, chance: random.Random) -> _Places | str:
-        """The places, or why there are none."""
+        """Return the positions, or the reason why there are none."""
         count = self.rows * self.columns if self.kind == "grid" else self.count
         if not (0 < count <= _MOST and self.rows > 0 and self.columns > 0):
             return f"{count} models; 1 to {_MOST} are possible"
@@ -99,9 +98,9 @@ class _Region:
             return [(sx * column, sy * row, 0.0) for row in range(self.rows) for column in range(self.columns)]
         extent = self.size or self.round
         if extent is None:
-            return "no <box> or <cylinder> to fill"
+            return "no <box> or <cylinder>"
         if not all(math.isfinite(length) and length > 0.0 for length in extent):
-            return "its <box> or <cylinder> has no inside"
+            return "its <box> or <cylinder> has no volume"
         match self.kind:
             case "random":
                 return [self._random_point(chance) for _ in range(count)]
@@ -121,7 +120,7 @@ class _Region:
         return (away * math.cos(angle), away * math.sin(angle), chance.uniform(0, length))
 
     def _samples(self, chance: random.Random) -> _Places:
-        """Points that fill the region; of a box a grid, with chance for the height."""
+        """Return points that fill the region; for a box a horizontal grid with random heights."""
         if self.size is None:
             return [self._random_point(chance) for _ in range(_SAMPLES)]
         width, depth, height = self.size

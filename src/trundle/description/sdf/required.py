@@ -1,4 +1,4 @@
-"""Attributes that SDF requires: Gazebo refuses a file where one is missing or empty; here it is read with a warning."""
+"""Check of attributes that SDF requires: Gazebo refuses a file without them; here they are a warning."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.xmlnode import XmlNode
@@ -15,14 +15,14 @@ _REQUIRED = {
     "joint": {"sensor": _NAME_TYPE},
     "gazebo": {"sensor": _NAME_TYPE},
 }
-"""Element → its children and what each must have; what stops our reading as well is not here."""
+"""Element → its children and their required attributes, apart from those that are errors here as well."""
 _HOLDERS = {*_REQUIRED, "sensor", "visual", "actor", "population"}
 """Elements with such children or with plugins."""
 _PLUGIN, _PLUGIN_FROM_1_10 = ("name", "filename"), ("filename",)
 
 
 def name_missing_attributes(root: XmlNode, version: Version, report: Diagnostics) -> None:
-    """Warn of each attribute that is missing or empty below a root element or a URDF's <gazebo> block."""
+    """Warn of each missing or empty attribute below a root element or a URDF's <gazebo> block."""
     plugin = _PLUGIN if version < (1, 10) else _PLUGIN_FROM_1_10
     pending = [root]
     while pending:
@@ -34,6 +34,6 @@ def name_missing_attributes(root: XmlNode, version: Version, report: Diagnostics
                 value = child.attribute(attribute)
                 if value is None or not value.strip():
                     fault = f"without {attribute!r}" if value is None else f"with an empty {attribute!r}"
-                    report.warn(child.at, f"<{tag}> {fault}, for which Gazebo refuses the whole file")
+                    report.warn(child.at, f"<{tag}> {fault}; Gazebo refuses the whole file")
             if tag in _HOLDERS:
                 pending.append(child)

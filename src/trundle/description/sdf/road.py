@@ -1,4 +1,4 @@
-"""Reads <road>."""
+"""Reader of <road>."""
 
 from trundle.model import Road
 from trundle.spatial import Vector3
@@ -11,7 +11,7 @@ _DEFAULT = "Gazebo/Road"
 
 
 def read_road(node: XmlNode, context: Context) -> Road | None:
-    """Read one <road>; None, after a warning, where its points make no line."""
+    """Read one <road>; None with a warning if its points form no line."""
     report = context.report
     name = node.required_attribute("name")
     points: list[Vector3] = []
@@ -24,6 +24,6 @@ def read_road(node: XmlNode, context: Context) -> Road | None:
     material = read_material(node, context) if has_material else named_material(_DEFAULT, node, context)
     node.report_unread(report)
     if len(points) < 2 or not width > 0.0:
-        report.warn(node.at, f"<road> {name!r} wants two points and a width > 0 m; it is left out")
+        report.warn(node.at, f"<road> {name!r} needs two points and a width > 0 m; it is left out")
         return None
     return Road(name=name, at=node.at, points=tuple(points), width=width, material=material)

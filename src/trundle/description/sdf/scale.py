@@ -1,4 +1,4 @@
-"""Stretches what is on the links of a model, as a saved <scale> asks."""
+"""Scaling of a model's shapes by a saved <scale>."""
 
 import math
 
@@ -25,11 +25,11 @@ from trundle.spatial import Vector3
 
 
 def scaled_model(model: Model, scale: Vector3, at: Source, report: Diagnostics) -> Model:
-    """Every visual and collision of the model's own links in another size, each about its own middle, as in Gazebo."""
+    """Return the model with the visuals and collisions of its own links scaled, each about its centre, as in Gazebo."""
     if not all(math.isfinite(s) and s > 0.0 for s in scale):
-        report.warn(at, f"<scale> of model {model.name!r} wants three numbers > 0; the size is as written")
+        report.warn(at, f"<scale> of model {model.name!r} needs three numbers > 0; the scale is 1")
         return model
-    report.info(at, f"<scale> of model {model.name!r}: its shapes are stretched, masses and inertias are as written")
+    report.info(at, f"<scale> of model {model.name!r}: its shapes are scaled, its masses and inertias are not")
     return replace(model, links=tuple(_scaled_link(link, scale) for link in model.links))
 
 
@@ -42,7 +42,7 @@ def _scaled_link(link: Link, scale: Vector3) -> Link:
 
 
 def scaled(geometry: Geometry, scale: Vector3) -> Geometry:
-    """A shape in another size; what is round stays round, by the larger scale."""
+    """Return a scaled shape; circles stay circles, by the larger scale."""
     x, y, z = scale
     match geometry:
         case Box(size):

@@ -1,4 +1,4 @@
-"""SDF 1.0, which wrote values as attributes: rewritten as 1.2 and later write them."""
+"""Conversion of SDF 1.0, which wrote values as attributes, to the form of 1.2 and later."""
 
 from trundle.xmlnode import XmlNode
 
@@ -25,6 +25,6 @@ _NAMES = {"origin": "pose"}
 
 
 def rewrite_old_style(root: XmlNode) -> None:
-    """Rewrite a whole file; what has no counterpart stays as it is, to be named as not supported."""
+    """Convert a whole file; attributes without a counterpart stay and are reported as unsupported."""
     root.attributes_to_children(_KEPT, _TEXTS)
     root.rename(_NAMES)

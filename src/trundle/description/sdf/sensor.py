@@ -1,4 +1,4 @@
-"""Reads <sensor>; what is simulated in full, the others by name and type."""
+"""Reader of <sensor>: simulated types in full, others by name and type."""
 
 from collections.abc import Iterable
 from itertools import count
@@ -14,7 +14,7 @@ from .frames import FrameGraph
 
 
 def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Sensor:
-    """Read one sensor, placed in its owner's frame: a link's or a joint's."""
+    """Read one sensor, posed in its owner's frame: a link's or a joint's."""
     report = context.report
     type_ = node.attribute("type") or "none"
     sensor = Sensor(
@@ -41,13 +41,13 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
 
 
 def with_unique_names(sensors: Iterable[Sensor], link: str, context: Context) -> tuple[Sensor, ...]:
-    """The sensors of a link; of several that share a name all but the first get a number, aloud."""
+    """Return the sensors of a link; duplicate names get a number, with a warning."""
     apart: dict[str, Sensor] = {}
     for sensor in sensors:
         name = sensor.name
         if name in apart:
             number = next(i for i in count(2) if f"{name}_{i}" not in apart)
-            what = f"link {link!r} has a sensor {name!r} already; this one is called '{name}_{number}'"
+            what = f"link {link!r} has a second sensor {name!r}; it is renamed '{name}_{number}'"
             context.report.warn(sensor.at, what)
             sensor = replace(sensor, name=f"{name}_{number}")
         apart[sensor.name] = sensor
@@ -55,7 +55,7 @@ def with_unique_names(sensors: Iterable[Sensor], link: str, context: Context) ->
 
 
 def _topic(node: XmlNode, type_: str) -> str:
-    """Where readings are told: of an imu and of a contact sensor, the element with their settings may say it, too."""
+    """Return the topic, which for an IMU or contact sensor may also stand in its settings element."""
     settings = node.find(type_) if type_ in ("imu", "contact") else None
     return node.string("topic") or ("" if settings is None else settings.string("topic"))
 
@@ -64,12 +64,12 @@ def _rate(node: XmlNode, context: Context) -> float:
     rate = node.number("update_rate", default=0.0, report=context.report)
     if rate >= 0.0:
         return rate
-    context.report.warn(node.at, f"an update_rate of {rate:g} Hz is not possible; 0, as often as it goes, is used")
+    context.report.warn(node.at, f"an update_rate of {rate:g} Hz is not possible; 0 (every step) is used")
     return 0.0
 
 
 def read_plugin(node: XmlNode) -> PluginTag:
-    """Keep a <plugin> as its author wrote it."""
+    """Keep a <plugin> as written."""
     return PluginTag(
         name=node.attribute("name") or "", filename=node.attribute("filename") or "", at=node.at, node=node
     )

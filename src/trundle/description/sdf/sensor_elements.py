@@ -1,4 +1,4 @@
-"""Reads what sensors that need no picture measure, and with how much noise."""
+"""Readers of settings and noise of sensors other than cameras."""
 
 from msgspec.structs import replace
 
@@ -13,7 +13,7 @@ _MAX_RAYS = 2_000_000
 
 
 def with_settings(sensor: Sensor, node: XmlNode, context: Context) -> Sensor:
-    """Add the settings of its type to a sensor."""
+    """Return a sensor with the settings of its type."""
     match sensor.type:
         case "ray" | "gpu_ray" | "lidar" | "gpu_lidar":
             return replace(sensor, scan=read_scan(node, context))
@@ -30,18 +30,18 @@ def with_settings(sensor: Sensor, node: XmlNode, context: Context) -> Sensor:
 
 
 def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
-    """Read <ray> or <lidar>; a fan that no machine can cast is cut down, aloud."""
+    """Read <ray> or <lidar>; too many rays are reduced with a warning."""
     report = context.report
     node = sensor.find("ray") or sensor.find("lidar")
     if node is None:
-        report.warn(sensor.at, f"sensor {sensor.attribute('name')!r} has no <ray>; it sees nothing")
+        report.warn(sensor.at, f"sensor {sensor.attribute('name')!r} has no <ray>; its range is 0")
         return RangeScan()
     scan, limits = node.find("scan"), node.find("range")
     horizontal, vertical = (_axis(scan, tag, context) for tag in ("horizontal", "vertical"))
     low = 0.0 if limits is None else max(0.0, limits.number("min", default=0.0, report=report))
     high = 0.0 if limits is None else limits.number("max", default=0.0, report=report)
     if not high > low:
-        report.warn(node.at, f"range min {low:g}, max {high:g} holds nothing; the sensor sees nothing")
+        report.warn(node.at, f"range min {low:g}, max {high:g} is empty; the sensor measures nothing")
     if horizontal.values * vertical.values > _MAX_RAYS:
         report.warn(node.at, f"{horizontal.values} x {vertical.values} rays are too many; one row of 640 is cast")
         horizontal, vertical = ScanAxis(samples=640, min_angle=-1.0, max_angle=1.0), ScanAxis()
@@ -54,7 +54,7 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
         visibility_mask=read_bits(node, "visibility_mask", context),
     )
     if limits is not None:
-        warn_ignored(limits, ("resolution",), "rounds nothing, in Gazebo too", context)
+        warn_ignored(limits, ("resolution",), "has no effect, as in Gazebo", context)
         limits.report_unread(report)
     if scan is not None:
         scan.report_unread(report)
@@ -81,7 +81,7 @@ def _samples(node: XmlNode, default: int, context: Context) -> int:
     samples = node.integer("samples", default=default, report=context.report)
     if samples > 0:
         return samples
-    context.report.warn(node.at, f"{samples} samples see nothing; 1 is used")
+    context.report.warn(node.at, f"{samples} samples is not possible; 1 is used")
     return 1
 
 
@@ -89,12 +89,12 @@ def _resolution(node: XmlNode, context: Context) -> float:
     resolution = node.number("resolution", default=1.0, report=context.report)
     if resolution > 0.0:
         return resolution
-    context.report.warn(node.at, f"a resolution of {resolution:g} values a ray is not possible; 1 is used")
+    context.report.warn(node.at, f"a resolution of {resolution:g} values per sample is not possible; 1 is used")
     return 1.0
 
 
 def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
-    """Read <imu>: SDF 1.6 has noise for each axis, 1.4 and 1.5 one for all rates and one for all accelerations."""
+    """Read <imu>: SDF 1.6 has noise per axis, 1.4 and 1.5 one for all rates and one for all accelerations."""
     node = sensor.find("imu")
     if node is None:
         return ImuNoise()
@@ -104,7 +104,7 @@ def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
     rates = _axes(node, "angular_velocity", None if old is None else old.find("rate"), context)
     accelerations = _axes(node, "linear_acceleration", None if old is None else old.find("accel"), context)
     reference = _reference(node.find("orientation_reference_frame"), context)
-    warn_ignored(node, ("enable_orientation",), "is not heeded: the orientation is always told", context)
+    warn_ignored(node, ("enable_orientation",), "has no effect: the orientation is always published", context)
     node.report_unread(context.report)
     return ImuNoise(angular_velocity=rates, linear_acceleration=accelerations, reference=reference)
 
@@ -128,7 +128,7 @@ def _reference(node: XmlNode | None, context: Context) -> OrientationReference |
     node.report_unread(report)
     if localization not in _LOCALIZATIONS:
         known = ", ".join(_LOCALIZATIONS)
-        report.warn(node.at, f"no localization {localization!r}: {known}; orientation is told against its start")
+        report.warn(node.at, f"no localization {localization!r}: {known}; the orientation is relative to the start")
         return None
     return reference
 
@@ -142,12 +142,12 @@ def _parent(node: XmlNode | None, context: Context) -> str:
 
 
 def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
-    """Read <gps> or <navsat>; velocities are not reported, so their noise is not either."""
+    """Read <gps> or <navsat>; velocities, and so their noise, are not published."""
     node = sensor.find("gps") or sensor.find("navsat")
     if node is None:
         return GpsNoise()
     position = node.find("position_sensing")
-    warn_ignored(node, ("velocity_sensing",), "is noise of velocities, which are not told", context)
+    warn_ignored(node, ("velocity_sensing",), "has no effect: velocities are not published", context)
     node.report_unread(context.report)
     if position is None:
         return GpsNoise()
@@ -158,7 +158,7 @@ def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
 
 
 def read_contact(sensor: XmlNode, context: Context) -> tuple[str, ...]:
-    """Read <contact>: collisions of the sensor's own link, by their names or by `model::link::collision`."""
+    """Read <contact>: collisions of the sensor's own link, by name or by `model::link::collision`."""
     node = sensor.find("contact")
     if node is None:
         return ()
@@ -168,7 +168,7 @@ def read_contact(sensor: XmlNode, context: Context) -> tuple[str, ...]:
 
 
 def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
-    """Read <force_torque>; before SDF 1.5 forces were told in the parent's axes."""
+    """Read <force_torque>; before SDF 1.5 the default frame is the parent's."""
     node = sensor.find("force_torque") or sensor.find("forcetorque")
     before = "parent" if context.version < (1, 5) else "child"
     if node is None:

@@ -1,4 +1,4 @@
-"""Applies <state>: where models were when a world was saved, which is where Gazebo puts them at load."""
+"""Reader of <state>: saved poses, which Gazebo applies at load."""
 
 from collections.abc import Iterator, Sequence
 
@@ -12,13 +12,13 @@ from .context import Context, read_pose, warn_ignored
 from .scale import scaled_model
 
 _MOVED = 1e-3
-"""[m, and of a unit quaternion] A link less than this from where its model has it was saved as it was written."""
+"""Deviation [m, and of a unit quaternion] below which a link's saved pose counts as unchanged."""
 _AT_REST = ("velocity", "acceleration", "wrench", "linear_velocity", "angular_velocity")
 _ACCELERATED = ("linear_acceleration", "angular_acceleration", "force", "torque")
 
 
 def inserted(world: XmlNode) -> Iterator[XmlNode]:
-    """The models and lights that came after the world was loaded, in the order they came."""
+    """Yield the models and lights inserted after the world was loaded, in order."""
     for state in world.all("state"):
         insertions = state.find("insertions")
         for child in [] if insertions is None else insertions.children:
@@ -29,7 +29,7 @@ def inserted(world: XmlNode) -> Iterator[XmlNode]:
 def apply_state(
     world: XmlNode, name: str, models: Sequence[Model], lights: Sequence[Light], context: Context
 ) -> tuple[tuple[Model, ...], tuple[Light, ...]]:
-    """The models and lights where the world's <state> has them, without those it deletes."""
+    """Return the models and lights at the poses of the world's <state>, without the deleted ones."""
     for node in world.all("state"):
         if (node.attribute("world_name") or name) != name:
             context.report.warn(node.at, f"<state> of world {node.attribute('world_name')!r}; this is {name!r}")
@@ -45,9 +45,9 @@ def _applied(
     lit = {state.attribute("name"): state for state in _states(node, "light")}
     gone = _deleted(node, {each.name for each in (*models, *lights)}, context)
     warn_ignored(
-        node, ("sim_time", "wall_time", "real_time", "iterations", "time"), "is not heeded: time starts at 0", context
+        node, ("sim_time", "wall_time", "real_time", "iterations", "time"), "has no effect: time starts at 0", context
     )
-    warn_ignored(node, ("joint_state",), "is not heeded: the poses of links say where joints start", context)
+    warn_ignored(node, ("joint_state",), "has no effect: joints start at the poses of their links", context)
     insertions = node.find("insertions")
     if insertions is not None:
         insertions.all("model")
@@ -57,7 +57,7 @@ def _applied(
     for kind, states, there in (("model", poses, models), ("light", lit, lights)):
         for name, state in states.items():
             if name not in {each.name for each in there}:
-                report.warn(state.at, f"<state> of {kind} {name!r}, which is not in this world; it is ignored")
+                report.warn(state.at, f"<state> of unknown {kind} {name!r}; it is ignored")
                 state.mark_all_read()
     placed = [
         _model_with_state(model, poses[model.name], Pose(), context) if model.name in poses else model
@@ -89,13 +89,13 @@ def _light_with_state(light: Light, state: XmlNode | None, context: Context) -> 
 
 
 def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, context: Context) -> Model:
-    """A model where its state has it; states of nested models are in the world too."""
+    """Return a model at its saved pose; states of nested models are in the world frame too."""
     report = context.report
     has_pose = state.find("pose") is not None
     nested = {inner.attribute("name"): inner for inner in _states(state, "model")}
     links = {link.attribute("name"): link for link in _states(state, "link")}
     scale = state.vector("scale", default=(1.0, 1.0, 1.0), report=report)
-    warn_ignored(state, ("joint", "joint_state"), "is not heeded, in Gazebo neither: the poses of links are", context)
+    warn_ignored(state, ("joint", "joint_state"), "has no effect, as in Gazebo: the poses of links apply", context)
     state.report_unread(report)
     for name, each in links.items():
         if name not in {link.name for link in model.links}:
@@ -122,9 +122,11 @@ def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, cont
 
 
 def _link_with_state(link: Link, state: XmlNode, world_from_model: Pose, context: Context, *, is_joined: bool) -> Link:
-    """A link where its state has it; of one that a joint holds the joint's zero stays where it was written."""
-    warn_ignored(state, _AT_REST + _ACCELERATED, "is not heeded: everything starts at rest", context)
-    warn_ignored(state, ("collision", "collision_state"), "is not heeded, in Gazebo neither", context)
+    """Return a link at its saved pose; for a link with a joint this is the initial pose, and the joint's
+    zero is kept.
+    """
+    warn_ignored(state, _AT_REST + _ACCELERATED, "has no effect: everything starts at rest", context)
+    warn_ignored(state, ("collision", "collision_state"), "has no effect, as in Gazebo", context)
     has_pose = state.find("pose") is not None
     state.report_unread(context.report)
     if not has_pose:
@@ -138,6 +140,6 @@ def _link_with_state(link: Link, state: XmlNode, world_from_model: Pose, context
 
 
 def _states(node: XmlNode, kind: str) -> Iterator[XmlNode]:
-    """States of models, links or lights; SDF 1.12 calls them `…_state`."""
+    """Yield states of models, links or lights, which SDF 1.12 calls `…_state`."""
     for tag in (kind, f"{kind}_state"):
         yield from node.all(tag)

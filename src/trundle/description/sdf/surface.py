@@ -1,4 +1,4 @@
-"""Reads <surface>: what a collision is like to touch."""
+"""Reader of <surface>: contact parameters."""
 
 from trundle.model import Surface
 from trundle.xmlnode import XmlNode
@@ -14,11 +14,11 @@ _TUNING = (
     "bullet",
     "soft_contact",
 )
-"""What only Gazebo's engines know."""
+"""Parameters of Gazebo's engines only."""
 
 
 def read_surface(collision: XmlNode, context: Context) -> Surface:
-    """Read friction, contact and bounce as written."""
+    """Read friction, contact and restitution as written."""
     node = collision.find("surface")
     # Friction defaulted to infinite before SDF 1.4, the bitmask to 1 in 1.4.
     infinite = context.version < (1, 4)

@@ -1,4 +1,4 @@
-"""A model that has been read but not placed."""
+"""Model that is read but not yet posed."""
 
 from msgspec import Struct
 
@@ -10,19 +10,19 @@ from .frames import FrameGraph, Scope
 
 
 class UnplacedModel(Struct, frozen=True, kw_only=True):
-    """A model, its frames, and where it is to go."""
+    """Model with its frames and its target pose."""
 
     model: Model
     scope: Scope
     raw: RawPose
-    """As written."""
+    """Pose as written."""
     placement_frame: str = ""
-    """The frame of the model that is to go there; empty: the model's own."""
+    """Frame of the model that is placed at the pose; empty: the model's own."""
     merge: bool = False
-    """The model dissolves into the one around it."""
+    """True if the model is merged into its parent."""
 
     def placed(self, graph: FrameGraph) -> RawPose:
-        """Where the model's own frame goes, seen from where its pose is."""
+        """Return the pose of the model's own frame, relative to the same frame as the pose."""
         offset = Pose()
         if self.placement_frame:
             if self.placement_frame in self.scope.poses:
@@ -36,6 +36,6 @@ class UnplacedModel(Struct, frozen=True, kw_only=True):
         return RawPose(self.raw.pose @ offset, self.raw.relative_to, self.raw.at)
 
     def add_to(self, graph: FrameGraph) -> None:
-        """Make the model and all its frames known."""
+        """Add the model and all its frames to a graph."""
         graph.add(self.model.name, self.placed(graph), self.model.at)
         graph.add_scope(self.model.name, self.scope)

@@ -1,4 +1,4 @@
-"""The SDF version of a file, which decides how it is read."""
+"""SDF version of a file, which selects the rules of reading."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.xmlnode import XmlNode
@@ -7,7 +7,7 @@ NEWEST = (1, 12)
 
 
 class Version(tuple[int, int]):
-    """Major and minor; compares as numbers, so that 1.10 is newer than 1.9."""
+    """Major and minor version, compared as numbers, so that 1.10 is newer than 1.9."""
 
     __slots__ = ()
 
@@ -16,16 +16,16 @@ class Version(tuple[int, int]):
 
 
 def read_version(root: XmlNode, report: Diagnostics) -> Version:
-    """The version a root element states; a missing or unknown one is named and read by the newest rules."""
+    """Return the version of a root element; a missing or unknown one is read by the newest rules, with a warning."""
     text = root.attribute("version")
     newest = Version(NEWEST)
     if text is None:
-        report.warn(root.at, f"<{root.tag}> has no version, for which Gazebo refuses the file; read as {newest}")
+        report.warn(root.at, f"<{root.tag}> has no version; Gazebo refuses the file; read as {newest}")
         return newest
     try:
         major, minor = (int(part) for part in text.strip().split("."))
     except ValueError:
-        report.warn(root.at, f"version {text!r} is no SDF version; read as {newest}")
+        report.warn(root.at, f"version {text!r} is not an SDF version; read as {newest}")
         return newest
     version = Version((major, minor))
     if version > newest:

@@ -1,4 +1,4 @@
-"""Reads <world>, and a model or light that stands alone in a file."""
+"""Reader of <world>, and of models and lights alone in a file."""
 
 from typing import TYPE_CHECKING
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 
 def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
-    """Read everything under <sdf>; return it as a world, and whether the file has a <world> of its own.
+    """Read everything under <sdf>; return it as a world, and True if the file has a <world>.
 
     Raises:
-        DescriptionError: there is nothing in it, or a part of it cannot be made sense of.
+        DescriptionError: the file is empty, or a part of it cannot be interpreted.
     """
     worlds = root.all("world")
     version = str(context.version)
@@ -41,7 +41,7 @@ def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
     actors = _actors(root, context)
     root.report_unread(context.report)
     if not contents.parts and not contents.lights and not root.children:
-        raise DescriptionError(root.at, f"<{root.tag}> holds no world, model or light")
+        raise DescriptionError(root.at, f"<{root.tag}> contains no world, model or light")
     models = contents.models()
     named = (*models, *contents.lights, *actors)
     name = named[0].name if named else ""
@@ -90,7 +90,7 @@ def read_world(node: XmlNode, context: Context) -> World:
         magnetic_field=node.vector("magnetic_field", default=default.magnetic_field, report=report),
         wind=default.wind if wind is None else wind.vector("linear_velocity", default=default.wind, report=report),
     )
-    warn_ignored(node, ("gui", "audio"), "speaks to Gazebo's own window", context)
+    warn_ignored(node, ("gui", "audio"), "is for Gazebo's own window", context)
     node.report_unread(report)
     return world
 
@@ -105,14 +105,14 @@ def _actors(node: XmlNode, context: Context) -> "tuple[Actor, ...]":
 
 
 class _Contents:
-    """Models and lights of a world or a root element, included ones in their place."""
+    """Models and lights of a world or root element, with included ones in their place."""
 
     def __init__(self, node: XmlNode, context: Context) -> None:
         self.graph = FrameGraph(WORLD, context.report)
         self.parts: list[UnplacedModel] = []
         self.lights: list[Light] = []
         self.dissolved: list[MergedModel] = []
-        """Models that are none of the world's: what is in them is."""
+        """Models to be merged into the world."""
         self._context = context
         for child in node.children:
             self.add(child)
@@ -120,7 +120,7 @@ class _Contents:
             node.all(tag)
 
     def add(self, child: XmlNode) -> None:
-        """Add what an element brings, if it brings a model or a light."""
+        """Add the model or light of an element, if any."""
         match child.tag:
             case "model":
                 self._add(read_model(child, self._context))
@@ -135,7 +135,7 @@ class _Contents:
                 pass
 
     def models(self) -> tuple[Model, ...]:
-        """Every model, where it goes."""
+        """Return every model with its pose."""
         return tuple(replace(part.model, world_from_model=self.graph.pose(part.model.name)) for part in self.parts)
 
     def _include(self, node: XmlNode) -> None:
@@ -164,25 +164,25 @@ class _Contents:
             )
 
     def _can_merge(self, part: UnplacedModel, node: XmlNode) -> bool:
-        """Links are in models only, and a name stands for one thing."""
+        """True if a model can be merged into the world: without links of its own and with free names."""
         taken = [inner.name for inner in part.model.models if inner.name in self.graph]
         why = ""
         if part.model.links:
-            why = "links of its own, which a world has not"
+            why = "links of its own, which a world cannot have"
         elif taken:
-            why = f"a model {taken[0]!r}, as the world"
+            why = f"a model {taken[0]!r}, whose name is taken"
         if why:
-            self._context.report.warn(node.at, f"model {part.model.name!r} has {why}; it is not merged, but stays one")
+            self._context.report.warn(node.at, f"model {part.model.name!r} has {why}; it is not merged")
         return not why
 
     def _add(self, part: UnplacedModel) -> None:
-        """Two models of one name are told apart by a number, as in Gazebo."""
+        """Add a model; a duplicate name gets a number, as in Gazebo."""
         name, number = part.model.name, 0
         while name in self.graph:
             name = f"{part.model.name}_{number}"
             number += 1
         if name != part.model.name:
-            self._context.report.warn(part.model.at, f"a second model {part.model.name!r}; it is called {name!r}")
+            self._context.report.warn(part.model.at, f"a second model {part.model.name!r}; it is renamed {name!r}")
             part = replace(part, model=replace(part.model, name=name))
         part.add_to(self.graph)
         self.parts.append(part)

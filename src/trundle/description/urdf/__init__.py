@@ -1,4 +1,4 @@
-"""URDF lowered to SDF's meaning, as Gazebo does it."""
+"""Conversion of URDF to SDF's meaning, as in Gazebo."""
 
 import lazy_loader
 

@@ -1,6 +1,6 @@
-"""<gazebo> blocks: what a URDF says to Gazebo alone.
+"""<gazebo> blocks of a URDF.
 
-The readers of SDF are loaded by the robots that hold some.
+SDF readers are imported only for robots that need them.
 """
 
 from collections.abc import Collection
@@ -36,17 +36,17 @@ _TUNING = frozenset(
     }
 )
 _ALWAYS = "provideFeedback"
-"""What joints carry is always told."""
+"""Ignored tag: joint reactions are always available."""
 _TRUE = frozenset({"true", "yes", "1"})
 
 
 class GazeboTags:
-    """The blocks of one URDF, by what they refer to."""
+    """<gazebo> blocks of one URDF, by reference."""
 
     def __init__(self, root: XmlNode, context: Context) -> None:
         self._context = context
         self._nodes: dict[tuple[str, str], list[XmlNode]] = {}
-        """By what they refer to and their tag."""
+        """(reference, tag) → elements."""
         self._read: set[tuple[str, str]] = set()
         for block in root.all("gazebo"):
             reference = block.attribute("reference") or ""
@@ -55,17 +55,17 @@ class GazeboTags:
                 self._nodes.setdefault((reference, node.tag), []).append(node)
 
     def flag(self, reference: str, *tags: str) -> bool | None:
-        """A yes or no by any of its names; None where no block says."""
+        """Return a boolean by any of its tags; None if no block has it."""
         nodes = [node for tag in tags if (node := self._last(reference, tag)) is not None]
         return nodes[0].text.lower() in _TRUE if nodes else None
 
     def lumped_flag(self, lump: Lump, *tags: str) -> bool | None:
-        """As `flag`, for all links of a lump: the last one that says something (sdformat's AddKeyValue)."""
+        """Return `flag` over all links of a lump; the last one that is set wins (sdformat's AddKeyValue)."""
         said = [value for name, _ in lump.parts if (value := self.flag(name, *tags)) is not None]
         return said[-1] if said else None
 
     def material(self, link: str) -> "Material | None":
-        """<material>Gazebo/Blue</material>, or a <visual> block's <material>, which goes on every visual."""
+        """Return <material>Gazebo/Blue</material>, or a <visual> block's <material>, which applies to every visual."""
         blocks = [block for block in self._all(link, "visual") if block.find("material") is not None]
         if blocks:
             from ..sdf.material import read_material
@@ -79,7 +79,9 @@ class GazeboTags:
         return named_material(node.text, node, self._context)
 
     def with_appearance(self, visual: "Visual", link: str) -> "Visual":
-        """A visual of a link with what its <visual> blocks say: that goes on every one (InsertSDFExtensionVisual)."""
+        """Return a visual with the properties of its link's <visual> blocks, which apply to every visual
+        (InsertSDFExtensionVisual).
+        """
         blocks = self._all(link, "visual")
         if blocks:
             from ..sdf.link import with_appearance
@@ -89,7 +91,7 @@ class GazeboTags:
         return visual
 
     def surface(self, link: str) -> Surface:
-        """mu1, mu2, fdir1, kp, kd, minDepth, maxVel, or a <collision> block's <surface> instead of them all."""
+        """Return mu1, mu2, fdir1, kp, kd, minDepth, maxVel, or instead a <collision> block's <surface>."""
         default, report = Surface(), self._context.report
         blocks = [block for block in self._all(link, "collision") if block.find("surface") is not None]
         if blocks:
@@ -110,12 +112,12 @@ class GazeboTags:
         )
 
     def number(self, reference: str, tag: str, default: float) -> float:
-        """A number; the default where no block gives one."""
+        """Return a number, or the default if no block has it."""
         node = self._last(reference, tag)
         return default if node is None else node.as_number(default=default, report=self._context.report)
 
     def lumped_damping(self, lump: Lump) -> tuple[float, float]:
-        """Linear and angular: the last <dampingFactor> for both, or SDF's own <velocity_decay>."""
+        """Return linear and angular damping: the last <dampingFactor> for both, or SDF's own <velocity_decay>."""
         report, linear, angular = self._context.report, 0.0, 0.0
         for name, _ in lump.parts:
             linear, angular = (self.number(name, "dampingFactor", value) for value in (linear, angular))
@@ -125,7 +127,7 @@ class GazeboTags:
         return linear, angular
 
     def sensors(self, reference: str) -> "tuple[Sensor, ...]":
-        """<sensor> elements of a link or joint, which are SDF."""
+        """Read the <sensor> elements of a link or joint, which are SDF."""
         nodes = self._all(reference, "sensor")
         if not nodes:
             return ()
@@ -135,7 +137,7 @@ class GazeboTags:
         return tuple(read_sensor(node, reference, graph, self._context) for node in nodes)
 
     def lumped_sensors(self, lump: Lump) -> "tuple[Sensor, ...]":
-        """Those of every link of a lump, placed in its frame."""
+        """Read the sensors of all links of a lump, in its frame."""
         found = [
             replace(sensor, link_from_sensor=pose @ sensor.link_from_sensor)
             for name, pose in lump.parts
@@ -148,7 +150,7 @@ class GazeboTags:
         return with_unique_names(found, lump.name, self._context)
 
     def lights(self, link: str) -> "tuple[Light, ...]":
-        """<light> elements, likewise."""
+        """Read the <light> elements of a link, which are SDF."""
         nodes = self._all(link, "light")
         if not nodes:
             return ()
@@ -158,7 +160,7 @@ class GazeboTags:
         return tuple(read_light(node, link, graph, self._context) for node in nodes)
 
     def plugins(self, reference: str) -> "tuple[PluginTag, ...]":
-        """<plugin> elements."""
+        """Read the <plugin> elements."""
         nodes = self._all(reference, "plugin")
         if not nodes:
             return ()
@@ -167,7 +169,7 @@ class GazeboTags:
         return tuple(map(read_plugin, nodes))
 
     def links(self, graph: FrameGraph) -> "tuple[Link, ...]":
-        """<link> elements for the whole robot, which are SDF: bodies that a tree cannot hold."""
+        """Read the <link> elements of the whole robot, which are SDF: bodies outside the tree."""
         nodes = self._all("", "link")
         if not nodes:
             return ()
@@ -178,7 +180,7 @@ class GazeboTags:
         return tuple(read_link(node, name, graph, self._context) for name, node in placed.items())
 
     def models(self, graph: FrameGraph) -> "tuple[Model, ...]":
-        """Models that a <model> or <include> for the whole robot nests in it, such as its lamps."""
+        """Read the models that a <model> or <include> of the whole robot nests in it."""
         nodes = [*self._all("", "model"), *self._all("", "include")]
         if not nodes:
             return ()
@@ -196,12 +198,12 @@ class GazeboTags:
                 part.add_to(graph)
                 parts.append(part)
             elif opened:
-                what = f"a second {part.model.name!r} in the robot" if part else "no <model> in what <include> leads to"
+                what = f"a second {part.model.name!r} in the robot" if part else "no <model> in the included file"
                 self._context.report.warn(node.at, f"{what}; it is left out")
         return tuple(replace(part.model, world_from_model=graph.pose(part.model.name)) for part in parts)
 
     def joints(self, graph: FrameGraph) -> "tuple[Joint, ...]":
-        """<joint> elements for the whole robot, which are SDF: how a URDF closes a loop."""
+        """Read the <joint> elements of the whole robot, which are SDF: a URDF closes loops with them."""
         nodes = self._all("", "joint")
         if not nodes:
             return ()
@@ -218,11 +220,11 @@ class GazeboTags:
                 sound.append(joint)
         for joint in sound:
             joint.add_to(graph)
-        # A link that was lumped is nothing that the model has: what it says of the joint is said by the lump's link.
+        # A lumped link is not part of the model: the joint refers to the lump's link.
         return tuple(replace(joint.read(graph, self._context), parent_frame=None, child_frame=None) for joint in sound)
 
     def name_tuning(self) -> None:
-        """Say of what tunes Gazebo's engines that it is read and not used."""
+        """Note the parameters of Gazebo's engines, which are ignored."""
         for reference, tag in self._nodes:
             if tag == _ALWAYS:
                 self._all(reference, tag)
@@ -231,11 +233,11 @@ class GazeboTags:
                     self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
 
     def report_unread(self, known: Collection[str], lumped: Collection[str]) -> None:
-        """Name what nobody asked for.
+        """Warn of the elements that were not read.
 
         Args:
-            known: the links and joints there are.
-            lumped: those of the joints whose links are one in the simulation.
+            known: names of links and joints.
+            lumped: names of the joints inside lumps.
         """
         for (reference, tag), nodes in self._nodes.items():
             if (reference, tag) in self._read and (reference in known or not reference):
@@ -245,7 +247,7 @@ class GazeboTags:
             if reference in lumped:
                 why = "is for a fixed joint that is lumped (<preserveFixedJoint>1</preserveFixedJoint> keeps it)"
             elif reference and reference not in known:
-                why = "means no link or joint there is"
+                why = "names no known link or joint"
             for node in nodes:
                 self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> {why}; it is ignored")
 
@@ -254,6 +256,8 @@ class GazeboTags:
         return self._nodes.get((reference, tag), [])
 
     def _last(self, reference: str, tag: str) -> XmlNode | None:
-        """The last block's; old files have `value="…"` where others have text (sdformat's GetKeyValueAsString)."""
+        """Return the last block's element; old files have `value="…"` instead of text (sdformat's
+        GetKeyValueAsString).
+        """
         found = self._all(reference, tag)
         return found[-1].with_text_of("value") if found else None

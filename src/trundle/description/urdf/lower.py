@@ -1,7 +1,7 @@
-"""A URDF as Gazebo simulates it.
+"""Conversion of URDF to a model, as Gazebo simulates it.
 
-Fixed joints lump their links; a link without mass, and all below it, falls away; floating joints leave their
-child free. What Gazebo would also drop, a URDF's colours, is kept: it can be seen and weighs nothing.
+Links at fixed joints are lumped; a massless link and its subtree are dropped; floating joints leave their child free. A
+URDF's colours, which Gazebo drops, are kept.
 """
 
 import math
@@ -64,7 +64,7 @@ _TYPES = {
     "planar": JointType.PLANAR,
 }
 _HELD_BY_PLUGIN = re.compile(r"<mimicJoint>\s*(.*?)\s*</mimicJoint>")
-"""Joints that a plugin makes follow: what the URDF says of that would be said twice."""
+"""Pattern of joints that a plugin lets follow; their URDF mimic is dropped."""
 
 
 def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages, report: Diagnostics) -> World:
@@ -73,11 +73,11 @@ def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages
     Args:
         robot: the tree as written.
         root: <robot>.
-        folder: relative mesh paths start here.
-        packages: where URIs lead.
-        report: takes what falls away.
+        folder: base of relative mesh paths.
+        packages: resolves URIs.
+        report: takes warnings of what is dropped.
     """
-    # gazebo blocks hold SDF by the rules of the version that the conversion writes.
+    # <gazebo> blocks hold SDF by the rules of the version that Gazebo's conversion writes.
     context = Context(version=Version((1, 7)), folder=folder, packages=packages, report=report)
     model = _Lowering(robot, GazeboTags(root, context), context).model()
     return World(name=robot.name, at=robot.at, models=(model,))
@@ -99,8 +99,8 @@ class _Lowering:
         self.lump_of = {link: lump.name for lump in self.lumps.values() for link, _ in lump.parts}
 
     def model(self) -> Model:
-        """The robot as one model."""
-        # All at zero: Gazebo's conversion knows no mimics, whose offsets are no part of where a link's frame is.
+        """Return the robot as one model."""
+        # All joints at zero: Gazebo's conversion ignores mimics, and their offsets do not affect link frames.
         poses = root_from_links(self.robot, {joint.name: 0.0 for joint in self.robot.joints})
         dropped = massless_lumps(self.robot, self.lumps, self.report)
         links = tuple(
@@ -147,9 +147,9 @@ class _Lowering:
         )
 
     def _first(self, names: set[str]) -> str | None:
-        """Of some links the one that Gazebo comes upon first: from the root down, children by their joints' names.
+        """Return the first of some links in Gazebo's order: from the root down, children sorted by joint name.
 
-        It carries the model, wherever in the file it stands: Jackal's wheels come before its base there.
+        It is the canonical link, whatever the file order: Jackal's wheels come before its base there.
         """
         below: dict[str, list[RobotJoint]] = {}
         for joint in sorted(self.robot.joints, key=lambda joint: joint.name, reverse=True):
@@ -218,7 +218,7 @@ class _Lowering:
             visuals.append(self.tags.with_appearance(visual, part.name))
             if gazebo is None and (shape.rgba is not None or shape.texture):
                 what = "textures" if shape.texture else "colours"
-                self.report.info(shape.at, f"Gazebo draws URDF {what} grey; here they are kept")
+                self.report.info(shape.at, f"Gazebo draws URDF {what} grey; Trundle keeps them")
         return visuals
 
     def _collisions(self, lump: str, part: RobotLink, pose: Pose) -> list[Collision]:
@@ -249,7 +249,7 @@ class _Lowering:
     def _material(self, shape: RobotShape) -> Material:
         texture = self._path(shape.texture, shape, "texture") if shape.texture else None
         if shape.rgba is None and texture is None:
-            return GREY  # a mesh then comes in its own colours
+            return GREY  # a mesh then has its own colours
         r, g, b, _ = shape.rgba or (1.0, 1.0, 1.0, 1.0)
         return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0), texture=texture)
 
@@ -265,7 +265,9 @@ class _Lowering:
         if parent == child:
             return None
         if joint.type not in _TYPES:
-            self.report.warn(joint.at, f"joint {joint.name!r}: Gazebo makes nothing of {joint.type}; its child is free")
+            self.report.warn(
+                joint.at, f"joint {joint.name!r}: Gazebo does not support {joint.type} joints; its child is free"
+            )
             return None
         type_ = _TYPES[joint.type]
         axis = None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child])
@@ -305,5 +307,5 @@ class _Lowering:
 
 
 def _bound(value: float) -> float:
-    """An effort or velocity limit; the SDF that it becomes takes a negative one for none."""
+    """Return an effort or velocity limit; in SDF a negative one is unlimited."""
     return math.inf if value < 0 or value >= UNLIMITED else value

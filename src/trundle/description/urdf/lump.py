@@ -1,4 +1,4 @@
-"""Links joined by fixed joints become one, as Gazebo's conversion makes them."""
+"""Lumping of links at fixed joints, as in Gazebo's conversion."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -16,24 +16,24 @@ WORLD = "world"
 
 @dataclass(slots=True)
 class Lump:
-    """A link and everything rigidly fixed to it."""
+    """Link and everything rigidly fixed to it."""
 
     name: str
     parts: list[tuple[str, Pose]] = field(default_factory=list[tuple[str, Pose]])
-    """(link, lump_from_link), the lump's own link first."""
+    """(link, lump_from_link), starting with the lump's own link."""
 
 
 def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
-    """Every lump by the name of its first link.
+    """Return every lump by the name of its first link.
 
     Args:
         robot: as written.
-        kept: fixed joints that stay joints, as their <gazebo> blocks ask.
+        kept: fixed joints that stay joints, by their <gazebo> blocks.
     """
     holder = {j.child: j for j in robot.joints if j.type == "fixed" and j.name not in kept and j.parent != WORLD}
     lumps: dict[str, Lump] = {}
     places: dict[str, tuple[str, Pose]] = {}
-    """Link → its lump and lump_from_link."""
+    """Link → lump name and lump_from_link."""
     for link in robot.links:
         chain, name = list[str](), link.name
         while name in holder and name not in places:
@@ -53,10 +53,10 @@ def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
 
 
 def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump], report: Diagnostics) -> None:
-    """Have a plugin's <bodyName> and <frameName> mean the lump that a link went into, offset to where the link was.
+    """Replace lumped links in a plugin's <bodyName> and <frameName> by their lump, with an offset.
 
-    As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link; it changes
-    no other name in a plugin, such as <robotBaseFrame>, which is a frame of tf.
+    As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link; other names,
+    such as <robotBaseFrame>, which is a tf frame, stay.
     """
     places = {link: (lump.name, pose) for lump in lumps for link, pose in lump.parts[1:]}
     for tag in ("bodyName", "frameName"):
@@ -73,7 +73,7 @@ def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump], report: Diagnostics) ->
 
 
 def shape_name(lump: str, link: str, kind: str, number: int, shape: RobotShape) -> str:
-    """The name Gazebo gives a shape: its own or its link's, with the lump's in front where it was lumped."""
+    """Return Gazebo's name of a shape: its own or its link's, prefixed by the lump's if it was lumped."""
     suffix = f"_{number}" if number else ""
     if link == lump:
         return f"{shape.name or link}_{kind}{suffix}"
@@ -81,11 +81,11 @@ def shape_name(lump: str, link: str, kind: str, number: int, shape: RobotShape) 
 
 
 def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quaternion) -> Inertial:
-    """The mass properties of several bodies as one, by the parallel axis theorem.
+    """Return the combined mass properties of several bodies, by the parallel axis theorem.
 
     Args:
         parts: each with lump_from_link.
-        orientation: of the axes to express it in, seen from the lump's frame.
+        orientation: of the result's axes, in the lump's frame.
     """
     coms = [(part, pose @ part.link_from_com) for part, pose in parts]
     bodies = [

@@ -1,7 +1,7 @@
-"""Names the links that Gazebo's conversion leaves out: a link of no mass, and all that hangs below it.
+"""Massless links, which Gazebo's conversion drops together with their subtree.
 
-That holds of a link that was lumped, too: sdformat stops at it on its way down the tree (parser_urdf.cc, CreateSDF), so
-that an arm on a mount without <inertial> is lost although the mount's own shapes went into the body above.
+A lumped massless link counts, too: sdformat stops there on its way down the tree (parser_urdf.cc, CreateSDF), so an arm
+on a mount without <inertial> is lost although the mount's own shapes are part of the body above.
 """
 
 from collections.abc import Mapping
@@ -12,11 +12,11 @@ from trundle.robot import Robot, RobotLink
 from .lump import WORLD, Lump
 
 _NO_MASS = 1e-6
-"""ignition::math::equal takes so little [kg] for zero."""
+"""Mass that ignition::math::equal treats as zero [kg]."""
 
 
 def massless_lumps(robot: Robot, lumps: Mapping[str, Lump], report: Diagnostics) -> set[str]:
-    """The lumps that are left out of the simulation, which is said of each link that is the reason."""
+    """Return the dropped lumps, with a warning for each massless link."""
     tree = _Tree(robot, lumps)
     dropped: set[str] = set()
     for link in robot.links:
@@ -32,7 +32,7 @@ def massless_lumps(robot: Robot, lumps: Mapping[str, Lump], report: Diagnostics)
 def _sentence(link: RobotLink, mass: float, gone: list[str]) -> str:
     who = f"link {link.name!r}"
     if mass > 0.0:
-        who += f" weighs {mass:g} kg, which Gazebo takes for nothing: "
+        who += f" weighs {mass:g} kg, which Gazebo rounds to zero: "
     elif mass < 0.0:
         who += f" weighs {mass:g} kg; "
     else:
@@ -41,11 +41,11 @@ def _sentence(link: RobotLink, mass: float, gone: list[str]) -> str:
     if gone[0] == link.name:
         with_it = f" with {below} below it" if below else ""
         return f"{who}it is left out of the simulation{with_it}; give it an <inertial>"
-    return f"{who}what hangs on it is left out of the simulation: {below}; give it an <inertial>"
+    return f"{who}its subtree is left out of the simulation: {below}; give it an <inertial>"
 
 
 class _Tree:
-    """The links below each link, and their masses."""
+    """Children and lumped mass of each link."""
 
     def __init__(self, robot: Robot, lumps: Mapping[str, Lump]) -> None:
         self._lump_of = {link: lump.name for lump in lumps.values() for link, _ in lump.parts}
@@ -53,7 +53,7 @@ class _Tree:
         for joint in robot.joints:
             self._below.setdefault(joint.parent, []).append(joint.child)
         self.mass = {link.name: 0.0 if link.inertial is None else link.inertial.mass for link in robot.links}
-        """Mass of each link with all that was lumped into it [kg]."""
+        """Mass of each link with all that is lumped into it [kg]."""
         order = [robot.root]
         for name in order:
             order += self._below.get(name, [])
@@ -65,7 +65,7 @@ class _Tree:
         return [child for child in self._below.get(link, []) if self._lump_of[child] == lump]
 
     def subtree(self, link: str) -> list[str]:
-        """The lumps at and below a link, itself first where it is one; what only went into another lump is none."""
+        """Return the lumps at and below a link, itself first if it is one."""
         pending, found = [link], list[str]()
         while pending:
             name = pending.pop(0)

@@ -1,4 +1,4 @@
-"""Model becomes text: SDF and URDF."""
+"""Writers of SDF and URDF."""
 
 import lazy_loader
 

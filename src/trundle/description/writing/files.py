@@ -1,15 +1,15 @@
-"""What a written description calls the files it needs."""
+"""File URIs in written descriptions."""
 
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
 UriOf: TypeAlias = Callable[[Path | None, str], str]
-"""The URI to write for a mesh, terrain or texture: of where it is, and of what its author called it."""
+"""Returns the URI to write for a mesh, terrain or texture, from its path and original URI."""
 
 
 def written_uri(path: Path | None, uri: str) -> str:
-    """The author's own URI where it holds anywhere, else the file's full path."""
+    """Return the original URI if it is portable, else the file's absolute path."""
     if path is None or uri.startswith(("package://", "model://")):
         return uri
     return f"file://{path.resolve()}"

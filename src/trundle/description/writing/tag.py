@@ -1,4 +1,4 @@
-"""XML elements to be written, numbers in the fewest digits that read back the same."""
+"""XML elements for writing, with numbers in the fewest digits that read back the same."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -8,21 +8,21 @@ from html import escape
 from trundle.spatial import Pose
 
 _NOTHING = 1e-14
-"""What rounding leaves of a pose that is none."""
+"""Rounding error of an identity pose."""
 Value = str | float | bool | Iterable[float] | None
 
 
 @dataclass(slots=True)
 class Tag:
-    """One element: attributes, and a value or children."""
+    """Element with attributes, and a value or children."""
 
     name: str
     attributes: Mapping[str, str] = field(default_factory=dict[str, str])
     text: str = ""
     children: list["Tag | str"] = field(default_factory=list["Tag | str"])
-    """A str is XML as it stands."""
+    """Child elements; a str is raw XML."""
     optional: bool = False
-    """Not written while there is nothing in it."""
+    """True if the element is omitted while empty."""
 
     def add(self, name: str, text: Value = None, /, **attributes: str) -> "Tag":
         """Append a child and return it."""
@@ -31,18 +31,18 @@ class Tag:
         return child
 
     def add_optional(self, name: str) -> "Tag":
-        """Append a child that is written only if something is put into it."""
+        """Append a child that is omitted while empty."""
         child = Tag(name, optional=True)
         self.children.append(child)
         return child
 
     def add_unless(self, name: str, value: Value, default: object) -> None:
-        """Append a child unless it says what its absence says."""
+        """Append a child unless the value is the default."""
         if value != default:
             self.add(name, value)
 
     def add_pose(self, pose: Pose, relative_to: str | None = None) -> None:
-        """Append <pose>, unless it is as good as none."""
+        """Append <pose>, unless it is the identity."""
         attributes = {} if relative_to is None else {"relative_to": relative_to}
         numbers = pose.as_list()
         if max(map(abs, numbers)) < _NOTHING and not attributes:
@@ -50,7 +50,7 @@ class Tag:
         self.children.append(Tag("pose", attributes, format_value(numbers)))
 
     def lines(self, indent: int = 0) -> list[str]:
-        """The element as lines of XML."""
+        """Return the element as lines of XML."""
         if self._is_blank():
             return []
         pad = "  " * indent
@@ -67,12 +67,12 @@ class Tag:
         return self.optional and all(isinstance(child, Tag) and child._is_blank() for child in self.children)
 
     def document(self) -> str:
-        """The element as a file."""
+        """Return the element as a file."""
         return "\n".join(['<?xml version="1.0"?>', *self.lines()]) + "\n"
 
 
 def format_value(value: Value) -> str:
-    """A value as XML text."""
+    """Return a value as XML text."""
     match value:
         case None:
             return ""
@@ -92,5 +92,5 @@ def _number(value: float) -> str:
 
 
 def _quoted(text: str) -> str:
-    """An attribute's text; white space but blanks would be read back as blanks."""
+    """Return an attribute's text, with white space escaped that would be read back as blanks."""
     return escape(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")

@@ -1,6 +1,6 @@
-"""Writes one model as URDF, whose links stand where their joints are.
+"""Writer of one model as URDF, whose link frames are at their joints.
 
-SDF's link frames may lie anywhere; what is on a link is moved along, so that everything stays where it was.
+SDF's link frames are arbitrary; the contents of a link are moved along, so that everything stays in place.
 """
 
 import math
@@ -49,7 +49,7 @@ _SURFACE = (
     ("minDepth", "min_depth"),
     ("maxVel", "max_vel"),
 )
-"""What a <gazebo> block calls SDF's numbers."""
+"""<gazebo> tag → field of Surface."""
 
 
 def write_urdf(model: Model, *, uri_of: UriOf, report: Diagnostics) -> str:
@@ -57,11 +57,11 @@ def write_urdf(model: Model, *, uri_of: UriOf, report: Diagnostics) -> str:
 
     Args:
         model: as read, flattened.
-        uri_of: what to call meshes.
-        report: takes what URDF has no word for.
+        uri_of: URIs of meshes.
+        report: takes warnings of what URDF cannot express.
 
     Raises:
-        DescriptionError: it is no tree of the joints that URDF has.
+        DescriptionError: it is not a tree of URDF's joints.
     """
     return _Writer(model, uri_of, report).robot().document()
 
@@ -73,10 +73,10 @@ class _Writer:
         self.report = report
         self._check()
         self.link_from_frame = {joint.child: joint.child_from_joint for joint in model.joints}
-        """Of each link, URDF's frame in SDF's."""
+        """Link → URDF's link frame in SDF's."""
 
     def robot(self) -> Tag:
-        """<robot>, with the <gazebo> blocks for what URDF alone cannot say."""
+        """Return <robot>, with <gazebo> blocks for what URDF cannot express."""
         root = Tag("robot", {"name": self.model.name})
         if any(joint.parent == _WORLD for joint in self.model.joints):
             root.add("link", name=_WORLD)
@@ -98,7 +98,7 @@ class _Writer:
                 what = f"joint {joint.name!r}: URDF has no {joint.type.value} joints; --to sdf has"
                 raise DescriptionError(joint.at, what)
             if joint.child == _WORLD:
-                raise DescriptionError(joint.at, f"joint {joint.name!r}: in a URDF the world is nobody's child")
+                raise DescriptionError(joint.at, f"joint {joint.name!r}: in a URDF the world cannot be a child")
         held = Counter(joint.child for joint in self.model.joints)
         twice = [name for name, count in held.items() if count > 1]
         if twice:
@@ -108,7 +108,7 @@ class _Writer:
             roots.append(_WORLD)
         if len(roots) != 1:
             found = ", ".join(map(repr, roots)) or "none"
-            raise DescriptionError(self.model.at, f"a URDF has one link that no joint holds; here: {found}")
+            raise DescriptionError(self.model.at, f"a URDF has one root link; here: {found}")
         parents = {joint.child: joint.parent for joint in self.model.joints}
         for link in self.model.links:
             name, above = link.name, set[str]()
@@ -116,9 +116,9 @@ class _Writer:
                 above.add(name)
                 name = parents[name]
             if name in above:
-                raise DescriptionError(link.at, f"link {link.name!r} hangs from itself; URDF is a tree")
+                raise DescriptionError(link.at, f"link {link.name!r} is its own ancestor; URDF is a tree")
         if self.model.world_from_model != Pose():
-            self.report.info(self.model.at, "a URDF says not where it stands; the model's pose is left out")
+            self.report.info(self.model.at, "a URDF has no pose in the world; the model's pose is left out")
 
     def _add_link(self, root: Tag, link: Link) -> None:
         frame_from_link = self.link_from_frame.get(link.name, Pose()).inverse()
@@ -142,7 +142,7 @@ class _Writer:
         self._add_extras(root, link, frame_from_link)
 
     def _add_shape(self, link: Tag, kind: str, item: Visual | Collision, frame_from_shape: Pose) -> Tag | None:
-        """Append <visual> or <collision>; None, after a warning, for a shape that URDF has not."""
+        """Append <visual> or <collision>; None with a warning for an unsupported shape."""
         geometry = self._geometry(item.geometry)
         if geometry is None:
             what = type(item.geometry).__name__.lower()
@@ -208,11 +208,11 @@ class _Writer:
             root.children.append(extra)
 
     def _add_extras(self, root: Tag, link: Link, frame_from_link: Pose) -> None:
-        """What only Gazebo reads: friction, gravity, sensors."""
+        """Append the <gazebo> block: friction, gravity, sensors."""
         extra = Tag("gazebo", {"reference": link.name})
         surfaces = {collision.surface for collision in link.collisions}
         if len(surfaces) > 1:
-            self.report.warn(link.at, f"link {link.name!r}: a URDF has one surface a link; the first one is written")
+            self.report.warn(link.at, f"link {link.name!r}: a URDF has one surface per link; the first one is written")
         surface, default = link.collisions[0].surface if link.collisions else Surface(), Surface()
         for tag, name in _SURFACE:
             extra.add_unless(tag, getattr(surface, name), default=getattr(default, name))
@@ -238,5 +238,5 @@ def _add_origin(home: Tag, pose: Pose) -> None:
 
 
 def _bounded(value: float) -> float:
-    """URDF's limits are numbers; one that no robot reaches stands for none, as SDF has it."""
+    """Return a finite limit; 1e16 means unlimited, as in SDF."""
     return value if math.isfinite(value) else math.copysign(_UNLIMITED, value)

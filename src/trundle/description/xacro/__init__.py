@@ -1,1 +1,1 @@
-"""Xacro expanded with the official package."""
+"""Expansion of xacro by the official package."""

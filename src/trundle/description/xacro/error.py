@@ -1,4 +1,4 @@
-"""Words an error of the xacro package as ours: what is wrong, and where."""
+"""Conversion of the xacro package's errors to a sentence and a source position."""
 
 import contextlib
 import html
@@ -9,29 +9,29 @@ from trundle.diagnostics import DescriptionError, Source
 from trundle.files import read_text
 
 _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
-"""How the package words an error of $(…): its class, then what it says, twice."""
+"""Pattern of an error in $(…): the class and the message twice."""
 _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'\Z", re.DOTALL)
 _LONGEST = 400
-"""Characters of an error: it quotes the expression, and each that this one was part of."""
+"""Longest error message: it quotes the expression and all that contain it."""
 _LONGEST_NAME = 200
-"""Characters of a file's."""
+"""Longest file name in a message."""
 _MAX_BYTES = 4_000_000
-"""Size of the largest file that is searched for the line."""
+"""Largest file searched for the line of an error."""
 
 
 def description_error(error: Exception, at: Source, files: Iterable[str]) -> DescriptionError:
-    """Find what a file did wrong.
+    """Return the error with its position in a file.
 
     Args:
-        error: what the package raised; others may stand within it.
+        error: raised by the package; may wrap others.
         at: the element that was expanded.
-        files: every file that was read, one of which holds the expression.
+        files: every file read, one of which contains the expression.
     """
     inner: object = error
     expression = None
     what = ""
     while inner is not None:
-        if isinstance(inner, DescriptionError):  # what was refused amid an expression
+        if isinstance(inner, DescriptionError):  # refused within an expression
             at, what = inner.at, inner.what
         elif isinstance(inner, OSError):
             what = _why_unreadable(inner)
@@ -51,7 +51,7 @@ def _why_unreadable(error: OSError) -> str:
 
 
 def _find_place(text: str, files: Iterable[str]) -> Source | None:
-    """The one place that holds a text; where there are several, none."""
+    """Return the position of a text if it occurs exactly once."""
     places: list[Source] = []
     for name in files:
         with contextlib.suppress(OSError):

@@ -1,7 +1,7 @@
-"""Expands xacro with the official package: our package resolver in place of ament's, and a pass for Indigo's files.
+"""Expansion of xacro by the official package, with Trundle's package resolver and support for Indigo's syntax.
 
-Indigo's xacro took `<property>`, `<macro>`, … and calls of macros without the `xacro:` prefix; today's copies them to
-the output as plain XML, without a word, and a robot has no links. The pass rewrites them and says so.
+Indigo's xacro accepted `<property>`, `<macro>`, … and macro calls without the `xacro:` prefix; today's copies them to
+the output as plain XML, silently, and the robot has no links. They are rewritten with a warning.
 """
 
 import io
@@ -29,14 +29,14 @@ from .symbols import SubstitutedNames, install_symbols, new_interpreter
 
 
 class _Yaml(ModuleType):
-    """In yaml's place for the package's substitution_args, which imports it and asks it for nothing in most files."""
+    """Lazy yaml module for the package's substitution_args, which imports it but rarely uses it."""
 
     def __getattr__(self, name: str) -> object:
         return getattr(import_module("yaml"), name)
 
 
 class _CommandLine(ModuleType):
-    """In the place of the package's own, which is never asked."""
+    """Replacement of the package's command line module, which is never used."""
 
     process_args = None
 
@@ -59,7 +59,7 @@ install_symbols(xacro)
 
 
 def _collect_args_for(original: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
-    """Whatever a $(…) stood for is gone through once more, letter by letter."""
+    """Skip the package's second pass over a substituted text, letter by letter, unless it contains `$`."""
 
     def collect_args(text: str) -> list[str]:
         return original(text) if "$" in text else []
@@ -71,11 +71,11 @@ substitution_args._collect_args = _collect_args_for(substitution_args._collect_a
 
 
 _MAX_ELEMENTS = 50_000
-"""What macros may expand to; the largest published robot has some 5,000."""
+"""Most elements after expansion; the largest published robot has some 5,000."""
 _LONG = 200
-"""Characters of a text that is counted, each time it is put somewhere."""
+"""Length from which a text counts against the memory budget each time it is inserted."""
 _LOCK = threading.Lock()
-"""The package keeps its state in module globals."""
+"""Lock, because the package keeps its state in module globals."""
 _CORE = {
     "include": "filename",
     "property": "name",
@@ -84,7 +84,7 @@ _CORE = {
     "unless": "value",
     "insert_block": "name",
 }
-"""Indigo's bare tags, and the attribute that tells them from plain XML of the same name."""
+"""Indigo's tags without prefix, and the attribute that distinguishes them from plain XML of the same name."""
 _BARE = tuple(f"<{tag}".encode() for tag in _CORE)
 _URDF_TAGS = """
     robot link joint inertial visual collision origin geometry box cylinder sphere mesh material color
@@ -92,7 +92,7 @@ _URDF_TAGS = """
     actuator gazebo sensor plugin hardwareInterface mechanicalReduction type
 """
 _URDF = frozenset(_URDF_TAGS.split())
-"""Element names that stay what they are even where a macro has the same name."""
+"""URDF elements, which are never macro calls."""
 
 
 def expand_xacro(
@@ -103,12 +103,12 @@ def expand_xacro(
     Args:
         path: the top file.
         arguments: `name:=value` of the command line.
-        packages: answers `$(find …)`.
-        report: takes what was rewritten and what xacro warns of.
-        data: what is in the top file, where that is a pipe; relative paths then start beside `path`.
+        packages: resolves `$(find …)`.
+        report: takes rewrites and xacro's warnings.
+        data: contents of the top file if it is a pipe; relative paths then start beside `path`.
 
     Raises:
-        DescriptionError: it cannot be expanded; the sentence is xacro's, with the file it was in.
+        DescriptionError: it cannot be expanded; the message is xacro's, with its file.
     """
     if data is None:
         if not os.path.exists(path):
@@ -127,14 +127,14 @@ def expand_xacro(
         except DescriptionError:
             raise
         except RecursionError:
-            raise DescriptionError(cursor.at, "elements, macros or properties within one another without end") from None
-        except Exception as error:  # xacro evaluates the file's own Python: anything may come out of it
+            raise DescriptionError(cursor.at, "infinite recursion of elements, macros or properties") from None
+        except Exception as error:  # xacro evaluates the file's own Python, which may raise anything
             raise description_error(error, cursor.at, map(str, xacro.all_includes)) from None
 
 
 @contextmanager
 def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor) -> Generator[None]:
-    """Put our functions in the official package's place, for as long as one file takes."""
+    """Replace functions of the official package while one file is expanded."""
     stood_in: set[str] = set()
 
     def find(name: str) -> str:
@@ -176,10 +176,10 @@ def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, c
     package.safe_eval = interpreter.evaluate
     package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
     package.warning = warn
-    package.open = open_readable  # shadows the builtin that its load_yaml would open any file with
-    package.print_location = lambda: None  # it writes to stderr where a warning was; the cursor knows
+    package.open = open_readable  # shadows the builtin, with which its load_yaml would open any file
+    package.print_location = lambda: None  # it prints to stderr at a warning; the cursor has the position
     arguments._eval_find = arguments._eval_dict["find"] = find
-    arguments.eval = substitution_eval  # in its module, in place of the builtin one
+    arguments.eval = substitution_eval  # shadows the builtin in its module
     package.all_includes.clear()
     try:
         yield
@@ -193,12 +193,12 @@ def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, c
 
 
 def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[..., object]:
-    """Most text of a file holds nothing to evaluate, and the package's lexer costs as much as all the rest."""
+    """Skip the package's lexer, which costs as much as all the rest, for text without `$`."""
 
     def eval_text(text: str, symbols: object) -> object:
         found = original(text, symbols) if "$" in text else text
         if isinstance(found, str) and len(found) > _LONG:
-            budget.allocate(len(found))  # a thousand elements may hold it, and the output has it a thousand times
+            budget.allocate(len(found))  # a thousand elements may contain it, and the output repeats it
         return found
 
     return eval_text
@@ -207,7 +207,7 @@ def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[
 def _parse_for(
     original: Callable[..., Any], packages: Packages, report: Diagnostics, known: Mapping[str, bytes], cursor: Cursor
 ) -> Callable[..., Any]:
-    """Parse files our way; of those `known`, by name, the contents are here."""
+    """Return a parser with our checks; contents of `known` files are given by name."""
 
     def parse(inp: object, filename: str | None = None) -> Any:
         if filename is None:
@@ -235,7 +235,7 @@ def _parsed(data: bytes, filename: str, report: Diagnostics) -> Any:
     except ExpatError as error:
         from trundle.xmlnode import parse_xml  # slow to load, and most files are well-formed
 
-        parse_xml(data, name=filename)  # says in a sentence of ours what is wrong
+        parse_xml(data, name=filename)  # raises with a sentence
         what = f"not well-formed XML: {ErrorString(error.code)}"
         raise DescriptionError(Source(filename, error.lineno), what) from None
 
@@ -247,7 +247,7 @@ def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
 
 
 def _data(name: str) -> bytes:
-    """The contents of a file that a file names; one that cannot be read an include may allow."""
+    """Return the contents of a referenced file; an include may be optional."""
     try:
         return read_file(name)
     except OSError as error:
@@ -255,7 +255,7 @@ def _data(name: str) -> bytes:
 
 
 def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
-    """Give Indigo's bare core tags their prefix."""
+    """Add the prefix to Indigo's core tags."""
     rewritten: dict[str, Source] = {}
     for element in document.getElementsByTagName("*"):
         tag = element.tagName
@@ -265,20 +265,20 @@ def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
                 element.tagName = element.nodeName = f"xacro:{tag}"
                 rewritten.setdefault(tag, place_of(element))
     for tag, at in sorted(rewritten.items()):
-        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's way; read as <xacro:{tag}>")
+        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's syntax; read as <xacro:{tag}>")
 
 
 def _drop_unnamed(document: Any, report: Diagnostics) -> None:
-    """Leave out properties that no expression can name; Indigo's xacro kept them, today's refuses the file."""
+    """Drop properties that no expression can reference; Indigo's xacro kept them, today's refuses the file."""
     for element in document.getElementsByTagName("xacro:property"):
         name = str(element.getAttribute("name"))
         if element.hasAttribute("name") and not name.isidentifier():
             element.parentNode.removeChild(element)
-            report.warn(place_of(element), f"a property named {name!r} can be used nowhere; it is left out")
+            report.warn(place_of(element), f"a property named {name!r} cannot be referenced; it is left out")
 
 
 def _eval_all_for(original: Callable[..., None], cursor: Cursor) -> Callable[..., None]:
-    """Count what is gone through: every element, macro and block, each time it is put somewhere."""
+    """Count every element, macro and block each time it is expanded."""
     elements = itertools.count()
 
     def eval_all(node: Any, macros: Any, symbols: Any) -> None:

@@ -1,4 +1,4 @@
-"""Leaves out what packages that are not there would have put into a robot, and says so at each line."""
+"""Handling of missing packages: their includes and macro calls are left out, with a warning each."""
 
 import os
 from collections.abc import Iterator
@@ -14,16 +14,16 @@ _DYNAMIC_CALL = "xacro:call"
 
 
 class MissingPackageError(LookupError):
-    """`$(find …)` of a package that is not there."""
+    """`$(find …)` of a missing package."""
 
 
 def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics) -> None:
-    """Have the xacro package leave out includes of packages that are not there, and then calls of unknown macros.
+    """Let the xacro package skip includes of missing packages, and then calls of unknown macros.
 
     Args:
-        package: xacro's module; who calls puts its functions back.
-        packages: knows what is there.
-        report: is told of each.
+        package: xacro's module; the caller restores its functions.
+        packages: resolves packages.
+        report: takes a warning for each.
     """
     process_include, get_include_files = package.process_include, package.get_include_files
     handle_macro_call, resolve_macro = package.handle_macro_call, package.resolve_macro
@@ -69,7 +69,7 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
             return bool(handle_macro_call(node, macros, symbols))
         report.warn(
             place_of(node),
-            f"no macro <{node.tagName}>: the call is left out, as is the include it may come from",
+            f"no macro <{node.tagName}>: the call is left out; it may come from an include left out",
         )
         package.replace_node(node, by=None)
         return True
@@ -86,14 +86,14 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
 
 
 def _drop_loose(robot: Any, report: Diagnostics) -> None:
-    """Take out joints to links that are not there, and what hung from such a link."""
+    """Remove joints to missing links, and the children of such links."""
     links = {link.getAttribute("name"): link for link in _children(robot, "link")}
     joints = [(joint, _end(joint, "parent"), _end(joint, "child")) for joint in _children(robot, "joint")]
     loose = [each for each in joints if each[1] not in links or each[2] not in links]
     while loose:
         joint, parent, child = loose.pop()
         joints = [each for each in joints if each[0] is not joint]
-        what = f"joint {joint.getAttribute('name')!r} goes with what was left out: no link"
+        what = f"joint {joint.getAttribute('name')!r} is left out: no link"
         report.warn(place_of(joint), f"{what} {(child if parent in links else parent)!r}")
         robot.removeChild(joint)
         if parent not in links and child in links:
@@ -110,7 +110,7 @@ def _end(joint: Any, role: str) -> str:
 
 
 def _missing_package(error: BaseException | None) -> MissingPackageError | None:
-    """The missing package that caused an error; None: something else did."""
+    """Return the missing package that caused an error; None for another cause."""
     while error is not None and not isinstance(error, MissingPackageError):
         error = getattr(error, "exc", None) or error.__context__
     return error

@@ -1,4 +1,4 @@
-"""The names that xacro gives every expression, as our interpreter may call them."""
+"""xacro's global symbols, as functions for our interpreter."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -8,18 +8,18 @@ from typing import Any
 from trundle.expressions import Caller, Function, Interpreter, is_method, wrap_function
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
-"""Functions that may be called without their namespace, with a warning."""
+"""Functions callable without their namespace, with a warning."""
 
 
 def install_symbols(package: Any) -> None:
-    """Put what an expression may call in place of the package's functions, some of which reach anything."""
+    """Replace the package's functions for expressions, some of which have unlimited access."""
 
     def dotify(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         return package.YamlDictWrapper(caller.call(dict, values, named))
 
     symbols = package._global_symbols
     functions, python = symbols["xacro"], symbols["python"]
-    dict.pop(python, "vars")  # would open what no name may
+    dict.pop(python, "vars")  # gives access to hidden names
     dict.update(
         functions,
         load_yaml=Function("load_yaml", _yaml_reader(package)),
@@ -31,11 +31,11 @@ def install_symbols(package: Any) -> None:
             dict.__setitem__(functions, name, wrap_function(value, name))
     for name, space in _DEPRECATED.items():
         symbols[name] = Function(name, _deprecated(package, name, space, symbols[space][name]))
-    package.Table.__repr__ = package.Table.__str__ = _namespace_text  # else all that it and its parents hold
+    package.Table.__repr__ = package.Table.__str__ = _namespace_text  # otherwise the contents of it and its parents
 
 
 def new_interpreter(package: Any) -> Interpreter:
-    """Prepare to evaluate the expressions of one file."""
+    """Create an interpreter for the expressions of one file."""
 
     def dotted(owner: Any, name: str) -> Any:
         if isinstance(owner, package.Table):
@@ -60,13 +60,13 @@ def _deprecated(package: Any, name: str, space: str, value: Any) -> Callable[...
 
 
 def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
-    """Split a text as the package does; the separators are characters, never a pattern that takes an hour."""
+    """Split a text as the package does; separators are characters, never a pattern with exponential time."""
     items = re.split("[{}]".format(re.sub(r"([\[\]\\^])", r"\\\1", sep)), text)
     return [item for item in items if item] if skip_empty else items
 
 
 def _yaml_of(text: str, name: str, package: Any) -> Any:
-    """Read YAML with xacro's units, such as `!degrees 90`."""
+    """Load YAML with xacro's units, such as `!degrees 90`."""
     from yaml import YAMLError  # slow to load, and most robots have none
 
     from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
@@ -100,16 +100,16 @@ def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, 
 
 
 class SubstitutedNames:
-    """Names of a `$(eval …)`, whose functions come from the package; the original lets it have every builtin."""
+    """Names of a `$(eval …)`, with functions from the package; the original has every builtin."""
 
     def __init__(self, symbols: Any, others: Mapping[str, Any]) -> None:
         self._symbols, self._others = symbols, others
 
     def __getitem__(self, name: str) -> Any:
-        """The value of a name.
+        """Return the value of a name.
 
         Raises:
-            KeyError: nothing has it.
+            KeyError: it is not defined.
         """
         try:
             value = self._symbols[name]

@@ -1,1 +1,1 @@
-"""A world or a model as SDF 1.11."""
+"""Writer of SDF 1.11."""

@@ -1,4 +1,4 @@
-"""Writes <camera> and <noise>."""
+"""Writer of <camera> and <noise>."""
 
 from trundle.model import EVERY_BIT, CameraOptics, Distortion, Lens, Noise
 
@@ -54,16 +54,16 @@ def _add_lens(tag: Tag, optics: CameraOptics) -> None:
             intrinsics.add(name, value)
         intrinsics.add("s", pinhole.skew)
     if optics.projection is not None:
-        told = optics.projection
+        p = optics.projection
         projection = tag.add("projection")
-        for name, value in (("p_fx", told.fx), ("p_fy", told.fy), ("p_cx", told.cx), ("p_cy", told.cy)):
+        for name, value in (("p_fx", p.fx), ("p_fy", p.fy), ("p_cx", p.cx), ("p_cy", p.cy)):
             projection.add(name, value)
-        projection.add("tx", told.tx)
-        projection.add("ty", told.ty)
+        projection.add("tx", p.tx)
+        projection.add("ty", p.ty)
 
 
 def _add_wide(tag: Tag, lens: Lens) -> None:
-    """Every lens is a custom one, by its numbers."""
+    """Append a lens, always as a custom one."""
     tag.add("type", "custom")
     tag.add("scale_to_hfov", lens.scale_to_hfov)
     function = tag.add("custom_function")
@@ -74,7 +74,7 @@ def _add_wide(tag: Tag, lens: Lens) -> None:
 
 
 def add_noise(home: Tag, noise: Noise) -> None:
-    """Append <noise>, if there is any."""
+    """Append <noise>, unless it is zero."""
     if noise == Noise():
         return
     tag = home.add("noise", type="gaussian")

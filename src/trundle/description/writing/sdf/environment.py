@@ -1,4 +1,4 @@
-"""Writes what is around the models: lights, physics, scene, air and earth."""
+"""Writer of lights, physics, scene, atmosphere and geographic position."""
 
 from trundle.model import Atmosphere, Fog, Light, SceneSettings, SphericalCoordinates, World
 from trundle.spatial import ZERO
@@ -30,7 +30,7 @@ def add_light(home: Tag, light: Light) -> None:
 
 
 def add_environment(home: Tag, world: World) -> None:
-    """Append everything of a world but what is in it."""
+    """Append the settings of a world, without its models."""
     physics = home.add("physics", name="default", type="ode")
     physics.add("max_step_size", world.physics.max_step_size_s)
     physics.add("real_time_factor", world.physics.real_time_factor)

@@ -1,4 +1,4 @@
-"""Writes what sensors other than cameras, rays and imus are set to."""
+"""Writer of settings of sensors other than cameras, rays, IMUs, GPS and force-torque sensors."""
 
 from trundle.model import (
     AirPressure,

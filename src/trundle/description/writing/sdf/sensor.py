@@ -1,4 +1,4 @@
-"""Writes <sensor>."""
+"""Writer of <sensor>."""
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import EVERY_BIT, GpsNoise, ImuNoise, Noise, RangeScan, Sensor
@@ -8,11 +8,11 @@ from .camera import add_camera, add_noise
 from .instrument import add_axes, add_instrument
 
 _WITHOUT = frozenset({"rfid", "rfidtag"})
-"""Types that have no settings."""
+"""Types without settings."""
 
 
 def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
-    """Append <sensor>; settings that the model does not hold are named."""
+    """Append <sensor>; settings that the model does not hold give a warning."""
     tag = home.add("sensor", name=sensor.name, type=sensor.type)
     tag.add_pose(sensor.link_from_sensor)
     tag.add_unless("update_rate", sensor.update_rate_hz, default=0.0)

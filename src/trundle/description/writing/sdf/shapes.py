@@ -1,4 +1,4 @@
-"""Writes what is on a link: <visual> and <collision>."""
+"""Writer of <visual> and <collision>."""
 
 from trundle.model import (
     EVERY_BIT,

@@ -1,4 +1,4 @@
-"""Writes what is around the models and moves by itself or not at all: <road>, <actor>, <state>."""
+"""Writer of <road>, <actor> and <state>."""
 
 from trundle.model import Actor, Model, Road, World
 from trundle.spatial import Pose
@@ -44,7 +44,7 @@ def add_actor(home: Tag, actor: Actor, uri_of: UriOf) -> Tag:
 
 
 def add_state(home: Tag, world: World) -> None:
-    """Append <state>, if anything is to start elsewhere than where it is written."""
+    """Append <state>, if any link has an initial pose."""
     started = [model for model in world.models if _starts_elsewhere(model)]
     if started:
         state = home.add("state", world_name=world.name)

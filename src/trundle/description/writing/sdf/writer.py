@@ -1,6 +1,6 @@
-"""Writes a world or models as SDF 1.11: what was understood, every pose and default spelled out.
+"""Writer of worlds and models as SDF 1.11, with every pose and default explicit.
 
-A pose stands relative to its parent element, an axis in the model's frame, so that nothing depends on what is around.
+A pose is relative to its parent element, an axis to the model frame, so the result does not depend on its context.
 """
 
 import math
@@ -17,17 +17,17 @@ from .world_elements import add_actor, add_road, add_state
 
 _VERSION = "1.11"
 _SCOPED_NAMES = "1.7"
-"""The last version in which a name may hold `::`, as flattened models of that time do."""
+"""Last version that allows `::` in names, as in flattened models of that time."""
 
 
 def write_sdf(world: World, *, is_world: bool, uri_of: UriOf, report: Diagnostics) -> str:
-    """Write a world, or the models and lights that stand alone in a file.
+    """Write a world, or the models and lights alone.
 
     Args:
         world: as read.
-        is_world: write <world>, not only what is in it.
-        uri_of: what to call meshes, terrains and textures.
-        report: takes what the model does not hold, and so cannot be written.
+        is_world: write <world>, not only its contents.
+        uri_of: URIs of meshes, terrains and textures.
+        report: takes warnings of what the model does not hold.
     """
     scoped = any(_has_scoped_names(model) for model in world.models)
     root = Tag("sdf", {"version": _SCOPED_NAMES if scoped else _VERSION})
@@ -77,7 +77,7 @@ class _Writer:
             _add_frame(tag, frame, "__model__")
         taken = {link.name for link in model.links}
         for joint in model.joints:
-            # Before SDF 1.7 a joint could be called like a link.
+            # Before SDF 1.7 a joint could have a link's name.
             name = f"{joint.name}_joint" if joint.name in taken else joint.name
             self.add_joint(tag, joint, name, model, "__model__")
         tag.children += [plugin.node.xml() for plugin in model.plugins]
@@ -114,7 +114,7 @@ class _Writer:
         for visual in link.visuals:
             add_visual(tag, visual, self.uri_of)
             if visual.material.texture_scale != (1.0, 1.0):
-                self.report.warn(visual.at, f"visual {visual.name!r}: SDF has no word for a texture's scale")
+                self.report.warn(visual.at, f"visual {visual.name!r}: SDF has no texture scale")
         for collision in link.collisions:
             add_collision(tag, collision, self.uri_of)
         for sensor in link.sensors:
@@ -126,14 +126,14 @@ class _Writer:
         """Append <joint>.
 
         Args:
-            home: of the model or world.
+            home: element of the model or world.
             joint: to write.
-            name: what to call it.
-            model: that has its links.
-            root: the frame of `home`.
+            name: to write it with.
+            model: with its links.
+            root: frame of `home`.
         """
         if joint.type is JointType.PLANAR:
-            self.report.warn(joint.at, f"joint {name!r}: SDF has no planar joints; its child is written free")
+            self.report.warn(joint.at, f"joint {name!r}: SDF has no planar joints; its child is free")
             return
         tag = home.add("joint", name=name, type=joint.type.value)
         by_link = joint.child_frame is None and joint.child != "world"
