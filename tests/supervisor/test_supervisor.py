@@ -114,7 +114,7 @@ def test_a_program_that_is_not_there_is_told_and_the_rest_goes_on(tmp_path: Path
         await stage.supervisor.wait()
 
     stage = on_stage(tmp_path, play)
-    assert stage.events[0].text == "cannot be started: '/no/such/program' is not there"
+    assert stage.events[0].text == "cannot be started: '/no/such/program' does not exist"
     assert stage.lines == [("b", "hi")]
 
 

@@ -10,9 +10,7 @@ _USE = re.compile(r"""\$\(\s*arg\s+([^\s)]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\
 
 
 class CommandLine:
-    """`name:=value` arguments, and the files they apply to: those on the command line, and their includes with
-    pass_all_args.
-    """
+    """`name:=value` arguments, and the files that see them: those launched, and their includes with pass_all_args."""
 
     def __init__(self, arguments: Mapping[str, str]) -> None:
         self.arguments = arguments

@@ -1,6 +1,4 @@
-"""xacro for commands that run it themselves, such as Clearpath's env_run, which sets variables and runs its
-arguments.
-"""
+"""xacro for commands that run it themselves, as Clearpath's env_run, which sets variables and runs its arguments."""
 
 import os
 import shlex

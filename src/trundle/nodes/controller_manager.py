@@ -80,7 +80,7 @@ class _ControllerManagerClient:
 
 
 class Spawner:
-    """Loads and starts controllers; stops and unloads them when cancelled."""
+    """Loads and starts controllers; stops and unloads them when its node is shut down."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -149,7 +149,7 @@ class Spawner:
 
 
 class Unspawner:
-    """Stops controllers; starts them again when cancelled."""
+    """Stops controllers; starts them again when its node is shut down."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host

@@ -1,6 +1,6 @@
-"""The ROS 1 graph by itself: master, parameters, topics, services, tf and messages.
+"""The ROS 1 graph: master, parameters, topics, services, tf and messages.
 
-Names are imported on first use: a command that only asks the master pays for neither asyncio nor numpy.
+Names are imported on first use, so that commands that only call the master import neither asyncio nor numpy.
 """
 
 import lazy_loader

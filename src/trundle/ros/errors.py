@@ -62,7 +62,7 @@ class DefinitionError(MessageError):
 
 
 class ServiceError(RosError):
-    """A service that is not there, or that answered a request with an error text."""
+    """A service that is not available, or that answered with an error."""
 
 
 class TransformError(RosError):

@@ -72,7 +72,7 @@ class ProcessJob:
                 start_new_session=_POSIX,
             )
         except FileNotFoundError as error:
-            raise JobError(f"{error.filename or command.argv[0]!r} is not there") from None
+            raise JobError(f"{error.filename or command.argv[0]!r} does not exist") from None
         except (OSError, ValueError) as error:
             raise JobError(f"{command.argv[0]!r} cannot be run: {error}") from None
         self._tree.add(self._process.pid)

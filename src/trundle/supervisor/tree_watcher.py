@@ -11,9 +11,7 @@ import time
 from collections.abc import Collection
 
 VARIABLE = "TRUNDLE_PROCESS_TREE"
-"""Environment variable of every process of the tree, with its mark as value; only Linux shows other processes'
-environment.
-"""
+"""Environment variable with the tree's mark in each of its processes; readable on Linux only."""
 _PROC = "/proc"
 _POLL_S = 0.02
 _MAX_S = 10.0

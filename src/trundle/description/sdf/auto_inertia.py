@@ -51,7 +51,7 @@ def _pose(collision: Collision) -> Pose:
     return collision.link_from_collision
 
 
-def _volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
+def volume_and_moments(geometry: Geometry) -> tuple[float, Vector3] | None:
     """Return volume [m³] and principal moments per unit mass [m²] about the centre of mass."""
     match geometry:
         case Box((x, y, z)):

@@ -109,7 +109,7 @@ class SpawnModel:
         except ParameterError as error:
             raise UsageError(str(error)) from None
         if not isinstance(xml, str) or not xml.strip():
-            raise UsageError(f"parameter {self._node.resolve(name)} holds no model")
+            raise UsageError(f"parameter {self._node.resolve(name)} does not contain a model")
         return xml
 
     async def _wait_for(self, model: str | None, gazebo: str) -> None:

@@ -35,8 +35,8 @@ class Codec:
         self.exact_frame = self._program.frame
         """`frame` without the conversion: raises one of `ENCODING_ERRORS` instead."""
         self.receive = self._program.receive
-        """Called with a socket's `recv_into` and a buffer; returns (message or None, bytes received); the message is
-        None unless exactly one frame arrived.
+        """Called with a socket's `recv_into` and a buffer; returns (message, bytes received), with None unless the
+        bytes are one whole frame.
         """
         self._mend = mend
 

@@ -11,9 +11,7 @@ from trundle.files import read_text
 
 _SHIPPED = Path(__file__).parents[1] / "definitions"
 MAX_CHARACTERS = 1_000_000
-"""Maximum length of a definition; the longest of a desktop installation is below 100,000. The limit also holds for
-peers.
-"""
+"""Maximum length of a definition, also from peers; the longest of a desktop installation is below 100,000."""
 _SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
 DEBIAN_SHARE = "/usr/share"
 """Debian's rospkg searches here last, whatever ROS_PACKAGE_PATH is."""
@@ -125,9 +123,7 @@ class Definitions:
 
 
 def split_service(text: str, line: int = 1) -> tuple[tuple[int, str], tuple[int, str]]:
-    """Split a .srv definition into request and response, each with its first line; `line` is the first line of
-    `text`.
-    """
+    """Split a .srv definition into (first line, text) of request and response; `line` is the first of `text`."""
     separator = _SEPARATOR.search(text)
     if separator is None:
         return (line, text), (line, "")

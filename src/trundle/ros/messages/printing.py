@@ -23,9 +23,7 @@ class MessagePrinter:
     """If set, times are printed relative to it [ns]."""
 
     def text(self, value: Any, type_text: str, indent: str = "") -> str:
-        """Format a value of a ROS type ('float64[36]', 'geometry_msgs/Pose', …); a nested message starts on a new
-        line.
-        """
+        """Format a value of a ROS type ('float64[36]', 'geometry_msgs/Pose', …); nested messages start a new line."""
         value, type_text = self._shown(value, type_text)
         base, bracket, _ = type_text.partition("[")
         if bracket:
