@@ -64,7 +64,7 @@ def test_parameters_are_deleted(graph: Any) -> None:
         (("get", "/nope"), "ERROR: Parameter [/nope] is not set\n"),
         (("set", "/a", "{1: 2}"), "ERROR: YAML dictionaries must have string keys."),
         (("set", "/a", "99999999999"), "does not fit the 32 bits"),
-        (("set", "/a", "[1"), "ERROR: the value is no YAML"),
+        (("set", "/a", "[1"), "ERROR: the value is not YAML"),
         (("set", "/a", "rad(9**9**9)"), "ERROR: not an angle: 'rad(9**9**9)'"),
         (("load", "/no/such.yaml"), "ERROR: file [/no/such.yaml] does not exist\n"),
     ],

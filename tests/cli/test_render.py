@@ -163,7 +163,7 @@ def test_a_size_that_is_none_is_wrong_usage(
         code = end.code
 
     assert code == 2
-    assert "is no size; say WIDTHxHEIGHT" in capsys.readouterr().err
+    assert "is not a size; give WIDTHxHEIGHT" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("where", ["command line", "file"])
@@ -238,10 +238,10 @@ def _frames(film: Path) -> list[NDArray[np.uint8]]:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["-o", "a.png", "--orbit"], "that is a film: its file ends in .mp4, .webp, .gif, .apng, not in '.png'"),
-        (["-o", "a.png", "--duration", "2"], "that is a film"),
-        (["-o", "a.mp4", "--depth"], "depth has 16 bits"),
-        (["-o", "a.mp4", "--orbit", "--camera", "eye"], "it takes neither --camera nor --duration"),
+        (["-o", "a.png", "--orbit"], "a video's file ends in .mp4, .webp, .gif, .apng, not in '.png'"),
+        (["-o", "a.png", "--duration", "2"], "a video's file ends in"),
+        (["-o", "a.mp4", "--depth"], "depth needs 16 bits"),
+        (["-o", "a.mp4", "--orbit", "--camera", "eye"], "it excludes --camera and --duration"),
     ],
 )
 def test_what_cannot_be_filmed_is_said(

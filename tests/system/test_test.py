@@ -140,7 +140,7 @@ def test_results_lie_where_they_are_told_to(trundle, package: Path, tmp_path: Pa
 
     refused = trundle("test", "ws/p/a.test", "--results-filename", "b/all.xml")
     assert refused.returncode == 2
-    assert "'b/all.xml' is no file name; --results-base-dir takes the folder" in refused.stderr
+    assert "'b/all.xml' is not a file name; --results-base-dir takes the folder" in refused.stderr
 
 
 def test_a_graph_that_runs_is_taken_and_cleared_when_asked(trundle, package: Path) -> None:

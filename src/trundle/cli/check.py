@@ -11,30 +11,30 @@ from .options import add_allow_outside, add_lenient
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
-  trundle check model.sdf                             everything worth knowing, worst first
+  trundle check model.sdf                             all findings, worst first
   trundle check robot.urdf.xacro --strict             exit 1 on a warning, for continuous integration
   trundle check world.sdf --json                      the resolved model as one JSON object
-  trundle check robot.urdf --collisions               how near physics comes to its hollow meshes, too
+  trundle check robot.urdf --collisions               also the error of approximating hollow meshes
   trundle check robot.urdf --tree                     links and joints as a tree
-  trundle check robot.urdf --graph robot.svg          the same as a picture
+  trundle check robot.urdf --graph robot.svg          the same as an image
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="what to read; no command in it is run")
-    parser.add_argument("--strict", action="store_true", help="a warning is an error")
-    parser.add_argument("--json", action="store_true", help="print what was understood as one JSON object")
-    cut = "cut hollow collision meshes as physics does, and say how near that is; the first time may take a minute"
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="file to read; commands in it are not run")
+    parser.add_argument("--strict", action="store_true", help="treat warnings as errors")
+    parser.add_argument("--json", action="store_true", help="print the resolved model as one JSON object")
+    cut = "decompose hollow collision meshes as physics does, and report the error; may take a minute the first time"
     parser.add_argument("--collisions", action="store_true", help=cut)
     add_allow_outside(parser)
     add_lenient(parser)
     parser.add_argument("--tree", action="store_true", help="draw the kinematic tree in the terminal")
-    parser.add_argument("--graph", metavar="OUT.svg", type=Path, help="write the kinematic tree as a picture")
+    parser.add_argument("--graph", metavar="OUT.svg", type=Path, help="write the kinematic tree as an image")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Read, report, and return 1 where the file is refused."""
+    """Read and report; 1 if the file is rejected."""
     with no_garbage():
         return _check(args)
 

@@ -1,4 +1,4 @@
-"""What a shell completes beyond words of the command line: names on the running graph, packages and types."""
+"""Shell completion of names on the running graph, packages and types."""
 
 import argparse
 import os
@@ -11,14 +11,14 @@ from trundle.names import anonymous_name
 from trundle.ros import MasterProxy, Messages, RosError, uri_host
 
 _TIMEOUT_S = 0.5
-"""Somebody waits with a finger on the key."""
+"""Timeout of graph queries: the user is waiting."""
 _FRAMES_S = 5.0
-"""The same, where transforms are to be heard and none has come."""
+"""Timeout for the first transform."""
 
 
 def complete(parser: argparse.ArgumentParser, command: str) -> None:
-    """Tell each argument of a command where its words come from."""
-    for action in parser._actions:  # argparse has no other way to its arguments
+    """Attach a completer to each argument of a command."""
+    for action in parser._actions:  # argparse has no public access to its arguments
         if isinstance(action.choices, dict):
             for choice in action.choices.values():
                 if isinstance(choice, argparse.ArgumentParser):
@@ -26,14 +26,14 @@ def complete(parser: argparse.ArgumentParser, command: str) -> None:
         source = _SOURCES.get((command, action.dest)) or _SOURCES.get(("", action.dest))
         completer = _BEHIND.get((command, action.dest)) or (source and _completer(source))
         if completer:
-            setattr(action, "completer", completer)  # noqa: B010 - argcomplete looks for it there
+            setattr(action, "completer", completer)  # noqa: B010 - argcomplete reads this attribute
 
 
 def _completer(source: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
     def words(**_: Any) -> list[str]:
         try:
             return sorted(source())
-        except RosError:  # no master: nothing to complete
+        except RosError:  # no master, no completions
             return []
 
     return words
@@ -62,7 +62,7 @@ def _machines() -> set[str]:
 
 
 def _frames() -> set[str]:
-    """Frames that are heard while somebody waits: what is sent more seldom is not offered."""
+    """Frames received within a short time; frames published more rarely are missing."""
     import asyncio
 
     from trundle.ros import GraphLoop, Node, TransformListener
@@ -116,7 +116,7 @@ def _service_packages() -> set[str]:
 
 
 def _topic_type(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """What a topic carries already, else whatever there is."""
+    """Type of the topic if known, else all message types."""
     try:
         types: dict[str, str] = dict(_ask("getTopicTypes"))
     except RosError:
@@ -134,7 +134,7 @@ def _programs(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 
 def _launch_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list[str]:
-    """A package or a file; behind a package its launch files."""
+    """Packages and files; after a package, its launch files."""
     from argcomplete.completers import FilesCompleter
 
     from trundle.packages import Packages
@@ -174,7 +174,7 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("srv", "type"): _service_types,
     ("service", "type"): _service_types,
 }
-"""(command, argument) → words; '' for any command."""
+"""(command, argument) → completions; '' for any command."""
 _BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
     ("bag", "genrules"): _rule_files,
     ("bag", "rules"): _rule_files,
@@ -182,4 +182,4 @@ _BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
     ("launch", "words"): _launch_words,
     ("topic", "type"): _topic_type,
 }
-"""(command, argument) → words that depend on those before, or on what is typed so far."""
+"""(command, argument) → completions that depend on earlier arguments or the prefix."""

@@ -1,4 +1,4 @@
-"""Write what was understood of a file as SDF, URDF or MJCF."""
+"""Convert a robot or world to SDF, URDF or MJCF."""
 
 import argparse
 import os
@@ -9,25 +9,25 @@ from .options import add_allow_outside, add_lenient
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
-  trundle convert robot.urdf.xacro --to sdf           what Gazebo would make of it, on standard output
+  trundle convert robot.urdf.xacro --to sdf           Gazebo's conversion, on standard output
   trundle convert model.sdf --to urdf -o robot.urdf   meshes are copied into meshes/ beside it
-  trundle convert world.sdf --to mjcf -o world.xml    for MuJoCo: the shapes and joints that are simulated
-  trundle convert old.sdf --to sdf | trundle check -  the same model again, in SDF 1.11
+  trundle convert world.sdf --to mjcf -o world.xml    for MuJoCo: simulated shapes and joints
+  trundle convert old.sdf --to sdf | trundle check -  the same model in SDF 1.11
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="what to read; no command in it is run")
-    parser.add_argument("--to", choices=("sdf", "urdf", "mjcf"), required=True, help="the format to write")
-    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="where to write to (standard output)")
-    parser.add_argument("--strict", action="store_true", help="a warning is an error")
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="file to read; commands in it are not run")
+    parser.add_argument("--to", choices=("sdf", "urdf", "mjcf"), required=True, help="output format")
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="output file (standard output)")
+    parser.add_argument("--strict", action="store_true", help="treat warnings as errors")
     add_allow_outside(parser)
     add_lenient(parser)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Read, write, and say on standard error what was lost."""
+    """Read and write; losses are reported on standard error."""
     with quiet_imports():
         from trundle.bringup.convert import convert
         from trundle.diagnostics import Diagnostics

@@ -17,18 +17,18 @@ from trundle.ros import DISTROS, NOETIC, Core, GraphLoop, RosError, host_and_por
 from .graph_command import ending_signals
 
 EXAMPLES = """
-  trundle core                  the usual place: http://localhost:11311
-  trundle core -p 11312         beside another one
+  trundle core                  default address: http://localhost:11311
+  trundle core -p 11312         beside another master
 """
 _READY_S = 10.0
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("-p", "--port", type=int, default=11311, help="port to listen at; 0: any free one")
-    parser.add_argument("--host", help="address to listen at, such as 0.0.0.0 for all; this machine only by default")
-    parser.add_argument("--distro", choices=DISTROS, default=NOETIC.distro, help="what to be (noetic)")
-    # roscore's other switches tune its worker threads, sockets and logs; there is nothing here to tune.
+    parser.add_argument("-p", "--port", type=int, default=11311, help="port to listen on; 0: any free one")
+    parser.add_argument("--host", help="address to bind, such as 0.0.0.0 for all interfaces; loopback by default")
+    parser.add_argument("--distro", choices=DISTROS, default=NOETIC.distro, help="ROS distribution to present (noetic)")
+    # roscore's options for worker threads, sockets and logs have no effect here.
     parser.add_argument("-v", "--verbose", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("-w", "--numworkers", type=int, help=argparse.SUPPRESS)
     for option in (("-t", "--timeout"), ("--sigint-timeout",), ("--sigterm-timeout",)):
@@ -40,8 +40,8 @@ def main(args: argparse.Namespace) -> int:
     """Run until Ctrl-C, SIGTERM, SIGHUP, or a shutdown request."""
     if not 0 <= args.port < 65536:
         raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
-    reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: only this may be told by a signal's handler
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell's background jobs ignore otherwise
+    reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: safe to use in a signal handler
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # background jobs of a shell ignore it otherwise
     for number in ending_signals()[1:]:
         signal.signal(number, lambda _number, _frame: reasons.put("terminated"))
     _warn_of_other_master(os.environ.get("ROS_MASTER_URI"), args.port)
@@ -61,7 +61,7 @@ def main(args: argparse.Namespace) -> int:
             loop.run(core.wait_ready(), timeout_s=_READY_S)
         except TimeoutError:
             raise RosError(
-                f"nothing answers at {core.uri}, the address that this master gives out; "
+                f"nothing answers at {core.uri}, the address that this master advertises; "
                 "set ROS_IP or ROS_HOSTNAME to an address of this machine, or neither"
             ) from None
         print(f"ROS_MASTER_URI={core.uri}", flush=True)
@@ -75,7 +75,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _warn_of_other_master(uri: str | None, port: int) -> None:
-    """Say where programs started from the same shell will look instead, in roscore's words."""
+    """Warn, in roscore's words, if ROS_MASTER_URI names another master."""
     if not uri:
         return
     try:
@@ -112,4 +112,4 @@ def _log_folder(run_id: str) -> Path | None:
 def _next(reasons: SimpleQueue[str]) -> str:
     while True:
         with suppress(Empty):
-            return reasons.get(timeout=1.0)  # Ctrl-C gets through between two looks, on Windows too
+            return reasons.get(timeout=1.0)  # wakes up for Ctrl-C, on Windows too

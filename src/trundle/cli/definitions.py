@@ -1,4 +1,4 @@
-"""What `trundle msg` and `trundle srv` share: types by name, as rosmsg and rossrv print them."""
+"""Common part of `trundle msg` and `trundle srv`: types printed as by rosmsg and rossrv."""
 
 import argparse
 import os
@@ -15,24 +15,24 @@ def configure(parser: argparse.ArgumentParser, what: str) -> None:
     """Declare the arguments.
 
     Args:
-        parser: the command's.
+        parser: parser of the command.
         what: "message" or "service".
     """
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, help_ in (("show", "fields and constants of a type"), ("info", "the same as show")):
         add = commands.add_parser(name, help=help_)
-        add.add_argument("type", nargs="?", help=f"{what} type, with or without its package; piped in if left out")
-        add.add_argument("-r", "--raw", action="store_true", help="the text of the definition, comments and all")
+        add.add_argument("type", nargs="?", help=f"{what} type, with or without its package (standard input)")
+        add.add_argument("-r", "--raw", action="store_true", help="the definition with comments")
         if what == "message":
-            add.add_argument("-b", "--bag", metavar="BAG", help="by the definition in a bag")
+            add.add_argument("-b", "--bag", metavar="BAG", help="use the definition in a bag")
         add.set_defaults(run=_show, refuse=add.error)
     add = commands.add_parser("list", help=f"names of all {what} types")
     add.set_defaults(run=_list)
-    add = commands.add_parser("md5", help="the sum that peers compare")
-    add.add_argument("type", nargs="?", help="with or without its package; piped in if left out")
+    add = commands.add_parser("md5", help="md5 sum of a type")
+    add.add_argument("type", nargs="?", help="with or without its package (standard input)")
     add.set_defaults(run=_md5)
     add = commands.add_parser("package", help=f"{what} types of a package")
-    add.add_argument("package", nargs="?", help="piped in if left out")
+    add.add_argument("package", nargs="?", help="package (standard input)")
     add.add_argument("-s", dest="single_line", action="store_true", help="on one line")
     add.set_defaults(run=_package)
     add = commands.add_parser("packages", help=f"packages that have {what} types")
@@ -46,7 +46,7 @@ def run(args: argparse.Namespace, what: str) -> int:
 
 
 class _Types:
-    """Message types or service types, seen alike."""
+    """Message types or service types, with the same interface."""
 
     def __init__(self, what: str, *, as_in_bag: tuple[str, str] | None = None) -> None:
         self.what = what
@@ -56,14 +56,14 @@ class _Types:
         self._is_service = what == "service"
 
     def names(self) -> list[str]:
-        """All of them."""
+        """Names of all types."""
         return self._messages.service_names() if self._is_service else self._messages.type_names()
 
     def full_names(self, name: str) -> list[str]:
         """Full names of a type written with or without its package.
 
         Raises:
-            MessageError: there is none.
+            MessageError: no such type.
         """
         name = name.removesuffix(".srv" if self._is_service else ".msg")
         if "::" in name or "." in name:
@@ -74,15 +74,15 @@ class _Types:
         return found
 
     def md5(self, name: str) -> str:
-        """The sum of a type."""
+        """md5 sum of a type."""
         return self._messages.service(name).md5sum if self._is_service else self._messages.md5(name)
 
     def raw(self, name: str) -> str:
-        """The definition as written."""
+        """Definition as written."""
         return self._messages.service_text(name) if self._is_service else self._messages.text(name)
 
     def text(self, name: str) -> str:
-        """Constants and fields, those of inner types indented below them."""
+        """Constants and fields; those of nested types are indented below them."""
         if not self._is_service:
             return "".join(self._lines(name, ""))
         kind = self._messages.service(name)
@@ -149,7 +149,7 @@ def _packages(args: argparse.Namespace, types: _Types) -> int:
 
 
 def _piped() -> str:
-    """The first line of standard input that is not empty."""
+    """First non-empty line of standard input."""
     for line in sys.stdin:
         if line.strip():
             return line.strip()

@@ -24,20 +24,20 @@ if TYPE_CHECKING:
     from trundle.viewer import GraphPage
 
 EXAMPLES = """
-  trundle exec --list                                 which nodes there are without ROS
+  trundle exec --list                                 nodes that run without ROS
   trundle exec robot_state_publisher robot_state_publisher
   trundle exec tf static_transform_publisher 0 0 0.1 0 0 0 base_link laser 100
   trundle exec my_robot drive.py _rate:=20 cmd_vel:=/base/cmd_vel
 """
 _NO_PACKAGE, _NO_PROGRAM = 2, 3
-"""Exit codes, as rosrun's."""
+"""Exit codes, as in rosrun."""
 _POLL_S = 0.5
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("--prefix", default="", metavar="COMMAND", help="run the program by this: 'gdb -ex run --args'")
-    parser.add_argument("--debug", action="store_true", help="say where the program is looked for and what runs")
+    parser.add_argument("--prefix", default="", metavar="COMMAND", help="command to run it with: 'gdb -ex run --args'")
+    parser.add_argument("--debug", action="store_true", help="print where the program is searched and what runs")
     parser.add_argument("--list", action=_List, help="the stock nodes that run without ROS")
     parser.add_argument("package")
     parser.add_argument("executable", help="a program anywhere in the package, or a stock node")
@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Become the program; or run the stand-in for a stock node here, until Ctrl-C."""
+    """Exec the program, or run a built-in node until Ctrl-C."""
     from trundle.nodes import (
         BuiltinReplacement,
         Executable,
@@ -90,7 +90,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _chosen(first: Path, programs: list[Path]) -> Path:
-    """Which of the programs of one name is to run: the user's choice at a terminal, else the first."""
+    """Program to run among those of one name: chosen by the user at a terminal, else the first."""
     if len(programs) < 2:
         return first
     if not sys.stdin.isatty():
@@ -104,7 +104,7 @@ def _chosen(first: Path, programs: list[Path]) -> Path:
 
 
 class _List(argparse.Action):
-    """Prints the stock nodes and ends, whatever else is on the command line, as --help does."""
+    """Prints the built-in nodes and exits, whatever the other arguments, like --help."""
 
     def __init__(self, option_strings: list[str], dest: str, help: str) -> None:
         super().__init__(option_strings, dest, nargs=0, help=help)
@@ -146,7 +146,7 @@ def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
 
 @contextmanager
 def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
-    """What gzserver simulates in; what its files leave to be said is said."""
+    """Simulated world of a gzserver node, with its findings printed."""
     from trundle.bringup.console import Console
     from trundle.bringup.gazebo.world import GazeboWorld
     from trundle.bringup.graph import Graph
@@ -182,7 +182,7 @@ async def _show_findings(show: "Console") -> None:
 
 
 def _page() -> "GraphPage":
-    """The window of a node that has one."""
+    """Page of a node with a window."""
     from trundle.diagnostics import Diagnostics
     from trundle.packages import Packages
     from trundle.viewer import GraphPage

@@ -1,4 +1,4 @@
-"""Python of the person at the keyboard: filters over messages, written as for rospy."""
+"""Python expressions on the command line: filters over messages, as for rospy."""
 
 from typing import Any
 
@@ -6,13 +6,13 @@ from trundle.diagnostics import UsageError
 
 
 class Expression:
-    """A Python expression of a few names."""
+    """A compiled Python expression."""
 
     def __init__(self, text: str) -> None:
-        """Compile it.
+        """Compile.
 
         Raises:
-            UsageError: it is no expression.
+            UsageError: the text is not an expression.
         """
         self._text = text
         try:
@@ -21,18 +21,18 @@ class Expression:
             raise UsageError(f"not a Python expression: {text!r}: {error}") from None
 
     def value(self, **names: Any) -> Any:
-        """Evaluate it.
+        """Evaluate with variables.
 
         Raises:
-            UsageError: it fails.
+            UsageError: evaluation fails.
         """
         try:
             return eval(self._code, names)
-        except Exception as error:  # whatever the person at the keyboard wrote
+        except Exception as error:  # user code may raise anything
             where = f" on {names['topic']}" if "topic" in names else ""
             raise UsageError(f"{self._text!r} fails{where}: {type(error).__name__}: {error}") from None
 
 
 def expression(text: str | None) -> Expression | None:
-    """Compile what an option holds, if it is given."""
+    """Compile an option's value, if given."""
     return None if text is None else Expression(text)

@@ -11,21 +11,21 @@ from trundle.drawing import graph_dot, graph_svg, node_graph
 from .graph_command import master, ros_errors
 
 EXAMPLES = """
-  trundle graph                   as text for Graphviz
-  trundle graph -o graph.svg      as a picture
+  trundle graph                   as Graphviz text
+  trundle graph -o graph.svg      as an image
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("-o", "--output", metavar="FILE", help="a picture (.svg), or Graphviz' language (.gv, .dot)")
-    parser.add_argument("-a", "--all", action="store_true", help="with /rosout, /clock and topics that nobody hears")
+    parser.add_argument("-o", "--output", metavar="FILE", help="an image (.svg), or Graphviz text (.gv, .dot)")
+    parser.add_argument("-a", "--all", action="store_true", help="with /rosout, /clock and topics without subscribers")
     parser.add_argument("--json", action="store_true", help="nodes, topics and services as one JSON object")
 
 
 @ros_errors
 def main(args: argparse.Namespace) -> int:
-    """Draw the graph as it is now."""
+    """Draw the current graph."""
     publishers, subscribers, services = master("rosgraph").call("getSystemState")
     if args.json:
         tables = {"publishers": publishers, "subscribers": subscribers, "services": services}

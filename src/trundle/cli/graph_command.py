@@ -1,4 +1,4 @@
-"""What the commands that look at a running graph share: names, the master, and what to say when nobody answers."""
+"""Common parts of commands on a running graph: names, master proxy, node, error messages."""
 
 import _thread
 import argparse
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class IntermixedParser(argparse.ArgumentParser):
-    """Takes options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
+    """Allows options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
 
     _is_inside = False
 
@@ -36,9 +36,9 @@ class IntermixedParser(argparse.ArgumentParser):
 
 
 def ros_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], int]:
-    """Report what a graph command cannot do as rostopic and its kin do, on stderr and with `failure` or 1.
+    """Report errors of a graph command on stderr, as rostopic does, and return `args.failure` or 1.
 
-    Where no master answers, with `alone` or 1.
+    If no master answers, return `args.alone` or 1.
     """
 
     @functools.wraps(function)
@@ -56,22 +56,22 @@ def ros_errors(function: Callable[[Namespace], int]) -> Callable[[Namespace], in
 
 
 def global_name(name: str, script: str) -> str:
-    """Resolve a name from the command line; ROS_NAMESPACE is where relative ones live."""
+    """Resolve a name from the command line, relative to ROS_NAMESPACE."""
     namespace = "/" + os.environ.get("ROS_NAMESPACE", "").strip("/")
     return resolve_name(name, f"{namespace.rstrip('/')}/{script}")
 
 
 def master(script: str) -> MasterProxy:
-    """A proxy of the master that ROS_MASTER_URI names."""
+    """Proxy of the master at ROS_MASTER_URI."""
     return MasterProxy(caller_id=f"/{script}")
 
 
 @contextmanager
 def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[GraphLoop, Node]"]:
-    """Run an anonymous node; shut it down at the end, Ctrl-C and `rosnode kill` included.
+    """Run an anonymous node; shut it down on exit, Ctrl-C and `rosnode kill`.
 
     Args:
-        base: what its name begins with.
+        base: prefix of its name.
         words: name and remappings from the command line.
     """
     from trundle.ros import GraphLoop, Node
@@ -94,7 +94,7 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
 
 
 def _interrupt() -> None:
-    """Have the main thread end as by Ctrl-C."""
+    """Interrupt the main thread like Ctrl-C."""
     if hasattr(signal, "pthread_kill"):
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
     else:
@@ -102,7 +102,7 @@ def _interrupt() -> None:
 
 
 def ending_signals() -> list[signal.Signals]:
-    """The signals that end a program in good order; SIGHUP is left out where `nohup` has it ignored."""
+    """Signals that end a program cleanly; without SIGHUP if ignored, as under `nohup`."""
     ends = [signal.SIGINT, signal.SIGTERM]
     if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # Windows has none
         ends.append(signal.SIGHUP)
@@ -111,8 +111,8 @@ def ending_signals() -> list[signal.Signals]:
 
 @contextmanager
 def interrupted_by_signals() -> Generator[None]:
-    """Have SIGTERM, SIGHUP and SIGINT, which a shell's background jobs ignore otherwise, end a node as Ctrl-C does."""
-    if threading.current_thread() is not threading.main_thread():  # signals are the main thread's affair
+    """Make SIGTERM, SIGHUP and SIGINT (ignored in a shell's background jobs) raise KeyboardInterrupt."""
+    if threading.current_thread() is not threading.main_thread():  # only the main thread handles signals
         yield
         return
     before = {number: signal.signal(number, signal.default_int_handler) for number in ending_signals()}

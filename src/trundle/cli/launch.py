@@ -19,58 +19,61 @@ EXAMPLES = """
                                                       a package on ROS_PACKAGE_PATH and a file in it
   trundle launch robot.launch gui:=false              a file, with an argument
   trundle launch robot.launch --headless --duration 20 --speed max
-                                                      no browser page, end after 20 s of ROS time, flat out
+                                                      no browser page, stop after 20 s of ROS time, as fast as possible
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     add = parser.add_argument
-    add("words", nargs="*", metavar="[PKG] FILE [ARG:=VALUE]", help="what to launch ('-': standard input), and how")
+    add(
+        "words",
+        nargs="*",
+        metavar="[PKG] FILE [ARG:=VALUE]",
+        help="launch file ('-': standard input) and its arguments",
+    )
     add("--headless", action="store_true", help="no browser page; rviz idles")
-    add("--duration", type=float, metavar="S", help="end after so many seconds of ROS time")
-    add("--speed", type=read_speed, default=1.0, metavar="X|max", help="times real time (1); max: flat out")
+    add("--duration", type=float, metavar="S", help="stop after S seconds of ROS time")
+    add("--speed", type=read_speed, default=1.0, metavar="X|max", help="real-time factor (1); max: as fast as possible")
     add(
         "--record",
         type=Path,
         metavar="FILE",
-        help="write every topic into a bag, or into FILE.mcap; with --speed max, where all nodes run within trundle, "
-        "the same bytes every time, without /rosout and what other programs publish",
+        help="record all topics in a bag, or in FILE.mcap; with --speed max and all nodes within trundle, bags are "
+        "reproducible byte by byte, without /rosout and topics of other programs",
     )
-    add("--distro", choices=DISTROS, help="which ROS to be like (what the master says, or noetic)")
+    add("--distro", choices=DISTROS, help="ROS distribution to emulate (the master's, or noetic)")
     add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
     add("--view-port", type=int, metavar="N", help="the page's port (8080 or a free one); Gazebo's beside rviz: N + 1")
     add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
-    add("--strict", action="store_true", help="a warning about the file is an error")
+    add("--strict", action="store_true", help="treat warnings about the file as errors")
     add("--screen", action="store_true", help="show the output of every node")
-    add("--log", action="store_true", help="log the output of every node, whatever else is said")
-    add("--required", action="store_true", help="the end of any node ends everything")
-    add("--wait", action="store_true", help="wait until a master runs")
-    add("--local", action="store_true", help="no remote nodes; there never are any here")
+    add("--log", action="store_true", help="log the output of every node, overriding the file and --screen")
+    add("--required", action="store_true", help="stop the launch when any node ends")
+    add("--wait", action="store_true", help="wait for a master")
+    add("--local", action="store_true", help="no remote nodes; never supported here")
     add("--core", action="store_true", help="master, parameter server and rosout only")
     add("--pid", type=Path, metavar="FILE", help="write the process id there")
-    add("-q", "--quiet", action="store_true", help="say only what goes wrong")
-    add("-v", dest="verbose", action="store_true", help="say which files are read and what is set")
+    add("-q", "--quiet", action="store_true", help="print problems only")
+    add("-v", dest="verbose", action="store_true", help="print files read and parameters set")
     add("--no-summary", action="store_true", help="do not show parameters and nodes at the start")
-    add("--sigint-timeout", type=float, default=15.0, metavar="S", help="patience with a node after SIGINT (15)")
-    add("--sigterm-timeout", type=float, default=2.0, metavar="S", help="patience with it after SIGTERM (2)")
+    add("--sigint-timeout", type=float, default=15.0, metavar="S", help="wait for a node after SIGINT (15)")
+    add("--sigterm-timeout", type=float, default=2.0, metavar="S", help="wait for a node after SIGTERM (2)")
     only = parser.add_argument_group("print and end").add_mutually_exclusive_group()
     only.add_argument("--nodes", action="store_const", dest="only", const="nodes", help="the names of the nodes")
-    only.add_argument("--find-node", metavar="NODE", help="the launch file that a node stands in")
+    only.add_argument("--find-node", metavar="NODE", help="launch file that defines a node")
     only.add_argument("--args", metavar="NODE", help="the command line of a node")
-    only.add_argument(
-        "--files", action="store_const", dest="only", const="files", help="every launch file that is read"
-    )
+    only.add_argument("--files", action="store_const", dest="only", const="files", help="all launch files read")
     only.add_argument("--ros-args", action="store_const", dest="only", const="arguments", help="the file's arguments")
     only.add_argument("--dump-params", action="store_const", dest="only", const="params", help="the parameters as YAML")
     child = parser.add_argument_group(
-        "as a child, which a roslaunch on another machine starts here",
-        'The <machine>\'s env-loader is then a script of two lines: shift; exec trundle launch --host 0.0.0.0 "$@"',
+        "as a child of a roslaunch on another machine",
+        'The <machine>\'s env-loader is a script of two lines: shift; exec trundle launch --host 0.0.0.0 "$@"',
     )
-    child.add_argument("-c", "--child", metavar="NAME", help="run what the parent asks for, under this name")
-    child.add_argument("-u", "--server_uri", metavar="URI", help="where the parent listens")
-    child.add_argument("--run_id", metavar="ID", help="of the parent's launch")
-    # What scripts in the wild pass, and what has no meaning here.
+    child.add_argument("-c", "--child", metavar="NAME", help="run what the parent sends, under this name")
+    child.add_argument("-u", "--server_uri", metavar="URI", help="URI of the parent")
+    child.add_argument("--run_id", metavar="ID", help="run ID of the parent's launch")
+    # Options of existing scripts without effect here.
     for option in ("--skip-log-check", "--disable-title"):
         add(option, action="store_true", help=argparse.SUPPRESS)
     for option in ("-w", "--numworkers", "-t", "--timeout", "--master-logger-level"):

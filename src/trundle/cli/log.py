@@ -18,23 +18,23 @@ EXAMPLES = """
   trundle log -n '/move_base.*' -g 'timed? out'
 """
 _WAITING = 10_000
-"""Lines kept for a terminal that is slower than the nodes; the oldest go."""
+"""Queue size for slow terminals; the oldest lines are dropped."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("-l", "--level", choices=LEVELS, default="debug", help="this level and above")
-    parser.add_argument("-n", "--node", metavar="REGEX", help="nodes whose whole name this matches")
-    parser.add_argument("-g", "--grep", metavar="REGEX", help="lines in which this is found")
-    parser.add_argument("-x", "--exclude", metavar="REGEX", help="but not lines in which this is found")
-    parser.add_argument("-c", "--count", type=int, metavar="N", help="stop after so many lines")
+    parser.add_argument("-l", "--level", choices=LEVELS, default="debug", help="minimum level")
+    parser.add_argument("-n", "--node", metavar="REGEX", help="nodes whose full name matches")
+    parser.add_argument("-g", "--grep", metavar="REGEX", help="lines that match")
+    parser.add_argument("-x", "--exclude", metavar="REGEX", help="without lines that match")
+    parser.add_argument("-c", "--count", type=int, metavar="N", help="stop after N lines")
     parser.add_argument("-v", "--verbose", action="store_true", help="with file, line and function")
     parser.add_argument("--json", action="store_true", help="one JSON object a line")
 
 
 @ros_errors
 def main(args: argparse.Namespace) -> int:
-    """Print until enough lines came or Ctrl-C."""
+    """Print until the count is reached, or Ctrl-C."""
     node_name, found, excluded = (_pattern(text) for text in (args.node, args.grep, args.exclude))
     least = LEVELS[args.level]
     inbox: queue.Queue[Any] = queue.Queue(_WAITING)

@@ -1,4 +1,4 @@
-"""Finds the command, reads its arguments and turns what went wrong into one sentence and an exit code.
+"""Finds the command, parses its arguments and turns errors into one sentence and an exit code.
 
 A command is a module or a package `trundle.cli.<name>`: the first line of its docstring is its help, `EXAMPLES` opens
 `--help`, `configure(parser)` declares the arguments and `main(args)` does the work and returns the exit code.
@@ -26,8 +26,8 @@ COMMANDS: dict[str, str] = {
     "play": "show a recorded run in the browser",
     "view": "show a running ROS graph in the browser, as rviz does",
     "check": "list what is wrong or not supported in a file",
-    "convert": "write what was understood of a file as SDF, URDF or MJCF",
-    "render": "make a picture of a robot or a world",
+    "convert": "convert a robot or world to SDF, URDF or MJCF",
+    "render": "render an image or a video of a robot or a world",
     "xacro": "expand a xacro file",
     "core": "run the ROS master, parameter server and rosout",
     "topic": "list, print, measure and publish topics",
@@ -44,21 +44,21 @@ COMMANDS: dict[str, str] = {
     "exec": "run a node of a package",
     "pack": "find packages and what they need",
 }
-"""Name and one line of help; the order of `trundle --help`."""
+"""Command → one line of help; in the order of `trundle --help`."""
 
 REMAPPED = ("bag", "service", "tf", "topic")
-"""Take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf's tools do: launch files start them."""
+"""Commands that take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf in launch files."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
-"""Ctrl-C is how their work ends, not how it fails: exit code 0, as of the originals."""
+"""Commands that exit with 0 on Ctrl-C, as their originals do."""
 _INTERMIXED = ("launch", "test", "xacro")
-"""Take options between their words, as roslaunch does: `trundle launch robot.launch --headless gui:=false`."""
+"""Commands with options between arguments, as in roslaunch: `trundle launch robot.launch --headless gui:=false`."""
 _DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
-"""Why a file that was opened cannot be written."""
+"""Errors when writing an open file."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
 class CommandModule(Protocol):
-    """What a command's module holds."""
+    """Interface of a command's module."""
 
     EXAMPLES: str
     configure: Callable[[argparse.ArgumentParser], None]
@@ -71,7 +71,7 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 (ROS' tools 0) on Ctrl-C."""
+    """Run one command and return its exit code: 0 success, 1 bad input, 2 wrong usage, 130 (ROS tools 0) on Ctrl-C."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     _set_error_handler(as_xml=arguments[:1] in (["convert"], ["xacro"]))
     try:
@@ -107,10 +107,10 @@ def _main(arguments: list[str]) -> int:
         parsed = parse(words.rest, argparse.Namespace(words=words, run_command=run_command))
         _set_variables(parsed)
         code = _command(name).main(parsed)
-        if sys.stdout is not None:  # it was closed: `trundle … >&-`
+        if sys.stdout is not None:  # None if closed: `trundle … >&-`
             sys.stdout.flush()
         return code
-    except SystemExit as stop:  # argparse's own way to end: 0 after --help, 2 for wrong usage
+    except SystemExit as stop:  # raised by argparse: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
     except TrundleError as error:
         print(error if _has_location(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
@@ -118,7 +118,7 @@ def _main(arguments: list[str]) -> int:
     except BrokenPipeError:  # `trundle topic echo … | head`
         _discard_stdout()
         return EXIT_OK
-    except OSError as error:  # above all a file that cannot be written
+    except OSError as error:  # mostly files that cannot be written
         if error.filename is not None:
             print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
         elif error.errno in _DISK_ERRORS:
@@ -130,25 +130,25 @@ def _main(arguments: list[str]) -> int:
 
 
 def _discard_stdout() -> None:
-    """Have what is still to be written, at the latest as Python ends, go nowhere."""
+    """Redirect stdout to /dev/null, also for the flush when Python exits."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _set_error_handler(*, as_xml: bool) -> None:
-    """Have what stdout's encoding lacks written by number, as stderr has it: names of files are of any bytes."""
+    """Escape characters that stdout's encoding lacks, as stderr does: file names may hold any bytes."""
     out = sys.stdout
     if isinstance(out, TextIOWrapper) and (out.encoding.lower(), out.errors) != ("utf-8", "surrogateescape"):
         out.reconfigure(errors="xmlcharrefreplace" if as_xml else "backslashreplace")
 
 
 def _apply_remap_arguments(words: Arguments) -> None:
-    """Have `__ns:=`, `__master:=`, `__ip:=` and `__hostname:=` mean what their environment variables do."""
+    """Apply `__ns:=`, `__master:=`, `__ip:=` and `__hostname:=` as their environment variables."""
     given = {"ROS_NAMESPACE": words.namespace, "ROS_MASTER_URI": words.master_uri, "ROS_HOSTNAME": words.host}
     os.environ.update({variable: value for variable, value in given.items() if value})
 
 
 def _set_variables(parsed: argparse.Namespace) -> None:
-    """Have options mean what their environment variables do, in processes of this one, too."""
+    """Apply options as their environment variables, which child processes inherit."""
     options = [name for name in ("allow_outside", "lenient") if getattr(parsed, name, False)]
     if options:
         from trundle import packages
@@ -194,7 +194,7 @@ def _overview() -> str:
 
 
 def _complete() -> None:
-    """Answer the shell's request for completions; does not return."""
+    """Serve the shell's completion request; does not return."""
     import argcomplete
 
     from .completion import complete

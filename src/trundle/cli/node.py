@@ -36,18 +36,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("nodes", nargs="+")
     add.add_argument("-q", "--quiet", action="store_true", help="ask the master only, not the nodes")
     add.set_defaults(run=_info)
-    add = commands.add_parser("ping", help="see whether nodes answer")
+    add = commands.add_parser("ping", help="check whether nodes answer")
     add.add_argument("node", nargs="?")
     add.add_argument("-a", "--all", action="store_true", help="every node, once")
-    add.add_argument("-c", dest="count", type=int, help="stop after so many answers")
+    add.add_argument("-c", dest="count", type=int, help="stop after N answers")
     add.set_defaults(run=_ping, refuse=add.error)
     add = commands.add_parser("kill", help="ask nodes to shut down")
     add.add_argument("nodes", nargs="*")
     add.add_argument("-a", "--all", action="store_true", help="every node")
     add.set_defaults(run=_kill)
-    add = commands.add_parser("cleanup", help="have the master forget nodes that do not answer")
+    add = commands.add_parser("cleanup", help="unregister nodes that do not answer")
     add.set_defaults(run=_cleanup)
-    add = commands.add_parser("machine", help="machines that nodes run on, or the nodes of one")
+    add = commands.add_parser("machine", help="machines with nodes, or the nodes of one machine")
     add.add_argument("machine", nargs="?")
     add.set_defaults(run=_machine)
 
@@ -70,10 +70,10 @@ def _uri(proxy: MasterProxy, node: str) -> str | None:
 
 
 def _ask(uri: str, method: str, *arguments: object) -> Any:
-    """Call a node's own interface.
+    """Call a node's slave API.
 
     Raises:
-        OSError, RosError: it does not answer, or with a failure.
+        OSError, RosError: no answer, or an answer with a failure.
     """
     code, text, value = blocking_call(uri, method, _CALLER, *arguments, timeout_s=_NODE_TIMEOUT_S)
     if code != 1:
@@ -141,7 +141,7 @@ def _connections(proxy: MasterProxy, uri: str, state: Any) -> str:
 
 
 def _peer(proxy: MasterProxy, state: Any, topic: str, peer: str) -> str:
-    """Name the node behind an address."""
+    """Name of the node at an address."""
     if peer.startswith("http://"):
         for name, nodes in [*state[0], *state[1]]:
             if name == topic:
@@ -154,7 +154,7 @@ def _peer(proxy: MasterProxy, state: Any, topic: str, peer: str) -> str:
 def _ping(args: argparse.Namespace) -> int:
     if args.all:
         if args.node or args.count:
-            args.refuse("-a pings every node once; it goes with neither a node's name nor -c")
+            args.refuse("-a pings every node once; it excludes a node's name and -c")
         nodes = _names(master(_SCRIPT).call("getSystemState"))
         print("Will ping the following nodes: \n" + "".join(f" * {node}\n" for node in nodes))
         answers = [_ping_one(node, 1) for node in nodes]
@@ -221,7 +221,7 @@ def _kill(args: argparse.Namespace) -> int:
                 failed.append(node)
             else:
                 _ask(uri, "shutdown", "user request")
-        except (OSError, RosError):  # many nodes are gone before they have answered
+        except (OSError, RosError):  # many nodes exit before they answer
             pass
     if failed:
         print("ERROR: Failed to kill:\n" + "\n".join(f" * {node}" for node in failed), file=sys.stderr)
@@ -231,7 +231,7 @@ def _kill(args: argparse.Namespace) -> int:
 
 
 def _chosen(nodes: list[str]) -> str:
-    """Ask which one."""
+    """Prompt for a node."""
     print("\n".join(f"{i}. {node}" for i, node in enumerate(nodes, 1)))
     print("\nPlease enter the number of the node you wish to kill.\n> ", end="", flush=True)
     return nodes[read_number(len(nodes)) - 1]

@@ -23,17 +23,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     commands.add_parser("list", help="names and folders of all packages").set_defaults(run=_list)
     commands.add_parser("list-names", help="names of all packages").set_defaults(run=_list_names)
     for name, alias, run, help_ in (
-        ("depends", ["deps"], _depends, "packages that a package needs to run, and what those need"),
-        ("depends1", ["deps1"], _depends1, "packages that a package itself names"),
-        ("depends-on", [], _depends_on, "packages that need a package, directly or not"),
-        ("depends-on1", [], _depends_on1, "packages that name a package"),
+        ("depends", ["deps"], _depends, "run dependencies of a package, recursively"),
+        ("depends1", ["deps1"], _depends1, "direct dependencies of a package"),
+        ("depends-on", [], _depends_on, "packages that depend on a package, recursively"),
+        ("depends-on1", [], _depends_on1, "packages that depend on a package directly"),
     ):
         _about_one(commands.add_parser(name, aliases=alias, help=help_), run)
 
 
 def _about_one(parser: argparse.ArgumentParser, run: Callable[[argparse.Namespace, Packages], int]) -> None:
-    parser.add_argument("package", nargs="?", help="that of the working directory if left out")
-    parser.add_argument("-q", dest="quiet", action="store_true", help="say nothing of what goes wrong")
+    parser.add_argument("package", nargs="?", help="package of the working directory by default")
+    parser.add_argument("-q", dest="quiet", action="store_true", help="suppress error messages")
     parser.set_defaults(run=run)
 
 
@@ -54,7 +54,7 @@ def _here(packages: Packages) -> str:
     for name, folder in packages.ros_packages().items():
         if folder.resolve() == Path.cwd():
             return name
-    raise UsageError("name a package; the working directory is none")
+    raise UsageError("give a package; the working directory is not one")
 
 
 def _find(args: argparse.Namespace, packages: Packages) -> int:
@@ -108,7 +108,7 @@ def _named(args: argparse.Namespace, packages: Packages) -> None:
 
 
 def _own_needs(name: str, known: Mapping[str, Path]) -> list[str]:
-    """The packages among a package's needs; the rest is the system's business."""
+    """Direct dependencies that are ROS packages; others are system packages."""
     try:
         return [each for each in run_dependencies(known[name]) if each in known]
     except TrundleError as error:
@@ -117,7 +117,7 @@ def _own_needs(name: str, known: Mapping[str, Path]) -> list[str]:
 
 
 def _all_needs(name: str, known: Mapping[str, Path]) -> list[str]:
-    """The same with what those need, the deepest first."""
+    """All dependencies, deepest first."""
     found: dict[str, None] = {}
     waiting = [(name, iter(_own_needs(name, known)))]
     entered = {name}

@@ -38,28 +38,28 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add = commands.add_parser("get", help="value of a parameter or a namespace, as YAML")
     add.add_argument("name")
     add.add_argument("-p", dest="pretty", action="store_true", help="easier to read, but not always YAML")
-    add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
+    add.add_argument("-v", dest="verbose", action="store_true", help="print each step")
     add.set_defaults(run=_get)
     add = commands.add_parser("set", help="set a parameter from YAML")
     add.add_argument("name")
     add.add_argument("value", nargs="?", help="YAML; put -- before a negative number")
     add.add_argument("-t", "--textfile", metavar="FILE", help="the value is the text of this file")
     add.add_argument("-b", "--binfile", metavar="FILE", help="the value is the bytes of this file")
-    add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
+    add.add_argument("-v", dest="verbose", action="store_true", help="print each step")
     add.set_defaults(run=_set, refuse=add.error)
     add = commands.add_parser("load", help="set parameters from a YAML file")
     add.add_argument("file", help="- for standard input")
     add.add_argument("namespace", nargs="?", default="")
-    add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
+    add.add_argument("-v", dest="verbose", action="store_true", help="print each step")
     add.set_defaults(run=_load)
     add = commands.add_parser("dump", help="write parameters as YAML")
-    add.add_argument("file", nargs="?", help="standard output if left out")
+    add.add_argument("file", nargs="?", help="standard output by default")
     add.add_argument("namespace", nargs="?", default="")
-    add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
+    add.add_argument("-v", dest="verbose", action="store_true", help="print each step")
     add.set_defaults(run=_dump)
     add = commands.add_parser("delete", help="delete a parameter or a namespace")
     add.add_argument("name")
-    add.add_argument("-v", dest="verbose", action="store_true", help="say what is done")
+    add.add_argument("-v", dest="verbose", action="store_true", help="print each step")
     add.set_defaults(run=_delete)
 
 
@@ -201,7 +201,7 @@ def _dump_yaml(value: object) -> str:
 
 
 def _documents(text: str, where: str) -> Iterator[Any]:
-    """Read YAML as rosparam does, with its `deg(90)` and `rad(pi/2)`."""
+    """Parse YAML as rosparam does, with `deg(90)` and `rad(pi/2)`."""
     import yaml
 
     from trundle.expressions import Interpreter
@@ -210,7 +210,7 @@ def _documents(text: str, where: str) -> Iterator[Any]:
     interpreter = Interpreter()
 
     class Loader(BoundedLoader):
-        """YAML with rosparam's angles; a class of its own, so that nobody else's YAML has them."""
+        """YAML loader with rosparam's angles; a local class, since constructors are registered per class."""
 
     def angle(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> float:
         return _angle(str(loader.construct_scalar(node)), interpreter)
@@ -221,11 +221,11 @@ def _documents(text: str, where: str) -> Iterator[Any]:
     try:
         yield from yaml.load_all(text, Loader)
     except yaml.YAMLError as error:
-        raise UsageError(f"{where} is no YAML: {error}") from None
+        raise UsageError(f"{where} is not YAML: {error}") from None
 
 
 def _angle(text: str, interpreter: "Interpreter") -> float:
-    """`deg(n)` in radians, or `rad(…)` with an expression of numbers and what `math` has."""
+    """Value in radians of `deg(n)` or `rad(…)`, an expression of numbers and the names of `math`."""
     from trundle.expressions import MATH_NAMES
 
     inner = text[4:-1]
@@ -233,5 +233,5 @@ def _angle(text: str, interpreter: "Interpreter") -> float:
         if text.startswith("deg("):
             return math.radians(float(inner))
         return float(interpreter.evaluate(inner, MATH_NAMES))
-    except Exception:  # the expression may raise whatever Python raises
+    except Exception:  # user code may raise anything
         raise UsageError(f"not an angle: {text!r}") from None

@@ -7,16 +7,16 @@ from .options import add_allow_outside, add_page_access, page_access
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
-  trundle run world.sdf --record run.log              record where everything is, 50 times a second
-  trundle play run.log                                show it, again and again
+  trundle run world.sdf --record run.log              record states at 50 Hz
+  trundle play run.log                                show it in a loop
   trundle play run.log --speed 0.2                    slowly
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE", type=Path, help="what `trundle run --record` wrote")
-    parser.add_argument("--speed", type=_positive, default=1.0, metavar="X", help="times real time (1)")
+    parser.add_argument("file", metavar="FILE", type=Path, help="state log written by `trundle run --record`")
+    parser.add_argument("--speed", type=_positive, default=1.0, metavar="X", help="real-time factor (1)")
     parser.add_argument("--pause", action="store_true", help="start paused")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")

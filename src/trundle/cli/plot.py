@@ -28,24 +28,24 @@ from .wait_for_topic import wait_for_topic
 
 EXAMPLES = """
   trundle plot /odom/twist/twist/linear/x              in the terminal, until Ctrl-C
-  trundle plot /odom/pose/pose/position/x:y -o p.svg   as a picture, of ten seconds
+  trundle plot /odom/pose/pose/position/x:y -o p.svg   as an image, of ten seconds
   trundle plot /joint_states/position -b run.bag       from a bag, one curve for each joint
 """
 _SHOWN_S, _REDRAWN_S = 30.0, 0.2
-"""The terminal shows this much, this often."""
+"""Time span shown in the terminal, and redraw interval [s]."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("fields", nargs="+", metavar="FIELD", help="such as /odom/pose/pose/position/x, or …/x:y:z")
-    parser.add_argument("-o", "--output", metavar="FILE.svg", help="write a picture")
-    parser.add_argument("-b", "--bag", metavar="BAG", help="what is in a bag")
+    parser.add_argument("-o", "--output", metavar="FILE.svg", help="write an image")
+    parser.add_argument("-b", "--bag", metavar="BAG", help="plot from a bag")
     parser.add_argument("--duration", type=float, metavar="SEC", help="of ROS time; with -o 10, else until Ctrl-C")
 
 
 @ros_errors
 def main(args: argparse.Namespace) -> int:
-    """Gather, then draw; or both at once in the terminal."""
+    """Record, then draw; in the terminal, both at once."""
     target = Path(args.output) if args.output else None
     if target is not None and target.suffix != ".svg":
         raise UsageError(f"{target} does not end in .svg")
@@ -107,7 +107,7 @@ def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) 
 
 
 def _subscribed_series(loop: GraphLoop, traces: Sequence[TopicSeries]) -> Iterator[list[Curve]]:
-    """What there is, again and again."""
+    """Current curves, at the redraw interval."""
     while True:
         time.sleep(_REDRAWN_S)
         yield loop.run(_snapshot(traces))

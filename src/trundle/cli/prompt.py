@@ -1,4 +1,4 @@
-"""What commands ask for on standard input."""
+"""Prompts on standard input."""
 
 import sys
 
@@ -9,7 +9,7 @@ def read_line() -> str:
     """Read a line.
 
     Raises:
-        UsageError: standard input is at its end.
+        UsageError: end of standard input.
     """
     if line := sys.stdin.readline():
         return line.strip()
@@ -17,7 +17,7 @@ def read_line() -> str:
 
 
 def read_number(most: int) -> int:
-    """Read a number from 1 to `most`, again until it is one."""
+    """Read a number from 1 to `most`; repeats the prompt until valid."""
     numbers = {str(number): number for number in range(1, most + 1)}
     while (answer := read_line()) not in numbers:
         print(f"ERROR: please enter a number from 1 to {most} (ctrl-C to cancel)", flush=True)

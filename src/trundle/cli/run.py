@@ -10,36 +10,36 @@ from .quiet_imports import quiet_imports
 from .speed import read_speed
 
 EXAMPLES = """
-  trundle run model://rp2w                            a robot that Gazebo would find, or that we ship
+  trundle run model://rp2w                            a robot in Gazebo's model path, or shipped with Trundle
   trundle run my_robot/model.sdf                      a file; a folder with model.config works too
   trundle run robot.urdf.xacro --headless             no browser page
   trundle run world.sdf --headless --speed max --duration 10 --json
-                                                      ten simulated seconds flat out, the result as JSON
+                                                      ten simulated seconds as fast as possible, the result as JSON
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE|DIR|model://NAME|package://PKG/FILE", help="what to simulate")
+    parser.add_argument("file", metavar="FILE|DIR|model://NAME|package://PKG/FILE", help="file to simulate")
     parser.add_argument("--headless", action="store_true", help="no browser page")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     parser.add_argument("--host", default="127.0.0.1", help="address that the page and the ROS graph bind (127.0.0.1)")
-    parser.add_argument("--duration", type=_positive, metavar="S", help="end after so many seconds of simulation time")
+    parser.add_argument("--duration", type=_positive, metavar="S", help="stop after S seconds of simulation time")
     parser.add_argument(
-        "--speed", type=read_speed, default=1.0, metavar="X|max", help="times real time; max: as fast as it goes (1)"
+        "--speed", type=read_speed, default=1.0, metavar="X|max", help="real-time factor; max: as fast as possible (1)"
     )
     parser.add_argument("--pause", action="store_true", help="start paused")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of everything random (0)")
-    parser.add_argument("--no-ros", action="store_true", help="no ROS graph; nothing is bound")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all random numbers (0)")
+    parser.add_argument("--no-ros", action="store_true", help="no ROS graph, no open ports")
     parser.add_argument("--no-sensors", action="store_true", help="switch every sensor off")
     add_renderer(parser)
-    parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
+    parser.add_argument("--strict", action="store_true", help="treat warnings about the file as errors")
     parser.add_argument(
         "--on-instability",
         choices=("pause", "reset", "exit"),
-        help="when the physics blows up (pause where there is a page, exit where there is none)",
+        help="action when the physics diverges (pause with a page, exit without)",
     )
-    parser.add_argument("--record", type=Path, metavar="FILE", help="write where everything is, for `trundle play`")
+    parser.add_argument("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
     add_page_access(parser)
     add_allow_outside(parser)

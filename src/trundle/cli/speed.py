@@ -1,10 +1,10 @@
-"""`--speed` of the commands that simulate."""
+"""`--speed` of commands that simulate."""
 
 import argparse
 
 
 def read_speed(text: str) -> float | None:
-    """Read a multiple of real time; None for 'max'."""
+    """Parse a real-time factor; None for 'max'."""
     if text == "max":
         return None
     try:

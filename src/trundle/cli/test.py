@@ -14,26 +14,26 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="which tests, and their arguments")
-    where = "where to write the results as JUnit XML (rostest's place: ROS_TEST_RESULTS_DIR or ~/.ros/test_results)"
+    parser.add_argument("words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="test file and its arguments")
+    where = "JUnit XML file of the results (as rostest: in ROS_TEST_RESULTS_DIR or ~/.ros/test_results)"
     parser.add_argument("--junit", type=Path, metavar="FILE", help=where)
-    text = "show the output of every node; leave no files of results"
+    text = "show the output of every node; write no result files"
     parser.add_argument("-t", "--text", action="store_true", help=text)
-    parser.add_argument("--package", metavar="PKG", help="whose results they are (the package that FILE lies in)")
-    parser.add_argument("--pkgdir", type=Path, metavar="DIR", help="the package's folder, to name the results by FILE")
+    parser.add_argument("--package", metavar="PKG", help="package of the results (that of FILE)")
+    parser.add_argument("--pkgdir", type=Path, metavar="DIR", help="package folder, for result names relative to it")
     parser.add_argument(
-        "--results-filename", type=_file_name, metavar="NAME", help="of the results, in rostest's place"
+        "--results-filename", type=_file_name, metavar="NAME", help="name of the results file, in rostest's folder"
     )
-    where = "has a folder of results for each package, instead of ROS_TEST_RESULTS_DIR"
+    where = "folder with a subfolder of results per package, instead of ROS_TEST_RESULTS_DIR"
     parser.add_argument("--results-base-dir", type=Path, metavar="DIR", help=where)
-    reuse = "test on the graph of ROS_MASTER_URI, not on one of each test's own"
+    reuse = "use the master at ROS_MASTER_URI instead of one per test"
     parser.add_argument("-r", "--reuse-master", action="store_true", help=reuse)
     parser.add_argument("-c", "--clear", action="store_true", help="with -r: delete its parameters before each test")
-    parser.add_argument("--strict", action="store_true", help="a warning about the file is an error")
+    parser.add_argument("--strict", action="store_true", help="treat warnings about the file as errors")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run each test in a launch of its own; 0 when all passed, 1 when one did not run, 2 when a case failed."""
+    """Run each test in its own launch; 0: all passed, 1: a test did not run, 2: a case failed."""
     with quiet_imports():
         from trundle.bringup.launch.options import LaunchOptions
         from trundle.bringup.launch.test_options import LaunchTestOptions
@@ -56,5 +56,5 @@ def main(args: argparse.Namespace) -> int:
 
 def _file_name(text: str) -> str:
     if not text or Path(text).name != text:
-        raise argparse.ArgumentTypeError(f"{text!r} is no file name; --results-base-dir takes the folder")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a file name; --results-base-dir takes the folder")
     return text

@@ -6,8 +6,8 @@ from .options import add_allow_outside, add_page_access, page_access
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
-  trundle view                                        the graph that ROS_MASTER_URI names
-  trundle view -f odom                                seen from the frame odom
+  trundle view                                        the graph of ROS_MASTER_URI
+  trundle view -f odom                                with fixed frame odom
   trundle view -d robot.rviz                          with the displays of an rviz config
 """
 
@@ -15,7 +15,7 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("-d", "--display-config", metavar="FILE", help="an .rviz file")
-    parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="the frame everything is seen from")
+    parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="fixed frame")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
     add_page_access(parser)

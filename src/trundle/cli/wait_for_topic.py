@@ -1,4 +1,4 @@
-"""Waits for the topic that a name, with or without a field behind it, means."""
+"""Waits for a topic, given by name or field path."""
 
 import sys
 import time
@@ -10,7 +10,7 @@ _POLL_S = 0.1
 
 
 def wait_for_topic(proxy: MasterProxy, name: str, messages: Messages) -> TopicField:
-    """Find the topic that a name, with or without a field behind it, means; wait until there is one."""
+    """Wait for the topic of a name or field path."""
     warned = False
     while True:
         types = {topic: kind for topic, kind in proxy.call("getTopicTypes") if kind != "*"}
@@ -22,7 +22,7 @@ def wait_for_topic(proxy: MasterProxy, name: str, messages: Messages) -> TopicFi
                 if field.path and messages.has(field.type):
                     field_type(field.type, field.path, messages)
                 return field
-            except UsageError as error:  # /imu/data may be a topic that comes later, beside /imu
+            except UsageError as error:  # /imu/data may be a topic published later, besides /imu
                 why = f"; {field.topic} is: {error}"
         if not warned:
             warned = True

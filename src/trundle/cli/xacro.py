@@ -19,8 +19,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", type=Path, metavar="FILE", help="the file to expand")
     parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="arguments of the file")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where to write to")
-    parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # every file is, by now
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="output file")
+    parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # always in order
     add_allow_outside(parser)
     add_lenient(parser)
 
@@ -41,7 +41,7 @@ def _expand(args: argparse.Namespace) -> int:
     words = [word.partition(":=") for word in args.arguments]
     for name, assigned, _ in words:
         if not assigned:
-            raise UsageError(f"{name!r} is no argument; say NAME:=VALUE")
+            raise UsageError(f"{name!r} is not an argument; give NAME:=VALUE")
     report = Diagnostics()
     path, data = args.file, None
     if is_stream(path):

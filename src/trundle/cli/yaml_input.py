@@ -9,7 +9,7 @@ from trundle.diagnostics import UsageError
 
 
 def yaml_value(text: str) -> Any:
-    """Read one YAML value from the command line."""
+    """Parse a YAML value from the command line."""
     import yaml
 
     from trundle.yaml_loader import load_yaml
@@ -21,7 +21,7 @@ def yaml_value(text: str) -> Any:
 
 
 def yaml_file(path: str) -> Iterator[Any]:
-    """Yield the documents of a file that are not empty."""
+    """Yield the non-empty documents of a file."""
     import yaml
 
     from trundle.yaml_loader import BoundedLoader
@@ -36,7 +36,7 @@ def yaml_file(path: str) -> Iterator[Any]:
 
 
 def piped_documents() -> Iterator[Any]:
-    """Yield documents from standard input, each as soon as the `---` after it is there."""
+    """Yield documents from standard input, each as soon as the `---` after it arrives."""
     lines: list[str] = []
     for line in sys.stdin:
         if line.strip() != "---":

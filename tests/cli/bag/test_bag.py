@@ -114,7 +114,7 @@ def test_the_old_form_of_a_size_is_understood(graph: Any, tmp_path: Path) -> Non
         process.wait(PATIENCE_S)
         assert process.stdout is not None
         out = process.stdout.read()
-    assert "--split 1: an old form, taken for --split --size 1\n" in out
+    assert "--split 1: deprecated, use --split --size 1\n" in out
     assert f"]: Closing '{tmp_path / 'x_0.bag'}'.\n" in out
 
 
@@ -256,7 +256,7 @@ def test_what_udp_was_asked_for_comes_over_tcp(graph: Any, tmp_path: Path) -> No
     graph.ready(node)
     path = tmp_path / "x.bag"
     code, _, error = graph.trundle("bag", "record", "--udp", "-l", "1", "-O", str(path), "/a")
-    assert (code, error) == (0, "--udp: there is no UDPROS here; the messages come over TCP\n")
+    assert (code, error) == (0, "--udp: UDPROS is not supported; using TCP\n")
     assert _counts(path) == {"/a": 1}
 
 
@@ -281,8 +281,8 @@ def test_topics_and_types_are_read_from_a_bag(graph: Any, bag: Path) -> None:
         (["play", "none.bag"], "none.bag] cannot be read"),
         (["play", "-r", "0", "x.bag"], "a number greater than zero is needed, got '0'"),
         (["info", "none.bag"], "none.bag] cannot be read"),
-        (["encrypt", "-p", "x", "x.bag"], "bags are not encrypted here"),
-        (["decrypt", "x.bag"], "bags are not encrypted here"),
+        (["encrypt", "-p", "x", "x.bag"], "encryption of bags is not supported"),
+        (["decrypt", "x.bag"], "encryption of bags is not supported"),
         (["filter", "none.bag", "x.bag", "True"], "Cannot locate input bag file [none.bag]"),
     ],
 )

@@ -88,13 +88,14 @@ def test_breaks_in_the_tree_are_named(graph: Any, robot: Any) -> None:
 
     quarrelling = graph.loop.spawn(quarrel())
     error = ""
-    while not error.count("by turns"):  # until both were heard
+    while not error.count("alternating parents"):  # until both were heard
         code, _, error = graph.trundle("tf", "tree", "-t", "0.2")
         assert code == 0
     quarrelling.cancel()
-    assert "WARNING: 2 trees that nothing joins; their roots: " in error
+    assert "WARNING: 2 unconnected trees; roots: " in error
     assert (
-        "WARNING: 'camera' is below 'map' (by /one) and 'world' (by /two) by turns; a frame has one parent\n" in error
+        "WARNING: 'camera' has alternating parents: 'map' (by /one) and 'world' (by /two); a frame must have one parent"
+        in error
     )
 
 

@@ -339,7 +339,7 @@ def test_a_topic_without_stamps_has_no_delay(graph: Any, latched: Any) -> None:
     assert graph.trundle("topic", "delay", "/twist") == (
         1,
         "",
-        "ERROR: geometry_msgs/Twist has no header, so its messages do not say when they were made\n",
+        "ERROR: geometry_msgs/Twist has no header, so its messages have no stamp\n",
     )
 
 

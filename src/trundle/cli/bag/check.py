@@ -1,4 +1,4 @@
-"""`trundle bag check`: types that are others here than when a bag was recorded, and rule files that lead there."""
+"""`trundle bag check`: reports types that changed since a bag was recorded, and writes rules to migrate them."""
 
 import argparse
 from pathlib import Path
@@ -10,7 +10,7 @@ from .rules import load_rules, migrations, transition, unmigrated_types
 
 
 def main(args: argparse.Namespace) -> int:
-    """Name what has to be migrated, and write the rules that are missing."""
+    """Print the migrations a bag needs, and write missing rules."""
     if why_not := _refusal(args):
         return args.refuse(why_not)
     with open_bag(Path(args.bag)) as bag:
@@ -51,7 +51,7 @@ def _refusal(args: argparse.Namespace) -> str:
 
 
 def _texts(missing: list[Rule], rules: Migrator) -> list[str]:
-    """Rules to complete, as a rule file has them, each once; for types that moved, whoever runs this is asked."""
+    """Python source of the rules to complete, each once; asks the user for the new names of moved types."""
     texts: dict[str, None] = {}
     waiting = list(missing)
     for rule in waiting:

@@ -1,4 +1,4 @@
-"""`trundle bag filter`, `compress`, `decompress` and `reindex`: bags made from bags."""
+"""`trundle bag filter`, `compress`, `decompress` and `reindex`: rewrite bags."""
 
 import argparse
 import sys
@@ -48,22 +48,22 @@ def filter_bag(args: argparse.Namespace) -> int:
 
 
 def _size(bag: BagReader) -> int:
-    """What lies in a bag, not compressed [bytes]; for one without chunks, the file's size."""
+    """Uncompressed size of a bag [bytes]; the file's size if it has no chunks."""
     return sum(chunk.size for chunk in bag.chunks) or bag.path.stat().st_size
 
 
 def compress(args: argparse.Namespace) -> int:
-    """Write bags anew, compressed."""
+    """Rewrite bags compressed."""
     return _rewrite(args, args.compression, _indexed)
 
 
 def decompress(args: argparse.Namespace) -> int:
-    """Write bags anew, not compressed."""
+    """Rewrite bags uncompressed."""
     return _rewrite(args, "none", _indexed)
 
 
 def reindex(args: argparse.Namespace) -> int:
-    """Write bags anew from whatever whole messages are in them."""
+    """Rewrite bags with all complete messages, and an index."""
     return _rewrite(args, "none", _cut_off)
 
 
@@ -81,12 +81,12 @@ def _indexed(path: Path) -> Generator[Opened]:
 @contextmanager
 def _cut_off(path: Path) -> Generator[Opened]:
     messages = recover_messages(path)
-    first = list(islice(messages, 1))  # what is no bag is said before the meter begins
+    first = list(islice(messages, 1))  # raises for invalid files before the meter starts
     yield path.stat().st_size, chain(first, messages)
 
 
 def _rewrite(args: argparse.Namespace, compression: str, opened: Opening) -> int:
-    """Write each bag anew; one that cannot be is said, stays as it was, and the others follow."""
+    """Rewrite each bag; failures are printed, leave the bag unchanged, and do not stop the others."""
     failures = 0
     for name in args.bags:
         try:

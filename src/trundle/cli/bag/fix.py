@@ -1,4 +1,4 @@
-"""`trundle bag fix`: bags of old message types, brought up to the types known here."""
+"""`trundle bag fix`: migrates the messages of a bag to the known types."""
 
 import argparse
 from collections.abc import Callable
@@ -14,7 +14,7 @@ Convert = Callable[[bytes], bytes]
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write a bag in which every message is of the type that its name means here."""
+    """Write a bag with all messages migrated to the known types."""
     source, target = Path(args.inbag), Path(args.outbag)
     if target.suffix not in (".bag", ".mcap"):
         return args.refuse(f"Output file must be a bag file, not {target.name}")
@@ -38,11 +38,11 @@ def main(args: argparse.Namespace) -> int:
 
 
 def encrypt(args: argparse.Namespace) -> int:
-    """Say that there is no such thing."""
+    """Refuse, with alternatives."""
     del args
     raise UsageError(
-        "bags are not encrypted here: rosbag's plugin needs GnuPG keys of its own; encrypt the file, "
-        "as with gpg -e drive.bag or age -e, and decrypt it before playing; what rosbag encrypted, it alone decrypts"
+        "encryption of bags is not supported: rosbag's plugin needs GnuPG keys of its own; encrypt the file, "
+        "as with gpg -e drive.bag or age -e, and decrypt it before playing; only rosbag decrypts its own"
     )
 
 
@@ -60,7 +60,7 @@ def _write(bag: BagReader, target: Path, plans: dict[BagConnection, tuple[BagCon
 
 
 def _plan(connection: BagConnection, migration: Migration, rules: Migrator) -> tuple[BagConnection, Convert]:
-    """How messages of a connection are written; of a type that is not known here, as they are."""
+    """Connection and converter for the output; messages of unknown types stay unchanged."""
     old, new = migration.old, migration.new
     if new is None:
         return connection, lambda data: data

@@ -1,4 +1,4 @@
-"""`trundle bag info`: what is in a bag, line by line as rosbag prints it."""
+"""`trundle bag info`: summary of a bag in rosbag's format."""
 
 import argparse
 import re
@@ -19,7 +19,7 @@ _KEY = re.compile(r"(\w+)|\[(-?\d+)\]")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Describe each bag."""
+    """Print the summary of each bag."""
     if args.key and not args.yaml:
         return args.refuse("You can only specify key when printing in YAML format.")
     for i, name in enumerate(args.bags):
@@ -44,14 +44,14 @@ class _Topic:
 
 
 class Summary:
-    """Figures of one bag."""
+    """Summary of one bag."""
 
     def __init__(self, bag: BagReader, name: str, *, with_rates: bool) -> None:
         self._bag = bag
         self._name = name
         self._size = bag.path.stat().st_size
         self._start, self._end = _seconds(bag.start_ns), _seconds(bag.end_ns)
-        # rosbag tells the rates of a 1.2 bag unasked.
+        # rosbag always prints the rates of 1.2 bags
         rates = _rates(bag) if with_rates or bag.version.startswith("1.2") else {}
         self._types = sorted({(c.type, c.md5sum) for c in bag.connections})
         self._topics: list[_Topic] = []
@@ -61,7 +61,7 @@ class Summary:
             self._topics.append(_Topic(topic, own[0][0].type, count, len(own), rates.get(topic)))
 
     def text(self) -> str:
-        """As a table."""
+        """Summary as a table."""
         rows = [("path", self._name), ("version", self._bag.version)]
         if self._topics:
             rows += [
@@ -81,7 +81,7 @@ class Summary:
         return "\n".join(lines).rstrip()
 
     def yaml(self) -> str:
-        """As YAML, with a last line that ends."""
+        """Summary as YAML, with a trailing newline."""
         lines = [f"path: {self._name}", f"version: {self._bag.version}"]
         if not self._topics:
             return "\n".join([*lines, f"size: {self._size}", "indexed: False", ""])
@@ -115,7 +115,7 @@ class Summary:
         return sum(of(chunk) for chunk in self._bag.chunks)
 
     def _compressions(self) -> list[tuple[str, int, int, int]]:
-        """(name, chunks, size, compressed size), the most frequent first."""
+        """(name, chunks, size, compressed size) by number of chunks, descending."""
         found: dict[str, tuple[int, int, int]] = {}
         for chunk in self._bag.chunks:
             count, size, compressed = found.get(chunk.compression, (0, 0, 0))
@@ -164,7 +164,7 @@ class Summary:
 
 
 def _rates(bag: BagReader) -> dict[str, float]:
-    """The median frequency of each topic [Hz]."""
+    """Median frequency of each topic [Hz]."""
     stamps: dict[str, list[float]] = {}
     for message in bag.messages():
         stamps.setdefault(message.connection.topic, []).append(_seconds(message.stamp_ns))
@@ -173,12 +173,12 @@ def _rates(bag: BagReader) -> dict[str, float]:
 
 
 def _seconds(ns: int) -> float:
-    """As genpy's to_sec, whose roundings show in the sixth decimal."""
+    """Seconds as computed by genpy's to_sec, whose rounding shows in the sixth decimal."""
     return float(ns // 10**9) + (ns % 10**9) / 1e9
 
 
 def _print_value(text: str, key: str) -> None:
-    """Find a key such as `duration` or `topics[0].type` in YAML, and print it as rosbag does; none is no failure."""
+    """Print a YAML value such as `duration` or `topics[0].type`, as rosbag does; a missing key is no failure."""
     import yaml
 
     value: Any = yaml.safe_load(text)

@@ -1,4 +1,4 @@
-"""`trundle bag play`: publishes what bags hold."""
+"""`trundle bag play`: publishes the messages of bags."""
 
 import argparse
 import select
@@ -15,7 +15,7 @@ from ..graph_command import running_node
 
 _CONNECTED_S = 0.1
 _TERMINAL_S = 0.1
-"""Between two updates of the line that tells the time."""
+"""Update interval of the status line."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -59,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
             while args.loop:
                 player.play(poll)
         say("\nDone.\n")
-        time.sleep(_CONNECTED_S)  # the last messages leave in the loop's own time
+        time.sleep(_CONNECTED_S)  # give the loop time to send the last messages
     return 0
 
 
@@ -67,7 +67,7 @@ def _options(args: argparse.Namespace) -> PlayerOptions:
     return PlayerOptions(
         rate=args.rate,
         start_s=args.start,
-        duration_s=args.duration or None,  # 0 is no limit to the original
+        duration_s=args.duration or None,  # 0 means no limit, as in the original
         topics=frozenset(args.topics),
         pause_topics=frozenset(args.pause_topics),
         prefix=args.prefix,
@@ -91,7 +91,7 @@ def _provide_pausing(node: Node, player: Player) -> None:
 
 
 class _PlayerConsole:
-    """Looks at the keyboard and tells the time."""
+    """Handles keys and prints the status line."""
 
     def __init__(self, player: Player, pressed: Callable[[], str], *, quiet: bool) -> None:
         self._player = player
@@ -122,7 +122,7 @@ class _PlayerConsole:
 
 @contextmanager
 def _keys() -> Generator[Callable[[], str]]:
-    """Yield a function that returns the key pressed since, or ''; the terminal is as before in the end."""
+    """Yield a function that returns the key pressed since its last call, or ''; restores the terminal at the end."""
     if not sys.stdin.isatty():
         yield lambda: ""
         return

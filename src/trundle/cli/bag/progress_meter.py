@@ -1,18 +1,18 @@
-"""The line that tells how far a bag has come, as rosbag draws it."""
+"""Progress line, as rosbag prints it."""
 
 import shutil
 import time
 
 _EVERY_S = 1.0
 _BESIDE_PATH = 37
-"""Columns of the figures behind the path."""
+"""Columns besides the path."""
 
 
 class ProgressMeter:
-    """Writes one line again and again: how much of a file is done, and how long the rest will take."""
+    """Prints progress and remaining time on one line."""
 
     def __init__(self, path: str, total: int, *, is_quiet: bool = False) -> None:
-        """Begin; `total` is in bytes, and a quiet meter writes nothing."""
+        """Start; `total` [bytes]."""
         self._path = path
         self._total = total
         self._is_quiet = is_quiet
@@ -21,13 +21,13 @@ class ProgressMeter:
         self._print(0)
 
     def step(self, size: int) -> None:
-        """Add some bytes."""
+        """Add processed bytes."""
         self._done += size
         if time.monotonic() - self._printed_s > _EVERY_S:
             self._print(self._done)
 
     def finish(self) -> None:
-        """Say that all is done, and end the line."""
+        """Print 100% and a newline."""
         self._print(max(self._done, self._total))
         if not self._is_quiet:
             print()
@@ -48,7 +48,7 @@ class ProgressMeter:
 
 
 def byte_text(size: float) -> str:
-    """A size as people read it: `3.9 KB`."""
+    """Human-readable size: `3.9 KB`."""
     for suffix in ("KB", "MB", "GB"):
         size /= 1024.0
         if size < 1024.0:

@@ -1,4 +1,4 @@
-"""`trundle bag record`: writes what topics carry until told to stop."""
+"""`trundle bag record`: records topics until stopped."""
 
 import argparse
 import re
@@ -16,10 +16,10 @@ from ..graph_command import ending_signals, running_node
 
 
 def main(args: argparse.Namespace) -> int:
-    """Record until a limit is reached, Ctrl-C, SIGTERM or SIGHUP; the bag is closed and readable after each of them."""
+    """Record until a limit, Ctrl-C, SIGTERM or SIGHUP; the bag is closed and indexed in every case."""
     options = _options(args, tuple(_without_size(args)))
     if args.udp:
-        print("--udp: there is no UDPROS here; the messages come over TCP", file=sys.stderr)
+        print("--udp: UDPROS is not supported; using TCP", file=sys.stderr)
     if args.node and not args.quiet:
         print(f"Recording from: {args.node}", flush=True)
     with running_node("record", args.words) as (loop, node):
@@ -38,10 +38,10 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _without_size(args: argparse.Namespace) -> list[str]:
-    """What is to be recorded, but for the size of old scripts' `--split 1024`."""
+    """Topics to record, without the size in the deprecated `--split 1024`."""
     topics: list[str] = args.topics
     if args.split and topics and topics[0].isdigit():
-        print(f"--split {topics[0]}: an old form, taken for --split --size {topics[0]}", file=sys.stderr)
+        print(f"--split {topics[0]}: deprecated, use --split --size {topics[0]}", file=sys.stderr)
         args.size = int(topics[0])
         return topics[1:]
     return topics
@@ -81,13 +81,13 @@ def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecorderOptio
 
 
 def _say(text: str) -> None:
-    """As roscpp's console does."""
+    """Print in roscpp's format."""
     print(f"[ INFO] [{time.time():.9f}]: {text}", flush=True)
 
 
 @contextmanager
 def _uninterrupted() -> Generator[None]:
-    """Hold signals off while a bag is closed: an impatient second Ctrl-C must not cost its index."""
+    """Ignore signals while a bag is closed: a second Ctrl-C must not cost its index."""
     before = {number: signal.signal(number, signal.SIG_IGN) for number in ending_signals()}
     try:
         yield

@@ -1,4 +1,4 @@
-"""What `trundle bag check` and `fix` share: rules, and what they lead to for each type in a bag."""
+"""Common part of `trundle bag check` and `fix`: rules, and the migration of each type in a bag."""
 
 import os
 import sys
@@ -22,16 +22,16 @@ from trundle.ros import (
 
 @dataclass(frozen=True, slots=True)
 class Migration:
-    """How messages of one connection become those of today."""
+    """Migration of one connection's messages to the known type."""
 
     old: MessageClass
     new: MessageClass | None
-    """None where the type is not known here."""
+    """None if the type is unknown."""
     path: list[MigrationStep]
     missing: list[Rule]
 
     def lines(self) -> list[str]:
-        """As rosbag prints it."""
+        """Lines in rosbag's format."""
         lines = transition(self.path[0].old, self.path[-1].new, indent=0)
         if self.missing:
             lines.append(f"    {len(self.missing)} rules missing:")
@@ -41,16 +41,16 @@ class Migration:
 
 
 def load_rules(files: list[str], *, with_plugins: bool, is_forced: bool = False) -> Migrator:
-    """Run the rule files that were named, and those that packages export, which are named here.
+    """Load the given rule files, and those that packages export, whose paths are printed.
 
     Raises:
-        MigrationError: one of them cannot be used.
+        MigrationError: a file is invalid.
     """
     rules = [RuleFile(Path(name)) for name in files]
     if with_plugins:
         from trundle.packages import Packages, exported_rules
 
-        # Not around the working directory: what somebody merely looks at must not run.
+        # Not from the working directory: looking at a bag must not run code beside it.
         for package, path in exported_rules(Packages(os.environ, start=Path(os.sep)).ros_packages()):
             print(f"Using the rules of package {package}: {path}", file=sys.stderr)
             rules.append(RuleFile(path))
@@ -58,7 +58,7 @@ def load_rules(files: list[str], *, with_plugins: bool, is_forced: bool = False)
 
 
 def migrations(bag: BagReader, rules: Migrator) -> dict[BagConnection, Migration]:
-    """What becomes of each connection, in the order of their first messages."""
+    """Migration of each connection, in the order of first messages."""
     found: dict[BagConnection, Migration] = {}
     waiting = set(bag.connections)
     for message in bag.messages(waiting.__contains__):
@@ -72,13 +72,13 @@ def migrations(bag: BagReader, rules: Migrator) -> dict[BagConnection, Migration
 
 
 def unmigrated_types(found: dict[BagConnection, Migration]) -> list[Migration]:
-    """Those of types that are others here, one for each type."""
+    """Migrations of changed types, one per type."""
     by_type = {(each.old.kind, each.old.md5sum): each for each in reversed(found.values()) if each.path}
     return list(reversed(by_type.values()))
 
 
 def transition(old: MessageClass, new: MessageClass | None, *, indent: int) -> list[str]:
-    """From which type to which, as rosbag prints it."""
+    """Old and new type in rosbag's format."""
     space = "    " * indent
     to = "Unknown" if new is None else f"{new.kind} [{new.md5sum}]"
     return [f"{space} * From: {old.kind} [{old.md5sum}]", f"{space}   To:   {to}"]
@@ -91,7 +91,7 @@ def _migration(connection: BagConnection, rules: Migrator) -> Migration:
     except MessageError:
         if known is None or known.md5sum != connection.md5sum:
             raise
-        old = known  # who recorded it lost or garbled the text
+        old = known  # the recorded definition is missing or garbled
     new = rules.target(old)
     path = rules.path(old, new)
     return Migration(old, new, path, missing_rules([step.rule for step in path]))

@@ -1,4 +1,4 @@
-"""`trundle service call`: one request, one answer; and what has to ask a provider for its type."""
+"""`trundle service call`, and lookup of a service's type from its provider."""
 
 import argparse
 import asyncio
@@ -29,7 +29,7 @@ _POLL_S = 0.1
 
 
 def main(args: argparse.Namespace) -> int:
-    """Call once, or once for each request piped in."""
+    """Call once, or once per request on standard input."""
     name = global_name(args.service, _SCRIPT)
     values = [yaml_value(text or "''") for text in args.values]
     proxy = master(_SCRIPT)
@@ -66,7 +66,7 @@ def _call_once(loop: GraphLoop, node: Node, name: str, kind: str, values: list[A
 
 
 def service_type(proxy: MasterProxy, name: str) -> str:
-    """Ask a provider for the type of its service; the master does not know it."""
+    """Query a service's type from its provider, since the master does not know it."""
     try:
         uri = str(proxy.call("lookupService", name))
     except MasterError:
@@ -74,10 +74,10 @@ def service_type(proxy: MasterProxy, name: str) -> str:
     kind = asyncio.run(probe_service(uri, name, f"/{_SCRIPT}")).get("type")
     if not kind:
         raise ServiceError(f"Unable to determine type of service [{name}].")
-    return kind.removesuffix("Request")  # as some roscpp versions say
+    return kind.removesuffix("Request")  # some roscpp versions append it
 
 
 def argument_names(kind: str, messages: Messages | None = None) -> str:
-    """Name a request's fields."""
+    """Names of a request's fields."""
     messages = messages or Messages()
     return " ".join(messages.fields(messages.service(kind).request))

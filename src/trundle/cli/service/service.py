@@ -20,14 +20,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(alone=2)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     add = commands.add_parser("list", help="names of all services")
-    add.add_argument("namespace", nargs="?", help="only this one and those below it")
+    add.add_argument("namespace", nargs="?", help="namespace to list")
     add.add_argument("-n", "--nodes", action="store_true", help="with the nodes that provide them")
     add.set_defaults(run=_list)
     add = commands.add_parser("call", help="call a service and print its answer")
     add.add_argument("service")
-    add.add_argument("values", nargs="*", help="the request as YAML; or each of its fields; or piped in")
+    add.add_argument("values", nargs="*", help="request as YAML, or its fields in order, or standard input")
     add.add_argument("-v", dest="verbose", action="store_true", help="print the request, too")
-    add.add_argument("--wait", action="store_true", help="wait until the service is there")
+    add.add_argument("--wait", action="store_true", help="wait for the service")
     add.set_defaults(run=_call, failure=2)
     for name, run, help_ in (
         ("info", _info, "node, address, type and arguments of a service"),
@@ -101,7 +101,7 @@ def _find(args: argparse.Namespace) -> int:
         try:
             if _type_of(proxy, name) == args.type:
                 found.append(name)
-        except RosError:  # gone, or does not answer
+        except RosError:  # ended, or does not answer
             continue
     print("\n".join(found))
     return 0

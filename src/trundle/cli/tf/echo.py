@@ -1,4 +1,4 @@
-"""`trundle tf echo`: where one frame is in another, as tf_echo prints it."""
+"""`trundle tf echo`: transform between two frames, as tf_echo prints it."""
 
 import argparse
 import math
@@ -12,12 +12,12 @@ from ..graph_command import running_node
 from ..yaml_input import yaml_value
 
 _FIRST_S = 1.0
-"""How long the first transform may take before that is said."""
+"""Timeout of the first transform before failures are printed."""
 _DIGITS = range(16)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print until enough or Ctrl-C."""
+    """Print until the count is reached, or Ctrl-C."""
     rate = _number(args, "rate", args.rate if args.rate is not None else 1.0)
     if not rate > 0:
         raise UsageError("the rate must be greater than zero")
@@ -54,7 +54,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _number(args: argparse.Namespace, name: str, default: float) -> float:
-    """What `_rate:=5` and its like say, else the default."""
+    """Private parameter such as `_rate:=5`, else the default."""
     text = args.words.params.get(name)
     value = default if text is None else yaml_value(text)
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -79,7 +79,7 @@ def _list(values: Sequence[float], digits: int) -> str:
 
 
 def _rpy(w: float, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Roll, pitch, yaw as tf finds them, so that zeros have its signs: a level frame has pitch -0."""
+    """Roll, pitch, yaw by tf's formulas, for the same signs of zeros: a level frame has pitch -0."""
     sine = 2 * (x * z - w * y)
     if abs(sine) >= 1:
         roll = math.atan2(2 * (w * z - x * y) * math.copysign(1, sine), -2 * (x * z + w * y) * math.copysign(1, sine))

@@ -11,11 +11,11 @@ from .traffic import TransformMonitor
 
 _EVERY_S = 1.0
 _LOOKED_S = 0.01
-"""Between two looks at how old the newest transform of a chain is."""
+"""Sampling interval of a chain's delay."""
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print a table every second until enough or Ctrl-C."""
+    """Print a table every second until the count is reached, or Ctrl-C."""
     if len(args.frames) not in (0, 2):
         args.refuse("monitor takes two frames, or none for all of them")
     printed = 0
@@ -42,7 +42,7 @@ def main(args: argparse.Namespace) -> int:
 
 @dataclass
 class _MonitoredChain:
-    """The chain from one frame to another, and how late it is known."""
+    """Transform chain between two frames, and its delay."""
 
     target: str
     source: str
@@ -58,7 +58,7 @@ class _MonitoredChain:
         return cls(target, source, TransformListener(node).buffer, clock, [])
 
     async def measure_delay(self) -> bool:
-        """Note the age of the newest transform; False where there is none."""
+        """Sample the age of the newest transform; False if there is none."""
         try:
             found = self.buffer.lookup_transform(self.target, self.source)
         except TransformError:

@@ -1,4 +1,4 @@
-"""`trundle tf static`: publishes a transform that never changes, until Ctrl-C."""
+"""`trundle tf static`: publishes a static transform until Ctrl-C."""
 
 import argparse
 
@@ -8,7 +8,7 @@ from ..graph_command import running_node
 
 
 def main(args: argparse.Namespace) -> int:
-    """Be tf2_ros' static_transform_publisher."""
+    """Run the node static_transform_publisher of tf2_ros."""
     stand_in = BuiltinReplacement(BUILTIN_NODES["tf2_ros", "static_transform_publisher"])
     with running_node("static_transform_publisher", args.words) as (loop, node):
         return 1 if loop.run(run_builtin_node(stand_in, node, args.numbers, NodeHost()), None) else 0

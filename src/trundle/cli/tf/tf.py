@@ -18,21 +18,21 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    add = commands.add_parser("echo", help="where one frame is in another, again and again")
-    add.add_argument("source", help="frame to express it in")
-    add.add_argument("target", help="frame asked about")
-    add.add_argument("rate", nargs="?", type=float, help="times a second (1); also _rate:=5, _precision:=6")
-    add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after so many")
+    add = commands.add_parser("echo", help="print the transform between two frames, periodically")
+    add.add_argument("source", help="parent frame")
+    add.add_argument("target", help="child frame")
+    add.add_argument("rate", nargs="?", type=float, help="rate [Hz] (1); also _rate:=5, _precision:=6")
+    add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after COUNT transforms")
     add.set_defaults(run=_import_on_use("echo"))
     add = commands.add_parser("tree", help="all frames as a tree, as view_frames does")
-    add.add_argument("-t", "--time", type=float, default=5.0, metavar="SEC", help="listen so long (5)")
-    add.add_argument("-o", "--output", metavar="FILE", help="a picture (.svg) or a graph for Graphviz (.gv, .dot)")
+    add.add_argument("-t", "--time", type=float, default=5.0, metavar="SEC", help="listening time (5)")
+    add.add_argument("-o", "--output", metavar="FILE", help="an image (.svg) or Graphviz text (.gv, .dot)")
     add.set_defaults(run=_import_on_use("tree"))
-    add = commands.add_parser("monitor", help="delays and rates of frames and of who sends them, every second")
-    add.add_argument("frames", nargs="*", metavar="FRAME", help="two: only the chain between them, and its delay")
-    add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after so many tables")
+    add = commands.add_parser("monitor", help="delays and rates of frames and broadcasters, every second")
+    add.add_argument("frames", nargs="*", metavar="FRAME", help="two frames: only their chain, and its delay")
+    add.add_argument("-n", dest="count", type=int, metavar="COUNT", help="stop after COUNT tables")
     add.set_defaults(run=_import_on_use("monitor"), refuse=add.error)
-    add = commands.add_parser("static", help="publish a transform that never changes, as tf2_ros does")
+    add = commands.add_parser("static", help="publish a static transform, as tf2_ros does")
     add.add_argument(
         "numbers", nargs="+", metavar="X Y Z (YAW PITCH ROLL | QX QY QZ QW) FRAME CHILD", help="[m], [rad]"
     )
@@ -46,7 +46,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _import_on_use(module: str) -> Callable[[argparse.Namespace], int]:
-    """The function that does the work, from a module that is imported when it runs."""
+    """Command function that imports its module when called."""
 
     def run(args: argparse.Namespace) -> int:
         return import_module(f".{module}", __package__).main(args)

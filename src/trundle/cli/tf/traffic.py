@@ -1,4 +1,4 @@
-"""What `tf tree` and `tf monitor` gather: who sends which transform how often and how late."""
+"""Statistics for `tf tree` and `tf monitor`: broadcasters, rates and delays of transforms."""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -6,33 +6,33 @@ from dataclasses import dataclass, field
 from trundle.ros import Clock, Node, RawMessage, to_nsec
 
 _KEPT = 1000
-"""Messages of each frame that averages are taken over."""
+"""Window of the averages [messages]."""
 _TYPE = "tf2_msgs/TFMessage"
 
 
 @dataclass(slots=True)
 class FrameStatistics:
-    """One frame in its parent."""
+    """Statistics of one frame."""
 
     child: str
     parent: str
     caller: str
     is_static: bool
     stamps: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
-    """[s], as sent."""
+    """Header stamps [s]."""
     delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
     """Age on arrival [s]."""
 
     @property
     def rate_hz(self) -> float | None:
-        """Transforms a second by their stamps; None before there are two."""
+        """Rate of the stamps; None before the second transform."""
         span = max(self.stamps) - min(self.stamps) if self.stamps else 0.0
         return (len(self.stamps) - 1) / span if span > 0 else None
 
 
 @dataclass(slots=True)
 class SenderStatistics:
-    """One node's messages."""
+    """Statistics of one broadcaster."""
 
     name: str
     arrivals: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
@@ -40,7 +40,7 @@ class SenderStatistics:
 
 
 class TransformMonitor:
-    """Listens to /tf and /tf_static; ask it on the loop."""
+    """Collects statistics of /tf and /tf_static; read on the loop."""
 
     def __init__(self, node: Node, clock: Clock) -> None:
         self._node = node
@@ -48,7 +48,7 @@ class TransformMonitor:
         self.frames: dict[str, FrameStatistics] = {}
         self.senders: dict[str, SenderStatistics] = {}
         self.other_parents: dict[str, set[tuple[str, str]]] = {}
-        """Frame that is hung up in two places by turns → (parent, who says so)."""
+        """Frame with alternating parents → (parent, broadcaster)."""
         for topic, is_static in (("/tf", False), ("/tf_static", True)):
             node.subscribe(
                 topic, "*", lambda m, s=is_static: self._on_message(m, is_static=s), queue_size=None, on_loop=True

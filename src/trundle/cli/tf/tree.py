@@ -1,4 +1,4 @@
-"""`trundle tf tree`: all frames as a tree, as text, a picture or Graphviz' own language."""
+"""`trundle tf tree`: the tf tree as text, image or Graphviz file."""
 
 import argparse
 import sys
@@ -49,13 +49,13 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _breaks(frames: list[FrameStatistics], rivals: Mapping[str, set[tuple[str, str]]]) -> Iterator[str]:
-    """What keeps one frame from being looked up in another."""
+    """Reasons why lookups between frames fail."""
     roots = sorted({frame.parent for frame in frames} - {frame.child for frame in frames})
     if len(roots) > 1:
-        yield f"{len(roots)} trees that nothing joins; their roots: {', '.join(map(repr, roots))}"
+        yield f"{len(roots)} unconnected trees; roots: {', '.join(map(repr, roots))}"
     for child, places in sorted(rivals.items()):
         below = " and ".join(f"{parent!r} (by {caller})" for parent, caller in sorted(places))
-        yield f"{child!r} is below {below} by turns; a frame has one parent"
+        yield f"{child!r} has alternating parents: {below}; a frame must have one parent"
 
 
 def _roots(frames: list[FrameStatistics], now_s: float) -> list[TreeNode]:
@@ -79,7 +79,7 @@ def _edge(frame: FrameStatistics, now_s: float) -> str:
 
 
 def _graphviz(frames: list[FrameStatistics], now_s: float) -> str:
-    """As view_frames writes it."""
+    """Graphviz text as of view_frames."""
     lines = ["digraph G {"]
     for frame in frames:
         rate = 10000.0 if frame.rate_hz is None else frame.rate_hz

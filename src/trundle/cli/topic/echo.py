@@ -1,4 +1,4 @@
-"""`trundle topic echo`: prints messages as they come."""
+"""`trundle topic echo`: prints messages."""
 
 import argparse
 import queue
@@ -29,11 +29,11 @@ from ..wait_for_topic import wait_for_topic
 
 _FIRST_S = 2.0
 _WAITING = 1000
-"""Messages kept for a terminal that is slower than the topic; the oldest go."""
+"""Queue size for slow terminals; the oldest messages are dropped."""
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print until enough messages came or Ctrl-C."""
+    """Print until the count is reached, or Ctrl-C."""
     if args.width is not None and args.width < 2:
         args.refuse("Fixed width for numeric values must be at least 2")
     if args.all and not args.bag:
@@ -69,7 +69,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _echo_bag(args: argparse.Namespace) -> int:
-    """Print from a bag; with -a every message of every topic."""
+    """Print messages of a bag; with -a, of all topics."""
     messages = Messages(bare=True)
     echo = _MessageEcho(args, messages)
     name = "" if args.all else global_name(args.topic, "rostopic")
@@ -89,7 +89,7 @@ def _echo_bag(args: argparse.Namespace) -> int:
 
 
 def list_bag(args: argparse.Namespace) -> int:
-    """`topic list -b`: name the topics in a bag, in the order of their first message; or count one's messages."""
+    """`topic list -b`: print the topics of a bag in order of first message, or the message count of one."""
     with open_bag(Path(args.bag)) as bag:
         if not args.topic:
             print("\n".join(dict.fromkeys(message.connection.topic for message in bag.messages())))
@@ -105,7 +105,7 @@ def list_bag(args: argparse.Namespace) -> int:
 
 
 class _MessageEcho:
-    """Prints messages as the arguments say, and counts them."""
+    """Prints messages by the command's options, and counts them."""
 
     def __init__(self, args: argparse.Namespace, messages: Messages) -> None:
         self._args = args
@@ -115,11 +115,11 @@ class _MessageEcho:
 
     @property
     def is_done(self) -> bool:
-        """Whether enough were printed."""
+        """True once the count is reached."""
         return self._args.count is not None and self._printed >= self._args.count
 
     def print_message(self, message: Any, field: TopicField, now_ns: int) -> None:
-        """Print a message, if it is wanted."""
+        """Print a message, if it passes the filter."""
         if self.is_done:
             return
         if self._wanted is not None and not self._wanted.value(m=MessageView(message), topic=field.topic):
@@ -130,7 +130,7 @@ class _MessageEcho:
 
 
 def _wait_for_first(inbox: "queue.Queue[Any]") -> None:
-    """Say what the reason may be when no message comes at first: a simulation that stands still."""
+    """Warn if no message arrives under simulated time, which may have stopped."""
     try:
         inbox.put(inbox.get(timeout=_FIRST_S))
     except queue.Empty:
@@ -142,7 +142,7 @@ def _wait_for_first(inbox: "queue.Queue[Any]") -> None:
 
 
 def _read(messages: Messages, raw: RawMessage) -> Any:
-    """Read a message of a type unknown here by the definition its publisher sent along."""
+    """Deserialize a message of an unknown type with its publisher's definition."""
     messages.add_definition(raw.type, raw.definition)
     return messages.deserialize(raw.data, raw.type)
 

@@ -1,4 +1,4 @@
-"""`trundle topic hz`, `bw` and `delay`: measure what comes, once a second."""
+"""`trundle topic hz`, `bw` and `delay`: statistics of received messages, once a second."""
 
 import argparse
 import math
@@ -17,7 +17,7 @@ from ..graph_command import global_name, master, running_node
 from ..wait_for_topic import wait_for_topic
 
 _MAX_WINDOW = 50_000
-"""Messages averaged over when no window is given; rostopic's number."""
+"""Default window of averages [messages]; rostopic's number."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -33,12 +33,12 @@ def main(args: argparse.Namespace) -> int:
                 wanted = expression(args.filter)
                 callback = meter.add_message if wanted is None else _filtered(meter.add_message, wanted, field.topic)
                 kind = "*" if wanted is None else field.type
-                if wanted is not None:  # the first one read takes long: those that come meanwhile would be one burst
+                if wanted is not None:  # warm up: a slow first read would cause a burst
                     loop.messages.deserialize(loop.messages.serialize(loop.messages.new(kind)), kind)
                 node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
             elif is_delay:
                 if "header" not in loop.messages.fields(field.type):
-                    raise UsageError(f"{field.type} has no header, so its messages do not say when they were made")
+                    raise UsageError(f"{field.type} has no header, so its messages have no stamp")
                 meter = TopicDelay(clock, args.window)
                 node.subscribe(field.topic, field.type, meter.add_message, queue_size=None, tcp_nodelay=args.tcpnodelay)
             else:
@@ -51,14 +51,14 @@ def main(args: argparse.Namespace) -> int:
         while True:
             try:
                 time.sleep(1.0)
-            finally:  # Ctrl-C is answered with what came since, too
+            finally:  # on Ctrl-C, report the last second, too
                 text = report(meters)
                 if text:
                     print(text, flush=True)
 
 
 class TopicHz:
-    """Times between the messages of one topic."""
+    """Intervals between messages of a topic."""
 
     def __init__(self, clock: Clock, window: int) -> None:
         self._clock = clock
@@ -68,7 +68,7 @@ class TopicHz:
         self._lock = threading.Lock()
 
     def add_message(self, _: object) -> None:
-        """Note that a message came."""
+        """Record an arrival."""
         now = self._clock.now_ns() / 1e9
         with self._lock:
             if now == 0.0:
@@ -85,7 +85,7 @@ class TopicHz:
             self._last = now
 
     def statistics(self) -> tuple[float, float, float, float, int] | None:
-        """Rate [Hz], shortest and longest time, standard deviation [s], number of messages; None if none came since."""
+        """Rate [Hz], shortest and longest interval, standard deviation [s], window size; None without new messages."""
         with self._lock:
             if not self._times or not self._is_new:
                 return None
@@ -97,7 +97,7 @@ class TopicHz:
 
 
 class TopicDelay:
-    """Ages of the messages of one topic when they come."""
+    """Delays between header stamp and arrival of a topic's messages."""
 
     def __init__(self, clock: Clock, window: int) -> None:
         self._clock = clock
@@ -107,7 +107,7 @@ class TopicDelay:
         self._lock = threading.Lock()
 
     def add_message(self, message: Any) -> None:
-        """Note a message's age; the first one only starts the measurement."""
+        """Record a message's delay; the first message only starts the measurement."""
         now = self._clock.now_ns() / 1e9
         with self._lock:
             if now == 0.0:
@@ -123,7 +123,7 @@ class TopicDelay:
             self._last = now
 
     def text(self) -> str | None:
-        """Delays as rostopic writes them; None before there is one."""
+        """Statistics in rostopic's format; None before the first delay."""
         with self._lock:
             if not self._delays:
                 return None
@@ -140,19 +140,19 @@ class TopicDelay:
 
 
 class TopicBandwidth:
-    """Sizes of the messages of one topic."""
+    """Sizes of a topic's messages."""
 
     def __init__(self, window: int) -> None:
         self._taken: deque[tuple[float, int]] = deque(maxlen=max(window, 2))
         self._lock = threading.Lock()
 
     def add_message(self, message: RawMessage) -> None:
-        """Note a message's size."""
+        """Record a message's size."""
         with self._lock:
             self._taken.append((time.monotonic(), len(message.data)))
 
     def text(self) -> str | None:
-        """Bytes per second and per message as rostopic writes them; None before there are two messages."""
+        """Bytes per second and message sizes in rostopic's format; None before the second message."""
         with self._lock:
             if len(self._taken) < 2:
                 return None
@@ -166,7 +166,7 @@ class TopicBandwidth:
 
 
 def report(meters: "dict[str, TopicHz | TopicBandwidth | TopicDelay]") -> str | None:
-    """Write what was measured during the last second."""
+    """Report of the last second."""
     rows: list[list[str]] = []
     for name, meter in meters.items():
         if not isinstance(meter, TopicHz):

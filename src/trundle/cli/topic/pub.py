@@ -14,7 +14,7 @@ from ..yaml_input import piped_documents, yaml_file, yaml_value
 _ONCE_S = 3.0
 _PIPED_HZ = 10.0
 _SUBSCRIBER_S = 5.0
-"""How long to wait for a first subscriber before piped messages go out."""
+"""Timeout for a first subscriber before messages from a file or standard input."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -71,7 +71,7 @@ def _publish_values(args: argparse.Namespace, node: Node, publisher: Publisher, 
 
 
 def _announce(args: argparse.Namespace, node: Node, message: Any, *, passes: bool) -> None:
-    """Say what is published, as rostopic does."""
+    """Print what is published, in rostopic's words."""
     shown = f"[{_text(node, args.type, message)}]" if args.verbose else "message"
     how_long = f" for {_ONCE_S} seconds" if passes else ". Press ctrl-C to terminate"
     print(f"publishing and latching {shown}{how_long}", flush=True)
@@ -101,7 +101,7 @@ def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publishe
             else:
                 _announce(args, node, message, passes=not stays)
             publisher.publish(message)
-            if stays:  # -l alone latches the first message
+            if stays:  # -l alone: latch the first message
                 _stay()
             time.sleep(1 / rate if rate else _ONCE_S)
             if args.once:
