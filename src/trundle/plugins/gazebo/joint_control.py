@@ -49,7 +49,7 @@ class JointControl(Plugin):
     def _read(self, controller: TagParameters) -> None:
         kind = controller.attribute("type")
         if kind not in _TYPES:
-            controller.warn(f"no controller type {kind!r}; types: {', '.join(_TYPES)}; it is ignored")
+            controller.warn(f"no controller type {kind!r}; types: {', '.join(_TYPES)}; it is left out")
             return
         target = controller.number("target", 0.0) if "target" in controller else None
         gains = controller.vector("pid_gains", (1.0, 0.1, 0.01))

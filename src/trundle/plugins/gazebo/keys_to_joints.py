@@ -76,11 +76,11 @@ class KeysToJoints(Plugin):
             numbers = {name: float(values[name] or 0.0) for name in values if name != "type"}
             joint = model.joint(entry.text("joint"))
         except (ValueError, UsageError) as error:
-            entry.warn(f"<map>: {error}; it is ignored")
+            entry.warn(f"<map>: {error}; it is left out")
             return
         if missing or kind not in ("position", "velocity", "force") or not joint.axes:
             what = f"needs {', '.join(missing)}" if missing else f"type {kind!r} of a joint with {len(joint.axes)} axes"
-            entry.warn(f"<map>: {what}; it is ignored")
+            entry.warn(f"<map>: {what}; it is left out")
             return
         controlled = self._joints.setdefault(joint.name, ControlledJoint(joint))
         pid = Pid(p=numbers["kp"], i=numbers["ki"], d=numbers["kd"])

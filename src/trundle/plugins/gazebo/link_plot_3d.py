@@ -48,7 +48,7 @@ class LinkPlot3D(Plugin):
             try:
                 link = model.link(plot.text("link"))
             except UsageError as error:
-                plot.warn(f"<plot>: {error}; it is ignored")
+                plot.warn(f"<plot>: {error}; it is left out")
                 continue
             line = DebugLine((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
             sim.lines[f"{model.name}::plot_{link.name}_{len(self._plots)}"] = line
