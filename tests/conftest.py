@@ -25,8 +25,8 @@ _SOFTWARE_GL = (
 
 
 def pytest_configure() -> None:
-    """Have tests repeat, and the programs they start hear Ctrl-C, also in the background of a script."""
-    # A test says the same on each run and on a slow machine; `--hypothesis-profile default` looks further.
+    """Make tests repeatable, and reset SIGINT, so that programs they start get Ctrl-C in background jobs, too."""
+    # Tests are the same on each run and on a slow machine; `--hypothesis-profile default` draws new examples.
     quiet = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
     settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=quiet)
     settings.load_profile("steady")
@@ -50,7 +50,7 @@ def shared() -> Path:
 
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Any]:
-    """Start a real browser that draws in software."""
+    """Start a real browser with software rendering."""
     if not _CHROMIUM.exists():
         pytest.skip(f"{_CHROMIUM} is not installed")
     api = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

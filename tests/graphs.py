@@ -9,11 +9,11 @@ from typing import Any
 from trundle.ros import Core, GraphLoop, Messages, Node
 
 PATIENCE_S = 60.0
-"""How long anything may take on a busy machine before a test gives up."""
+"""Timeout of any wait on a busy machine [s]."""
 
 
 def until(condition: Callable[[], object]) -> None:
-    """Wait for something that another thread brings about."""
+    """Wait until a condition holds that another thread brings about."""
     end = time.monotonic() + PATIENCE_S
     while not condition():
         assert time.monotonic() < end, "waited in vain"

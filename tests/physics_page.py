@@ -31,12 +31,12 @@ class Row:
 
     world: str
     duration: float
-    """How long the world runs [s]."""
+    """Duration of the run [s]."""
     model: str
     joint: str | None
     measure: str
     start: float
-    """When it begins to be measured [s]."""
+    """Start of the measurement [s]."""
     figure: float
     tolerance: float
 
@@ -47,13 +47,13 @@ class Trace:
 
     time: NDArray[np.float64]
     positions: NDArray[np.float64]
-    """Of the model, (n, 3) [m]."""
+    """(n, 3) Positions of the model [m]."""
     yaw: NDArray[np.float64]
-    """Of the model, turns added up [rad]."""
+    """Yaw of the model, unwrapped [rad]."""
     velocity: NDArray[np.float64]
-    """Of the model's first link along x [m/s]."""
+    """Velocity of the model's first link along x [m/s]."""
     energy: NDArray[np.float64]
-    """Of links whose frames are at their centres of mass and whose moments are equal [J]."""
+    """Energy of links whose frames are at their centres of mass and whose moments are equal [J]."""
     joint: NDArray[np.float64]
     """Position of the joint [rad]."""
     rate: NDArray[np.float64]
@@ -158,4 +158,4 @@ MEASURES: dict[str, Callable[[Trace], float]] = {
     "period": _period,
     "lost energy": lambda trace: trace.energy[0] - trace.energy[-1],
 }
-"""What a row may name, by its words."""
+"""Measures by the names that rows use."""

@@ -7,6 +7,6 @@ from trundle.spatial import Pose
 def drawn(
     renderer: Renderer, eye: Pose, lens: Intrinsics, *, depth: bool = False, segmentation: bool = False
 ) -> Picture:
-    """What is seen from there."""
+    """Image of one camera."""
     (picture,) = renderer.render([(eye, lens)], depth=depth, segmentation=segmentation)
     return picture

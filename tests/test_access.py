@@ -1,4 +1,4 @@
-"""Which requests the page serves, as a table; whole paths are in tests/viewer/test_guard.py."""
+"""Requests that the page serves, as a table; tests/viewer/test_guard.py uses real sockets."""
 
 import socket
 

@@ -1,4 +1,4 @@
-"""What a command is asked to write: whole or not at all, and never in the place of a device."""
+"""Output files are written whole or not at all, and never replace a device."""
 
 import os
 import subprocess

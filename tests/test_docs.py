@@ -1,4 +1,4 @@
-"""What the documentation shows does what it says."""
+"""Examples of the documentation work as documented."""
 
 import doctest
 from pathlib import Path

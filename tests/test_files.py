@@ -56,7 +56,7 @@ def test_a_text_has_the_lines_of_unix_and_no_byte_stops_it(tmp_path: Path) -> No
 
 
 def test_a_pipe_of_the_command_line_is_read_to_its_end() -> None:
-    """Its writer is often gone by then, as that of <(cat robot.urdf)."""
+    """The writer is often gone by then, as with <(cat robot.urdf)."""
     ours, theirs = os.pipe()
     os.write(theirs, b"<robot/>")
     os.close(theirs)
@@ -94,7 +94,7 @@ def test_files_folders_and_nothing_are_no_streams(tmp_path: Path) -> None:
 
 
 class TestEveryReader:
-    """None waits for somebody to write into a pipe that a file names."""
+    """No reader waits for a writer of a pipe that a file names."""
 
     SAID = "it is a pipe, not a regular file"
 

@@ -1,4 +1,4 @@
-"""When Python looks for garbage."""
+"""Garbage collection paused and resumed."""
 
 import gc
 

@@ -1,4 +1,4 @@
-"""A second user of the machine: what is ours is not read, written, or put something else in the place of."""
+"""A second user of the machine cannot read, write or replace this user's files and sockets."""
 
 import asyncio
 import os
@@ -22,7 +22,7 @@ from trundle.ros.transport.unix_sockets import UNIXROS, connect_unix
 from trundle.viewer.mailbox import Mailbox
 
 _OTHER = 65534
-"""nobody: has no rights of its own."""
+"""User id of `nobody`, without rights."""
 
 _BECOME = f"""
 import os, socket, struct, sys
@@ -79,7 +79,7 @@ def test_pictures_and_poses_are_neither_read_nor_written(
 
 
 def test_a_topics_socket_hangs_up_on_another_user(stranger: Stranger) -> None:
-    """Its name is no secret: /proc/net/unix tells it to all."""
+    """The socket's name is public: /proc/net/unix lists it."""
     program = """
 connection = socket.socket(socket.AF_UNIX)
 connection.settimeout(30)

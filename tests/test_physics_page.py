@@ -1,4 +1,4 @@
-"""What docs/physics.md says of Trundle is what its worlds do."""
+"""Worlds of examples/physics move as docs/physics.md states."""
 
 import json
 from pathlib import Path

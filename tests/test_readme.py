@@ -1,4 +1,4 @@
-"""The README says what is true."""
+"""The README's statements hold."""
 
 import importlib.util
 import textwrap

@@ -1,4 +1,4 @@
-"""The fixture that users' own tests have."""
+"""Fixture for users' own tests."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Names are terms of the field: a short list of words that were in use here and that no roboticist would look for."""
+"""Names are terms of the field: a list of words that were in use here and are not."""
 
 import ast
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ VERBS = {"attend", "feel", "gather", "give", "heed", "hear", "lay", "look", "obe
 """First words of functions; what a sensor does is `measure`, what a topic does is `publish`."""
 
 TERMS = {"give_up", "look_ahead", "look_up"}
-"""What begins with such a word and is a term all the same."""
+"""Terms that begin with such a word."""
 
 
 def _sources() -> Iterator[Path]:
@@ -31,7 +31,7 @@ def _sources() -> Iterator[Path]:
 
 
 def _definitions(kinds: tuple[type[ast.AST], ...]) -> Iterator[tuple[str, str]]:
-    """Where each definition is and its name, without leading underscores."""
+    """Place and name of each definition, without leading underscores."""
     for file in _sources():
         for node in ast.walk(ast.parse(file.read_text())):
             if isinstance(node, kinds):

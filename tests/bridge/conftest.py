@@ -1,4 +1,4 @@
-"""Whole paths: an SDF file goes in, ROS messages come out."""
+"""End to end: from an SDF file to ROS messages."""
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -18,7 +18,7 @@ from trundle.simulation import Simulation
 
 @pytest.fixture
 def graph() -> Iterator[SimpleNamespace]:
-    """A graph of its own with two nodes: one that publishes and one that listens."""
+    """Graph with a publishing and a subscribing node."""
     with running_graph() as running:
         node, ear = running.node("sim"), running.node("ear")
         yield SimpleNamespace(loop=running.loop, node=node, ear=ear)

@@ -1,4 +1,4 @@
-"""Pictures and calibrations as ROS nodes receive them."""
+"""Images and camera_info as ROS nodes receive them."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -23,10 +23,10 @@ AT = Source("robot.sdf", 1)
 
 
 class Ramp:
-    """Draws a picture whose every byte is known."""
+    """Renderer of a picture with known bytes."""
 
     def update(self, poses: Any) -> None:
-        """Nothing moves."""
+        """Ignore the poses."""
 
     def render(
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
@@ -48,7 +48,7 @@ def snapshot(time_ns: int) -> Snapshot:
 
 @pytest.fixture
 def stage() -> Iterator[SimpleNamespace]:
-    """A camera on a robot given alone, on a graph of its own."""
+    """Camera on a single robot, on a graph of its own."""
     optics = CameraOptics(width_px=4, height_px=3, horizontal_fov_rad=1.0)
     sensor = Sensor(name="my eye", type="camera", at=AT, link_from_sensor=Pose((0.1, 0.0, 0.2)), cameras=(optics,))
     link = Link(name="head", at=AT, sensors=(sensor,))
@@ -76,7 +76,7 @@ def test_a_picture_arrives_with_its_bytes_its_instant_and_its_frame(stage: Simpl
     stage.camera.after_step(snapshot(12_034_000_000))
     until(lambda: images)
     (image,) = images
-    # 12.034 s is no multiple of the clock topic's period: the stamp is the picture's own instant.
+    # 12.034 s is not a multiple of /clock's period: the stamp is the picture's own time.
     assert (image.header.stamp.sec, image.header.stamp.nanosec) == (12, 34_000_000)
     assert image.header.frame_id == stage.topics.frame
     assert image.header.frame_id.endswith("my_eye_optical")

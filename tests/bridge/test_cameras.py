@@ -1,4 +1,4 @@
-"""Every kind of camera, from the file that describes it to the messages that others hear."""
+"""Every type of camera, from its file to its messages."""
 
 import math
 from typing import Any
@@ -29,7 +29,7 @@ def label(number: int) -> str:
 
 
 WALL = box("wall", "3.5 0 0", size="1 2 2")
-"""Its face is 3 m ahead."""
+"""Wall whose face is 3 m ahead."""
 
 
 @pytest.mark.parametrize("type_", ["depth", "depth_camera", "rgbd", "rgbd_camera"])
@@ -73,7 +73,7 @@ def test_depths_have_a_clip_of_their_own(hear: Any) -> None:
 
 
 def test_a_segmentation_camera_sees_labels(hear: Any) -> None:
-    """A label of a model is that of all its visuals; what has none is background."""
+    """A model's label holds for all its visuals; visuals without one are background."""
     whole = box("right", "3.5 -1 0", mark="").replace("</model>", label(7) + "</model>")
     world = (
         eye("segmentation") + box("left", "3.5 1 0", mark=label(40)) + whole + box("none", "3.5 0 1", size="1 0.2 0.2")
@@ -190,10 +190,10 @@ def test_the_file_says_where_the_calibration_is_and_what_its_frame_is_called(hea
 
 
 def test_a_frame_that_is_a_link_is_left_where_it_is(hear: Any) -> None:
-    """Which the description placed already."""
+    """The description has placed that link already."""
     world = eye("camera", inside="<optical_frame_id>lens</optical_frame_id>")
     world = world.replace("</model>", '<link name="lens"><pose>0 0 1 0 0 0</pose></link></model>')
     heard, frames = hear(world, {"/bot/head/eye/image_raw": IMAGE})
 
     assert heard["/bot/head/eye/image_raw"].header.frame_id == "bot/lens"
-    assert "bot/lens" not in frames  # among those that sensors place
+    assert "bot/lens" not in frames  # among the sensors' frames

@@ -1,4 +1,4 @@
-"""Sonars, barometers, compasses, radios and the like, from the file to the messages that others hear."""
+"""Instruments (sonars, barometers, magnetometers, radios, …), from the file to their messages."""
 
 import math
 from typing import Any
@@ -121,7 +121,7 @@ def test_a_logical_camera_lists_the_ground_unless_it_looks_straight_up(hear: Any
 
 
 def test_a_logical_camera_tells_models_in_its_pyramid_where_they_are(hear: Any) -> None:
-    """One ahead, one that only reaches in, one outside, one too far; never its own."""
+    """Models: one ahead, one partly inside, one outside, one too far; the sensor's own model is never seen."""
     own = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
     eye = sensor("logical_camera", own, pose=f"0 0 1 0 0 {math.pi / 2}")
     things = box("ahead", "0 3 1.2") + box("rim", "2 3 1") + box("aside", "3 3 1") + box("far", "0 9 1")
@@ -327,7 +327,7 @@ def test_a_force_torque_sensor_names_the_direction_that_it_does_not_know(describ
             "<temperature_gradient>1e300</temperature_gradient>",
             "1e300",
             101325.0,
-        ),  # so high that it counts for the earth's radius
+        ),  # so high that it matters for the earth's radius
     ],
 )
 def test_air_that_cannot_be_crushes_nothing(described: Any, air: str, height: str, expected: float) -> None:

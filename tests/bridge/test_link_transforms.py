@@ -58,7 +58,7 @@ def test_a_robot_given_alone_keeps_its_links_plain_names() -> None:
 
 
 def test_in_a_world_file_frames_carry_their_model() -> None:
-    """Two robots of one kind would otherwise both be `base`."""
+    """Two equal robots would otherwise both have a frame `base`."""
     world = World(name="w", at=AT, models=(arm("left arm"), arm("2nd")))
 
     names = [f.frame for f in link_frames(world)]
@@ -87,7 +87,7 @@ def sensor(name: str) -> Sensor:
 
 
 def frames_of_sensors(names: FrameNames, *places: tuple[str, str]) -> list[str]:
-    """Of sensors on links, (link, sensor)."""
+    """Frames of sensors on links, given as (link, sensor)."""
     by_link = {link: tuple(sensor(name) for on, name in places if on == link) for link, _ in places}
     model = Model(name="bot", at=AT, links=tuple(Link(name=n, at=AT, sensors=each) for n, each in by_link.items()))
     return [names.sensor(model, link, sensor(name), rest="_x" if name == "eye" else "") for link, name in places]
@@ -101,7 +101,7 @@ def test_sensors_of_one_name_have_frames_of_their_own() -> None:
 
 
 def test_no_sensor_has_the_frame_of_a_link() -> None:
-    """Neither that of one that is simulated nor, of a URDF, that of one that is lumped."""
+    """Links of a URDF that are lumped and not simulated count, too."""
     robot = Robot(name="bot", at=AT, root="mast", links=(RobotLink(name="mast", at=AT),), joints=())
     told = frames_of_sensors(FrameNames.from_robot(robot), ("base", "imu"), ("imu", "base"), ("base", "mast"))
 

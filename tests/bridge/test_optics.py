@@ -1,4 +1,4 @@
-"""What is inside <camera>, from the file to the messages that others hear."""
+"""Elements of <camera>, from the file to the messages."""
 
 import math
 from typing import Any
@@ -59,7 +59,7 @@ def test_distortion_bends_the_picture_and_is_told(hear: Any) -> None:
     assert list(heard[CALIBRATION].D) == [-0.3, 0.1, 0.01, -0.01, 0.0]
     x, r2 = -1 / 3, 1 / 9
     seen = x * (1 - 0.3 * r2 + 0.1 * r2**2) - 0.01 * 3 * r2
-    end = 32 / F  # of the picture; the enlargement is what becomes of the diagonal from (-end, -end) to (end, end)
+    end = 32 / F  # of the image; the crop enlarges the diagonal from (-end, -end) to (end, end)
     seen /= 1 - 0.3 * 2 * end**2 + 0.1 * 4 * end**4
     row = heard[PICTURE].data.reshape(48, 64, 3)[24, :, 0].astype(int)
     edge = int(np.flatnonzero(np.abs(np.diff(row)) > 20)[0])

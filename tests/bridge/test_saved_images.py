@@ -1,4 +1,4 @@
-"""Pictures that a camera's <save> asks for: where they go, and how many."""
+"""Images of a camera's <save>: their folder and number."""
 
 from pathlib import Path
 from typing import Any

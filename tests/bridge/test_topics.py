@@ -1,4 +1,4 @@
-"""Where sensors publish."""
+"""Topics of sensors."""
 
 from typing import Any
 

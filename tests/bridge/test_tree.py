@@ -1,4 +1,4 @@
-"""Whatever a sensor is and wherever it sits: who hears it finds its frame in tf, and there the sensor's own place."""
+"""For every sensor type and mount: the messages' frame is in tf, at the sensor's pose."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -27,17 +27,17 @@ SCAN = "<ray><scan><horizontal><samples>3</samples></horizontal></scan><range><m
 WIDE = "<logical_camera><far>90</far><horizontal_fov>3</horizontal_fov></logical_camera>"
 SETTINGS = {"ray": SCAN, "gpu_ray": SCAN, "lidar": SCAN, "gpu_lidar": SCAN, "logical_camera": WIDE}
 SILENT = ("force_torque", "rfidtag", "wireless_transmitter")
-"""The first sits on a joint, of the others one hears nothing."""
+"""Sensors without a link frame or without messages."""
 OPTICAL = Pose(quaternion=quaternion_from_rpy(-1.5707963267948966, 0.0, -1.5707963267948966))
 
 
 class Ear:
-    """A node whose every topic is heard: it keeps the frames that messages name, and all of tf."""
+    """Stand-in for a node: keeps the frames that messages name, and all of tf."""
 
     def __init__(self) -> None:
         self.tree = TransformBuffer()
         self.named: dict[str, str] = {}
-        """Topic → the frame that its messages name."""
+        """Topic → frame_id of its messages."""
 
     def advertise(self, topic: str, type_: str, **_: Any) -> Any:
         is_tree = topic.startswith("/tf")
@@ -60,7 +60,7 @@ class Ear:
         self.tree.set_transform(made, static=stamp == 0)
 
     def send_transform(self, *transforms: Transform) -> None:
-        """As the broadcaster of what does not move."""
+        """Take the place of the static broadcaster."""
         for each in transforms:
             self.take(each.parent, each.child, 0, each.translation, each.rotation)
 
@@ -82,7 +82,7 @@ SEEING = ("boundingbox", "depth", "rgbd", "segmentation", "thermal")
 
 
 def robot(name: str, place: str) -> str:
-    """It falls and turns; a nested model's link has the same sensors as its own."""
+    """Robot that falls and turns; a nested model's link has the same sensors as its own."""
     every = sensors(sorted(SIMULATED_CAMERAS - set(SILENT)))
     shape = '<collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>'
     arm = f'<model name="arm"><pose>0 1 0 0.3 0 0</pose><link name="base">{MASS}{shape}{every}</link></model>'
@@ -101,7 +101,7 @@ def spoken(sim: Simulation) -> tuple[Ear, Any, list[Any]]:
 
 
 def placed(sensor: Any, snapshot: Snapshot) -> Pose:
-    """Where the axes are that its messages are told in."""
+    """Pose in the world of the axes of its messages."""
     match sensor:
         case CameraSensor():
             return sensor.world_from_camera(snapshot) @ OPTICAL
@@ -133,7 +133,7 @@ def test_every_sensor_speaks_in_a_frame_that_is_where_the_sensor_is(tmp_path: Pa
         sensor.after_step(now)
         assert ear.named, sensor.name
         for topic, frame in ear.named.items():
-            if frame == "world":  # contacts and heights are told in it
+            if frame == "world":  # contacts and heights are published in it
                 continue
             found, expected = ear.tree.lookup_transform("world", frame).pose, placed(sensor, now)
             assert found.position == pytest.approx(expected.position, abs=1e-6), topic

@@ -153,7 +153,7 @@ def test_mjcf_shows_what_is_seen_and_leaves_physics_as_it_is(cart: Path, capsys:
     assert code == 0
     assert len(seen) == 3
     ball, flat, cone = seen
-    assert model.geom_rgba[ball] == pytest.approx([0.5, 0.5, 0.5, 1.0])  # a material's, which this stands for
+    assert model.geom_rgba[ball] == pytest.approx([0.5, 0.5, 0.5, 1.0])  # that of a material
     assert model.mat_rgba[model.geom_matid[ball]] == pytest.approx([1.0, 0.5, 0.0, 0.5])
     assert model.mat_specular[model.geom_matid[ball]] == pytest.approx(0.2)
     assert model.geom_type[flat] == model.geom_type[cone] == mujoco.mjtGeom.mjGEOM_MESH
@@ -257,7 +257,7 @@ def test_a_launch_file_is_known_by_its_root(cart: Path) -> None:
 
 
 def test_a_xacro_of_standard_input_is_expanded_beside_where_the_user_is(cart: Path, tmp_path: Path) -> None:
-    """With what it includes and the lines of its faults; `check` and `convert` alike."""
+    """Includes are found and faults have their lines; `check` and `convert` alike."""
     (tmp_path / "mass.xacro").write_text(f"<robot {XACRO}><xacro:property name='mass' value='2'/></robot>")
     link = "<link name='l'><inertial><mass value='${mass}'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>"
     text = f"<robot name='r' {XACRO}><xacro:include filename='mass.xacro'/>{link}</robot>"

@@ -1,4 +1,4 @@
-"""Commands that only look at a file run nothing that stands in it, however it is written."""
+"""Commands that only read a file run no code in it, however it is written."""
 
 from pathlib import Path
 

@@ -21,7 +21,7 @@ def test_a_start_that_never_rests_ends_when_asked_to() -> None:
         ending.set()
         waiting.result(60.0)
         loop.work.finish(never_done)
-    assert said == []  # it was not the patience that ended
+    assert said == []  # it did not time out
 
 
 def test_a_world_that_is_reset_amid_a_stretch_goes_on_for_what_was_left(tmp_path: Path) -> None:

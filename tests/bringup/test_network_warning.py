@@ -1,4 +1,4 @@
-"""Listening beyond this machine is said; loopback is not worth a word."""
+"""Listening beyond loopback is warned of."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What the page of a simulation looks at."""
+"""Scene of a simulation's page."""
 
 import trundle
 from trundle.bringup.page_scene import build_page_scene

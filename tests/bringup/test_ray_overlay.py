@@ -1,4 +1,4 @@
-"""What the page shows of sensors, and whether it goes on as models come and go."""
+"""Sensors on the page, as models come and go."""
 
 from pathlib import Path
 from typing import Any, cast
@@ -83,7 +83,7 @@ def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) 
 
 
 class Screen:
-    """Stands for the viewer."""
+    """Stand-in for the viewer."""
 
     alive = True
 
@@ -99,7 +99,7 @@ class Screen:
 
 
 def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
-    """The page is told anew of all cameras whenever a model comes or goes."""
+    """The page gets all cameras again whenever a model comes or goes."""
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
     screen = Screen()
     page = SimulationPage(cast(Viewer, screen), sim, None, [])

@@ -42,7 +42,7 @@ def test_flat_out_never_waits() -> None:
 
 
 def test_a_long_stall_is_not_caught_up() -> None:
-    """After a laptop's sleep the robot goes on at its speed; it does not race through the lost hour."""
+    """After a laptop's sleep the simulation goes on at its speed and does not catch up."""
     wall = Wall()
     pacer = RealtimePacer(1.0, wall_ns=wall.now, sleep=wall.sleep)
     time_ns = pacer.next_target(pacer.next_target(0))

@@ -39,7 +39,7 @@ def test_it_stays_set() -> None:
 
 @pytest.mark.skipif(os.name != "posix", reason="timers that send signals are POSIX's")
 def test_a_signal_may_set_it_at_any_moment() -> None:
-    """Thousands of signals fall on every line of a wait; none of them may block for ever."""
+    """Thousands of signals hit every line of a wait; none of them may block it."""
     done = subprocess.run([sys.executable, "-c", _HAMMERED], capture_output=True, text=True, timeout=100)
     assert done.stdout == "3000\n", done.stderr
 

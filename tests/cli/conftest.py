@@ -1,4 +1,4 @@
-"""A ROS graph for the commands that look at one."""
+"""ROS graph for commands."""
 
 import subprocess
 from collections.abc import Callable, Iterator

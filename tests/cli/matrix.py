@@ -1,4 +1,4 @@
-"""One line for each subcommand of the originals and of ours: what to run in either world, and what it has to say."""
+"""Table of all subcommands, ROS' and Trundle's: the command lines of both, and the output expected."""
 
 from dataclasses import dataclass
 
@@ -8,22 +8,22 @@ class Row:
     """One subcommand; `{folder}` in it is a folder to write to."""
 
     ours: str
-    """Behind `trundle`; empty where Trundle has none."""
+    """Words after `trundle`; empty: Trundle has no such subcommand."""
     says: str = ""
-    """Regular expression of what it has to print."""
+    """Regular expression of the output."""
     original: str = ""
-    """Its counterpart; by default the same words behind rostopic and its kin; '-' where Trundle alone has it."""
+    """ROS' command; default: the same words after rostopic and the like; '-': only Trundle has it."""
     typed: str | None = None
     endless: bool = False
-    """It is ended by Ctrl-C once it has said so."""
+    """True: it is ended by Ctrl-C after the output."""
     stays: bool = False
-    """It goes on while the rows after it run; they tell whether it works."""
+    """True: it goes on while the rows after it run, which show whether it works."""
     original_says: str | None = None
-    """Where the original's own words differ."""
+    """Regular expression of ROS' output, where it differs."""
 
     @property
     def words_of_original(self) -> str:
-        """The whole command line of the original; empty where there is none."""
+        """Command line of the original; empty: none."""
         if self.original:
             return self.original.lstrip("-")
         tool, _, rest = self.ours.partition(" ")

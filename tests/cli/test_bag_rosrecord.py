@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.ros.bags_of_rosrecord import rosrecord_bag
+from tests.ros.bags.bags_of_rosrecord import rosrecord_bag
 
 from trundle.ros import BagConnection, BagMessage, Messages, open_bag
 
@@ -76,7 +76,7 @@ def test_a_bag_whose_index_was_never_written_is_to_be_reindexed(
 def test_the_original_reads_the_same(
     graph: Any, original: Callable[..., str], tmp_path: Path, written: list[BagMessage]
 ) -> None:
-    """It reads one with an index in C++ and tells what is in it, and one without in Python."""
+    """It reads a bag with an index in C++, and one without in Python."""
     old, copy, ours = (tmp_path / f"{name}.bag" for name in ("old", "copy", "ours"))
     old.write_bytes(rosrecord_bag(written))
     assert graph.trundle("bag", "info", str(old))[1] == original("rosbag", "info", str(old))

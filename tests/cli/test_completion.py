@@ -13,7 +13,7 @@ from trundle.ros import StaticTransformBroadcaster, Transform
 
 @pytest.fixture
 def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
-    """What a shell would offer behind a line."""
+    """Completions that a shell would offer for a line."""
     node = graph.node("talker", params={"rate": 5})
     node.advertise("/chatter", "std_msgs/String")
     node.advertise_service("~enable", "std_srvs/SetBool", lambda _: {})

@@ -66,7 +66,7 @@ def test_listening_beyond_this_machine_is_warned_of(tmp_path: Path) -> None:
 
 
 def test_an_address_that_leads_elsewhere_is_one_sentence(capfd: pytest.CaptureFixture[str], monkeypatch: Any) -> None:
-    """192.0.2.1 is nobody's, by RFC 5737; as the loop gives up on it, nothing answers there."""
+    """192.0.2.1 is unassigned (RFC 5737): nothing answers there."""
     monkeypatch.setattr("trundle.cli.core._READY_S", 0.5)
     monkeypatch.setattr("signal.signal", lambda *_: None)
     monkeypatch.setenv("ROS_IP", "192.0.2.1")
@@ -110,7 +110,7 @@ def test_rosout_comes_back_after_it_was_killed(graph: Any) -> None:
     def is_new() -> bool:
         try:
             return MasterProxy(graph.core.uri).call("lookupNode", "/rosout") != before
-        except MasterError:  # between the two
+        except MasterError:  # the old master has gone, the new one is not up yet
             return False
 
     graph.until(is_new)

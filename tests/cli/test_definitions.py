@@ -80,7 +80,7 @@ def test_every_line_is_rosmsgs(capsys: pytest.CaptureFixture[str], original: Any
         (["srv", "packages", "-s"], [name.partition("/")[0] for name in messages.service_names()]),
     ):
         theirs = original(f"ros{arguments[0]}", *arguments[1:], path=tmp_path)
-        known = set(names)  # they see Debian's own packages besides, some of them for a second time
+        known = set(names)  # the originals also see Debian's packages, some of them twice
         assert _run(capsys, *arguments)[1].split() == [word for word in dict.fromkeys(theirs.split()) if word in known]
     for arguments in (
         ["msg", "package", "sensor_msgs", "-s"],

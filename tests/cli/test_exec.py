@@ -17,7 +17,7 @@ COMMAND = [sys.executable, "-m", "trundle", "exec", "my_robot", "fly"]
 
 @pytest.fixture
 def programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
-    """Two of one name, each of which says where it is."""
+    """Two programs of one name, each of which prints its folder."""
     (tmp_path / "package.xml").write_text("<package><name>my_robot</name></package>")
     paths = [tmp_path / folder / "fly" for folder in ("new", "old")]
     for path in paths:

@@ -53,7 +53,7 @@ def test_loops_are_drawn_too() -> None:
 
 @pytest.fixture
 def chatter(graph: Any) -> Any:
-    """A node that says something of each level, again and again."""
+    """Node that logs at each level repeatedly."""
     node, other = graph.node("motor"), graph.node("camera")
 
     async def talk() -> None:
@@ -137,7 +137,7 @@ def test_packages_that_need_each_other_end(graph: Any, workspace: Path) -> None:
 
 @pytest.mark.real_ros
 def test_packages_are_rospacks(graph: Any, workspace: Path) -> None:
-    """What a package is built and tested with is none of rospack's needs."""
+    """rospack ignores build and test dependencies."""
     if not Path("/usr/bin/rospack").exists():
         pytest.skip("Debian's rospack-tools is not installed")
     for name, needs in (
@@ -198,7 +198,7 @@ def test_a_stock_node_runs_here(graph: Any) -> None:
 
 @pytest.mark.slow
 def test_gazebo_is_started_as_rosrun_starts_it(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The world answers as /gazebo, whatever the program is called."""
+    """The node's name is /gazebo, whatever the program's."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     client = graph.node("client")
     with _exec("gazebo_ros", "gzserver", "-u", "worlds/shapes.world") as process:

@@ -1,4 +1,4 @@
-"""Each line of ours is the original's, on the same graph."""
+"""Output line by line equal to the original's, on the same graph."""
 
 import math
 from pathlib import Path

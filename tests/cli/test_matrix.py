@@ -1,4 +1,4 @@
-"""Every subcommand of the originals against our master and nodes, and each of ours against theirs; it prints itself."""
+"""Every subcommand of ROS against Trundle's master and nodes, and the reverse; prints a table."""
 
 import os
 import re
@@ -71,7 +71,7 @@ def _started(command: Sequence[str], env: dict[str, str], folder: Path) -> Itera
 
 
 def _run(command: Sequence[str], row: Row, says: str, env: dict[str, str], folder: Path) -> str:
-    """Run one row; empty if it did what it should, else what was wrong."""
+    """Run one row; return the fault, or empty."""
     with _started(command, env, folder) as process:
         assert process.stdin is not None
         assert process.stdout is not None
@@ -92,7 +92,7 @@ def _run(command: Sequence[str], row: Row, says: str, env: dict[str, str], folde
 
 
 def _fill(folder: Path) -> None:
-    """What the rows read: a file, a package with a program, and Debian's packages whose package.xml Debian left out."""
+    """Write what the rows read: a file, a package with a program, and the package.xml that Debian's packages lack."""
     (folder / "p.yaml").write_text("d: 1\n")
     lacking = {
         kind.parent

@@ -1,4 +1,4 @@
-"""Whether the matrix has a row for each subcommand."""
+"""The matrix has a row for each subcommand."""
 
 import argparse
 import importlib
@@ -7,7 +7,7 @@ import pytest
 from tests.cli.matrix import ROWS
 
 REFUSED = {"encrypt", "decrypt"}
-"""Those of rosbag that only say what to use instead."""
+"""Subcommands of rosbag that only name a replacement."""
 
 
 @pytest.mark.parametrize("command", ["topic", "node", "param", "service", "msg", "srv", "bag", "tf", "pack"])
@@ -15,7 +15,7 @@ def test_every_subcommand_is_in_the_matrix(command: str) -> None:
     parser = argparse.ArgumentParser()
     importlib.import_module(f"trundle.cli.{command}").configure(parser)
     (choices,) = (action.choices for action in parser._actions if isinstance(action.choices, dict))
-    names = {id(choice): name for name, choice in reversed(choices.items())}.values()  # an alias is no other one
+    names = {id(choice): name for name, choice in reversed(choices.items())}.values()  # aliases count once
 
     assert set(names) - REFUSED == {row.ours.split()[1] for row in ROWS if row.ours.startswith(f"{command} ")}
 

@@ -101,7 +101,7 @@ def test_a_curve_is_broken_where_it_is_no_number() -> None:
 
 
 def test_large_numbers_near_one_another_are_told_apart() -> None:
-    """Eastings of a map, stamps: all marks of the axis had been 4.5e+06."""
+    """Map coordinates and stamps: all ticks of the axis were 4.5e+06 before."""
     curve = Curve("easting", [(0.0, 4_500_000.0), (1.0, 4_500_000.5)])
     marks = [text.text for text in parse_xml(curves_svg([curve]), name="x.svg").all("text")]
     assert {"4500000", "4500000.2", "4500000.4"} <= set(marks)

@@ -252,7 +252,7 @@ def test_what_cannot_be_filmed_is_said(
 
 
 def test_opengl_draws_the_same_where_it_is_asked_for(box: Path, tmp_path: Path) -> None:
-    """Where there is none, one sentence says so, and no other renderer steps in."""
+    """Without OpenGL the error is one sentence, and no other renderer is used."""
     ours, theirs = tmp_path / "cpu.png", tmp_path / "egl.png"
     command = ["render", str(box), "--camera", "eye"]
     assert main([*command, "-o", str(ours)]) == 0
@@ -290,7 +290,7 @@ def test_both_cameras_of_the_rp2w_that_saves_its_pictures_see_what_is_ahead(tmp_
 def test_a_camera_that_is_not_there_comes_with_what_was_left_out(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The model that has it may be what is missing."""
+    """The camera's model may be the missing one."""
     world = tmp_path / "scene.world"
     world.write_text(THINGS.format("lost"))
 
@@ -317,7 +317,7 @@ def test_an_empty_picture_is_explained_in_the_last_line(tmp_path: Path, capfd) -
 
 
 def test_a_robot_without_masses_is_drawn_as_it_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """As the first steps of ROS tutorials write them: Gazebo simulates nothing of it. The arm hangs below its joint."""
+    """URDFs of first tutorials have no masses: Gazebo simulates nothing of them. The arm is below its joint."""
     robot, out = tmp_path / "r.urdf", tmp_path / "r.png"
     robot.write_text(
         """<robot name="r"><material name="m"><color rgba="1 0 0 1"/></material>
@@ -337,7 +337,7 @@ def test_a_robot_without_masses_is_drawn_as_it_is_written(tmp_path: Path, capsys
 
 
 def test_the_ground_hides_nothing_of_a_robot_that_is_written_below_it(tmp_path: Path) -> None:
-    """Many have their root at their middle; in a simulation the ground pushes them up."""
+    """Many robots have their root at their middle; in a simulation the ground pushes them up."""
     model, out = tmp_path / "m.sdf", tmp_path / "m.png"
     model.write_text(BOX.replace("<pose>3 1 0.5 0 0 0</pose>", "<pose>3 1 -4 0 0 0</pose>"))
 

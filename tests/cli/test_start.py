@@ -1,4 +1,4 @@
-"""How `trundle` starts: Ctrl-C before Python could answer it, where it finds its script, what its terminal can show."""
+"""Start of `trundle`: Ctrl-C before Python handles it, the path of its script, the terminal's encoding."""
 
 import os
 import shutil

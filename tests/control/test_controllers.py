@@ -1,4 +1,4 @@
-"""The laws of ros_control's controllers, against what calculus says."""
+"""Laws of ros_control's controllers, against analytic solutions."""
 
 import pytest
 from hypothesis import given
@@ -15,7 +15,7 @@ def test_an_integral_contributes_no_more_than_its_clamp() -> None:
     for _ in range(100):
         last = pid.command(1.0, 0.1)
     assert last == pytest.approx(2.5)
-    assert pid.command(-1.0, 0.1) == pytest.approx(-1.5)  # it grew on, beyond what it may say
+    assert pid.command(-1.0, 0.1) == pytest.approx(-1.5)  # the integral grew on, beyond its output limit
 
     pid = ToolboxPid(i=1.0, i_clamp=0.5, antiwindup=True)
     for _ in range(100):

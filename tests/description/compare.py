@@ -1,4 +1,4 @@
-"""Holds what was read against what the real tools read."""
+"""Comparison of models with those that the real tools read."""
 
 import math
 from collections.abc import Iterator
@@ -103,12 +103,12 @@ def _same_limit(ours: float | None, theirs: float | str | None, name: str, toler
 
 
 def close(ours: float, theirs: float, tolerance: float) -> bool:
-    """Whether two numbers agree, absolutely or relatively."""
+    """Return True if two numbers agree, absolutely or relatively."""
     return abs(ours - theirs) <= tolerance * max(1.0, abs(ours), abs(theirs))
 
 
 def same_pose(ours: list[float], theirs: Any, tolerance: float) -> bool:
-    """Whether x y z roll pitch yaw is their xyz and wxyz; one that they could not resolve is none to compare with."""
+    """Return True if x y z roll pitch yaw is their xyz and wxyz; poses that they could not resolve are skipped."""
     if "xyz" not in theirs:
         return True
     pose = Pose.from_rpy(*ours)

@@ -1,4 +1,4 @@
-"""Models as plain values, so that two of them can be held against one another field by field."""
+"""Models as plain values, to compare them field by field."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Hundreds of published files, held against what the real tools made of them."""
+"""Hundreds of published files, compared with the output of the real tools."""
 
 import gzip
 import json
@@ -21,7 +21,7 @@ TOLERANCE = 1e-6
 EXCEPTIONS: dict[str, str] = {
     "repos/ros+xacro/test/B.xacro": "xacro's own test of itself: it calls a private method that xacro 2 no longer has",
 }
-"""File → why ours differs, and is right to."""
+"""File → why Trundle's result differs, and is right."""
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def corpus(shared: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def packages(corpus: Path) -> Packages:
-    """As a machine that has built every one of these packages: gazebo_ros puts their models on the path."""
+    """Packages as on a machine that has built them all: gazebo_ros puts their models on the path."""
     folders = {config.parent.parent for config in corpus.glob("repos/**/model.config")}
     database = corpus / "repos/osrf+gazebo_models"
     path = [*sorted(folders - {database}), database]

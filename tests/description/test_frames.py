@@ -1,4 +1,4 @@
-"""Frames, nested and included models: where things are, whichever frame they were written in."""
+"""Poses in frames, nested and included models."""
 
 import math
 from pathlib import Path
@@ -382,7 +382,7 @@ def test_a_mimic_s_offset_moves_no_link_of_a_converted_urdf(tmp_path: Path) -> N
 
 
 def test_an_include_in_a_gazebo_block_nests_a_model_in_a_urdf(tmp_path: Path) -> None:
-    """How rovers carry lamps: libsdformat 9 keeps the <include>, and joints name its links."""
+    """libsdformat 9 keeps the <include>, and joints name its links; rovers carry lamps so."""
     read(tmp_path, '<model name="m"/>')
     body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     include = "<include><uri>model://arm</uri><name>lamp</name><pose>1 0 0 0 0 0</pose></include>"

@@ -1,4 +1,4 @@
-"""Whatever is in a file, reading it ends in a model or in one sentence."""
+"""Reading any file ends in a model or in one sentence."""
 
 import contextlib
 import json

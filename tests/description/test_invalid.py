@@ -1,4 +1,4 @@
-"""Hostile and broken files end in a sentence or an acceptance, never in anything else."""
+"""Hostile and broken files are accepted or refused by a sentence; they never crash."""
 
 import contextlib
 import gzip

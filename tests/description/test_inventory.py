@@ -103,7 +103,7 @@ HOSTS = {
     "joint_state": _STATE.format("<joint_state name='j' here=''/>"),
     "light_state": _STATE.format("<light name='sun' here=''/>"),
 }
-"""A document for each kind of element; what is looked at goes into the one marked `here`."""
+"""Document for each kind of element; the tested one goes into the element with the attribute `here`."""
 
 SPECIAL_HOSTS = {
     "population/box@box": _POPULATION.format(_EACH),
@@ -137,10 +137,10 @@ SPECIAL_HOSTS = {
         "<surface here=''><friction><torsional><use_patch_radius>0</use_patch_radius></torsional></friction></surface>"
     ),
 }
-"""Where something else decides whether the element means anything; by the start of its path."""
+"""Start of a path → document, for elements that matter only beside others."""
 
 LABELS = {"physics@name"}
-"""What nothing can refer to."""
+"""Names that nothing can refer to."""
 
 UNREACHED = {
     "collision_engine": "no version of <world> or <physics> takes it in",
@@ -176,7 +176,7 @@ TEXTS = {
     "camera/lens/type": "equidistant",
     "camera/lens/custom_function/fun": "sin",
 }
-"""Values that mean something, where any word would not do."""
+"""Path → valid value, for elements that do not take any word."""
 
 SNIPPETS = {
     "pose": "<pose>1 2 3 0 0 0</pose>",
@@ -234,7 +234,7 @@ class Entry(NamedTuple):
 
 
 def inventory() -> list[Entry]:
-    """Everything but what only holds what other lines have."""
+    """All lines but those of pure containers."""
     text = (Path(__file__).parents[1] / "data/sdf_elements.tsv").read_text()
     entries = [Entry(*line.split("\t")) for line in text.splitlines() if not line.startswith("#")]
     holders = {re.split(r"[/@](?=[^/@]*$)", entry.path)[0] for entry in entries}
@@ -310,7 +310,7 @@ _TAG = re.compile(r"<(\w+)>")
 
 
 def understood(folder: Path, text: str) -> tuple[Any, set[str]]:
-    """What the model has, and what is said, of a document; places aside."""
+    """Model and warnings of a document, without source positions."""
     (folder / "x.sdf").write_text(text)
     (folder / "included.sdf").write_text(INCLUDED)
     report = Diagnostics()

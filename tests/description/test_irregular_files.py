@@ -1,4 +1,4 @@
-"""Pipes, devices and names that no file can have, where a description names a file: one sentence, and on it goes."""
+"""Pipes, devices and impossible names in place of files: one sentence, and reading goes on."""
 
 import os
 import sys
@@ -137,7 +137,7 @@ class TestThePipeOfACommandLine:
 
     @pytest.fixture
     def pipe(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-        """What a writer that has ended leaves behind, and a box beside the user for it to include."""
+        """Pipe whose writer has ended, and a box in the working directory for it to include."""
         monkeypatch.chdir(tmp_path)
         (tmp_path / "box.sdf").write_text(SDF.format("<model name='box'><link name='l'/></model>"))
         ours, theirs = os.pipe()

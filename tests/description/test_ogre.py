@@ -1,4 +1,4 @@
-"""Material scripts: what Ogre would show, of files as the world has them and of files nobody should have."""
+"""Ogre material scripts: published and malformed ones."""
 
 from pathlib import Path
 

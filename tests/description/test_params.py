@@ -1,4 +1,4 @@
-"""<experimental:params>: what an <include> changes inside the model that it includes."""
+"""<experimental:params>: changes of an <include> to the included model."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Attributes without which Gazebo refuses a file, and that are only missed here."""
+"""Attributes without which Gazebo refuses a file; here they are warned of."""
 
 from pathlib import Path
 
@@ -33,7 +33,7 @@ def warnings(folder: Path, text: str, name: str = "x.sdf") -> list[str]:
     ],
 )
 def test_a_missing_attribute_is_named(tmp_path: Path, body: str, tag: str, attribute: str) -> None:
-    """Each held against libsdformat 9.3."""
+    """Each case was compared with libsdformat 9.3."""
     said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
 
     assert said == [f"<{tag}> without {attribute!r}; Gazebo refuses the whole file"]

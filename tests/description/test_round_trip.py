@@ -24,9 +24,9 @@ KNOWN = {
     "models/links/visuals/material/texture_scale": "SDF has no texture scale; the writer warns",
     "models/models/links/visuals/material/texture_scale": "as above",
 }
-"""Field → why it may differ."""
+"""Field → reason for a difference."""
 UNSETTLED = {"altimeter", "logical_camera", "magnetometer", "sonar", "wireless_transmitter", "wireless_receiver"}
-"""Sensors of which only name, type and place are in the model; that their settings are lost is said."""
+"""Sensors with only name, type and pose in the model; the loss of their settings is warned of."""
 
 
 @pytest.fixture(scope="module")
@@ -100,9 +100,9 @@ def test_every_urdf_file_reads_back_as_it_was(shared: Path, packages: Packages) 
 
 
 def places(model: Model, left_out: set[str]) -> list[tuple[str, Pose]]:
-    """Where every mass, visual, sensor and joint is, seen from the first link, whose frame a URDF keeps.
+    """Poses of every mass, visual, sensor and joint in the first link's frame, which a URDF keeps.
 
-    Visuals go by their order, as the conversion of a URDF names them anew; what is not there cannot be written.
+    Visuals are matched by order, as the conversion of a URDF renames them; what is missing cannot be written.
     """
     found: list[tuple[str, Pose]] = []
     first = model.links[0].model_from_link.inverse()
@@ -118,7 +118,7 @@ def places(model: Model, left_out: set[str]) -> list[tuple[str, Pose]]:
 
 
 def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | None:
-    """What is elsewhere after a model was written as URDF; None where no URDF can hold it."""
+    """Poses that differ after a model was written as URDF; None: no URDF can hold it."""
     report = Diagnostics()
     try:
         text = write_urdf(model, uri_of=written_uri, report=report)
@@ -134,7 +134,7 @@ def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | 
 
 @pytest.mark.slow
 def test_what_a_urdf_can_hold_keeps_its_place_in_one(shared: Path, packages: Packages) -> None:
-    """Models of the database and every converted URDF."""
+    """Models of the database, and every converted URDF."""
     database = (each for each in sdf_files(shared, packages, 1) if "osrf+gazebo_models" in str(each[0]))
     count = 0
     for path, loaded in (*database, *urdf_files(shared, packages, 1)):

@@ -156,7 +156,7 @@ def test_cameras_of_one_name_are_told_apart(tmp_path: Path) -> None:
 
 
 def test_a_joint_that_tells_what_it_carries_is_nothing_to_remark(tmp_path: Path) -> None:
-    """Every joint does."""
+    """A <provideFeedback> changes nothing: every joint's load can be read."""
     report = Diagnostics()
     joint = HINGE.format("", "").replace(
         "</joint>", "<physics><provide_feedback>1</provide_feedback></physics></joint>"
@@ -347,7 +347,7 @@ def test_what_is_said_of_a_link_that_was_lumped_goes_for_the_lump(tmp_path: Path
 
 
 def test_a_link_in_a_gazebo_block_for_the_robot_is_a_body_beside_the_tree(tmp_path: Path) -> None:
-    """How the PR2 closes its gripper's four bars."""
+    """The PR2 closes the four-bar linkage of its gripper so."""
     bar = "<inertial><mass>0.2</mass></inertial><pose>0 0 3 0 0 0</pose>"
     text = f"""<robot name="r"><link name="base">{BODY}</link><link name="palm"/>
 <joint name="f" type="fixed"><parent link="base"/><child link="palm"/></joint>

@@ -46,7 +46,7 @@ def test_a_millionth_of_a_kilogram_is_no_mass(tmp_path: Path, mass: str, links: 
 
 
 def test_a_link_is_read_up_to_its_fault_as_by_urdfdom(tmp_path: Path) -> None:
-    """A mass without <inertia> is kept, and nothing after it is read; likewise what comes after a shape of none."""
+    """A mass without <inertia> is kept, and nothing after it is read; nor is anything after an invalid shape."""
     report = Diagnostics()
     ball, none = ("<geometry><sphere radius='1'/></geometry>", "<geometry><cone/></geometry>")
     text = f"""<robot name="r"><link name="base"><visual>{ball}</visual>

@@ -1,4 +1,4 @@
-"""What plugins visuals have: of SDF, of URDF's <gazebo> blocks, and through both writers."""
+"""Plugins of visuals: from SDF, from URDF's <gazebo> blocks, and through both writers."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What is written reads back as what it was: the model through SDF, places and axes through URDF."""
+"""Writing and reading keeps the model through SDF, poses and axes through URDF."""
 
 import math
 from pathlib import Path

@@ -18,7 +18,7 @@ def test_the_front_door_exports_in_order() -> None:
 
 
 def random_graph(seed: int, nodes: int, topics: int) -> NodeGraph:
-    """Who publishes and who hears is drawn by lot; many loops are among it, and some that nobody talks to."""
+    """Random publishers and subscribers, with many loops and some isolated nodes."""
     lots = random.Random(seed)
     items: list[Item] = [("node", f"/{'n' * lots.randint(1, 20)}{i}") for i in range(nodes)]
     edges: list[tuple[Item, Item]] = []

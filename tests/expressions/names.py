@@ -1,4 +1,4 @@
-"""Evaluating as the tests of this room do: every function that an expression may ever call has a name."""
+"""Evaluation for these tests: every function that an expression may call has a name."""
 
 from typing import Any
 

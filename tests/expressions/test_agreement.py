@@ -1,4 +1,4 @@
-"""What an honest expression means: the same as to Python, values and errors alike."""
+"""Expressions evaluate as in Python, values and errors alike."""
 
 import warnings
 from collections.abc import Callable

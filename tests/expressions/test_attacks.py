@@ -1,4 +1,4 @@
-"""Ways out of a sandbox of Python: each is refused in words, and none runs anything."""
+"""Escapes from a Python sandbox: each is refused by a sentence, and none runs code."""
 
 from typing import Any
 
@@ -41,7 +41,7 @@ ATTACKS = [
     ("error.with_traceback", _NO_ATTRIBUTE),
     ("error.args", _NO_ATTRIBUTE),
     ("plain.secret", _NO_ATTRIBUTE),
-    # Names with underscores, written in any way; PEP 3131 makes letters of another alphabet into ours.
+    # Names with underscores, written in any way; PEP 3131 normalizes letters of other alphabets.
     *(
         (text, _HIDDEN)
         for text in (
@@ -153,7 +153,7 @@ ATTACKS = [
 
 
 class Plain:
-    """Whatever else may lie about."""
+    """Object of any other class."""
 
     secret = "secret"
 
@@ -174,7 +174,7 @@ def test_ways_out_are_refused(text: str, words: str | None) -> None:
 
 
 class Shouting(str):
-    """A text of a kind of its own."""
+    """Subclass of str."""
 
     __slots__ = ()
 

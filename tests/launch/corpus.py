@@ -49,7 +49,7 @@ def cases(root: Path) -> list[Case]:
 
 
 def differences(case: Case, plan: LaunchPlan) -> list[str]:
-    """What the plan says otherwise than roslaunch."""
+    """Differences of the plan from roslaunch's."""
     theirs = case.reference
     found: list[str] = []
 
@@ -127,7 +127,7 @@ def _same(ours: object, theirs: object, root: str) -> bool:
 
 
 def _here(file: str, root: str) -> str:
-    """A file's name; Debian's copy of roslaunch shadowed the corpus' own when the references were made."""
+    """Name of a file; Debian's copy of roslaunch shadowed the corpus' own when the references were made."""
     return _plain(file, root).replace("/usr/share/roslaunch/", "CORPUS/repos/ros+ros_comm/tools/roslaunch/")
 
 

@@ -52,7 +52,7 @@ def test_xacro_is_expanded_in_process_wherever_it_is_meant_to_live(program: str)
 @pytest.mark.skipif(os.name != "posix", reason="such scripts are for sh")
 @pytest.mark.parametrize("named", ["$(find xacro)/xacro", "/opt/ros/kinetic/share/xacro/xacro.py", "xacro"])
 def test_a_script_that_runs_xacro_finds_one(named: str, tmp_path: Path) -> None:
-    """Jackal, Dingo, Ridgeback and Warthog have env_run, which sets variables, then runs what it is told."""
+    """Jackal, Dingo, Ridgeback and Warthog have env_run, which sets variables, then runs a command."""
     script, robot = tmp_path / "env_run", tmp_path / "a b.xacro"
     script.write_text('#!/bin/sh\nexport SIZE=4\nexec "$@"\n')
     script.chmod(0o755)
@@ -106,7 +106,7 @@ def test_who_waits_for_a_slow_command_is_told(
 
 
 def test_what_a_killed_command_left_behind_may_go_on_writing(tmp_path: Path) -> None:
-    """A daemon holds the output open and writes once nobody reads any more."""
+    """A daemon holds the output open and writes after the reader has gone."""
     daemon = tmp_path / "daemon.py"
     daemon.write_text("import time\ntime.sleep(4)\nprint('late', flush=True)\ntime.sleep(1)\n")
     starter = tmp_path / "starter.py"

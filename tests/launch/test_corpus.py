@@ -9,7 +9,7 @@ from tests.launch.corpus import Case, cases, differences
 from trundle.diagnostics import DescriptionError, Diagnostics
 
 _NO_PACKAGE = re.compile(r": ([\w-]+)\s*ROS path")
-# What roslaunch says, and what Trundle says of the same fault.
+# roslaunch's message, and Trundle's of the same fault.
 _SAME_FAULT = (
     ("ResourceNotFound", "no package"),
     ("file does not exist", "no file"),

@@ -1,4 +1,4 @@
-"""Whatever stands in a launch file, reading it ends in a plan or a sentence."""
+"""Reading any launch file ends in a plan or a sentence."""
 
 import contextlib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Launch files of ROS 2 are told from those of ROS 1."""
+"""Launch files of ROS 2 are distinguished from those of ROS 1."""
 
 import re
 from pathlib import Path

@@ -348,7 +348,7 @@ def test_an_included_file_sees_only_the_arguments_it_is_passed(tmp_path: Path) -
 
 
 def test_missing_packages_are_named_together(tmp_path: Path) -> None:
-    """Also those that come behind the first, and the packages of nodes that can be read."""
+    """Packages of nodes count, too."""
     write(
         tmp_path,
         "sub.launch",

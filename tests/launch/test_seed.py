@@ -72,7 +72,7 @@ def test_the_smartcars_parameters_are_those_of_the_real_roslaunch(shared: Path) 
     assert asked == [shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"]
 
 
-# What the real tool refuses for the letter of XML alone, and what a parameter server cannot hold.
+# Files that the real tool refuses as malformed XML, and values that a parameter server cannot hold.
 _READ_HERE = {"xml_leading_blank_line.launch"}
 _REFUSED_HERE = {"xml_xxe.launch"}
 

@@ -1,4 +1,4 @@
-"""What a description may say and hardly ever means."""
+"""Doubtful values of descriptions."""
 
 from pathlib import Path
 
@@ -54,7 +54,7 @@ def test_joints_that_nothing_drives_and_names_that_ros_cannot_have_are_named(tmp
     ],
 )
 def test_bodies_that_stand_in_one_another_and_cannot_move_are_named(tmp_path, shape, second, overlaps) -> None:
-    """Shelves and walls that touch are well; one whose middle is within another was put there twice."""
+    """Touching shelves and walls are valid; a body whose middle is within another was added twice."""
     link = f'<link name="l"><collision name="c"><geometry>{shape}</geometry></collision></link>'
     models = [
         f'<model name="{name}"><static>true</static><pose>{pose}</pose>{link}</model>'

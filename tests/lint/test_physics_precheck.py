@@ -1,4 +1,4 @@
-"""What `check` may leave to itself: where it says that physics has nothing to say, physics says nothing."""
+"""Worlds that the precheck accepts compile without findings."""
 
 import json
 import math

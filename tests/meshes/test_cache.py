@@ -34,7 +34,7 @@ def painted(tmp_path: Path) -> Path:
 
 
 def read_again(path: Path) -> Mesh:
-    """Load without what this process remembers."""
+    """Load, bypassing the cache in memory."""
     load._load.cache_clear()
     return load_mesh(path)
 

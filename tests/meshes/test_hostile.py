@@ -1,4 +1,4 @@
-"""Files that promise, nest or repeat more than they hold end in one sentence; so do files cut anywhere."""
+"""Files with false counts, deep nesting or many instances end in one sentence; so do truncated files."""
 
 import json
 import struct

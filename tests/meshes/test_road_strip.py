@@ -7,7 +7,7 @@ from trundle.meshes import Mesh, strip_mesh
 
 
 def area(mesh: Mesh) -> tuple[float, bool]:
-    """The area [m²], and whether every face looks up."""
+    """Area [m²], and True if every face looks up."""
     a, b, c = (mesh.vertices[mesh.faces[:, i]].astype(float) for i in range(3))
     normals = np.cross(b - a, c - a)
     return float(np.linalg.norm(normals, axis=1).sum() / 2), bool((normals[:, 2] > 0).all())
@@ -26,7 +26,7 @@ def test_a_straight_strip_is_a_rectangle_with_its_image_repeated() -> None:
 
 
 def test_a_strip_is_as_wide_after_a_corner() -> None:
-    """Two arms of 10 m and 2 m width, mitred, cover 2 · 10 · 2 m²."""
+    """Two arms of 10 m length and 2 m width, mitred, cover 2 · 10 · 2 m²."""
     mesh = strip_mesh([(0, 0, 0), (10, 0, 0), (10, 10, 0)], 2.0)
 
     assert area(mesh) == (pytest.approx(40.0, rel=1e-5), True)

@@ -1,4 +1,4 @@
-"""Skins on bones: where their vertices go, and what is refused."""
+"""Skins on bones: vertices over time, and refused files."""
 
 import math
 import re

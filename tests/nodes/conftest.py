@@ -16,7 +16,7 @@ from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 from trundle.supervisor import ProcessTree
 
 _FAREWELL_S = 0.1
-"""What processes that ended sent last is taken in before the loop ends: a connection half accepted would leak."""
+"""Time for the last connections of ended processes [s]: one accepted by half would leak when the loop ends."""
 
 
 class Stage:
@@ -50,13 +50,13 @@ class Stage:
         return future
 
     def listen(self, topic: str, kind: str) -> list[Message]:
-        """Gather what is published there from now on."""
+        """Collect a topic's messages from now on."""
         heard: list[Message] = []
         self.client.subscribe(topic, kind, heard.append, queue_size=None)
         return heard
 
     def speak(self, topic: str, kind: str, *, latch: bool = False) -> Publisher:
-        """Publish on a topic; returns once somebody listens, or at once where it is latched."""
+        """Return a function that publishes on a topic, once it has a subscriber; at once if latched."""
         publisher = self.client.advertise(topic, kind, queue_size=None, latch=latch)
         if not latch:
             self.until(lambda: publisher.has_subscribers)
@@ -73,7 +73,7 @@ class Stage:
             self.loop.run(self.client.params.set(name, value))
 
     def until(self, condition: Callable[[], object]) -> None:
-        """Wait for something that the graph brings about."""
+        """Wait until a condition on the graph holds."""
         until(condition)
 
     def stop(self) -> None:
@@ -91,11 +91,11 @@ class Stage:
         self._tree.close()
 
     def connected(self, topic: str) -> bool:
-        """Whether the client hears a publisher of a topic."""
+        """Return True if the client is connected to a publisher of a topic."""
         return any(link[4] == topic and link[2] == "i" for link in self.client.endpoints.connections())
 
     def linked(self, topic: str) -> bool:
-        """Whether a stand-in's words on a topic reach somebody."""
+        """Return True if a stand-in's topic has a subscriber."""
         return any(
             link[4] == topic and link[2] == "o" for _, node in self._running for link in node.endpoints.connections()
         )

@@ -1,4 +1,4 @@
-"""A node without a graph, on a clock that a test turns by hand."""
+"""A node without a graph, on a clock that the test sets."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -10,7 +10,7 @@ MESSAGES = Messages()
 
 
 class FakeClock:
-    """Time goes on only while a node sleeps, to exactly where it wants to wake, plus what a test adds."""
+    """Clock that advances only while a node sleeps, to its exact wake-up time plus what a test adds."""
 
     def __init__(self, *, start_ns: int = 1_000_000_000, end_ns: int, late_ns: Callable[[], int] = lambda: 0) -> None:
         self.ns = start_ns
@@ -31,7 +31,7 @@ class FakeClock:
 
 
 class FakePublisher:
-    """Keeps what is published, as messages."""
+    """Publisher that keeps its messages."""
 
     has_subscribers = True
 
@@ -72,7 +72,7 @@ class FakeParams:
 
 
 class FakeNode:
-    """Everything a stand-in asks of a node."""
+    """Stand-in for a node, without a graph."""
 
     def __init__(
         self, clock: FakeClock, params: dict[str, Any] | None = None, name: str = "/n", *, distro: str = "noetic"
@@ -110,7 +110,7 @@ class FakeNode:
         self.callbacks[topic](MESSAGES.new(type_name, fields))
 
     def sent(self, topic: str) -> list[Message]:
-        """What the node has published there."""
+        """Messages that the node has published on a topic."""
         return self.topics[topic].sent
 
 

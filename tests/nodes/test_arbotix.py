@@ -77,7 +77,7 @@ def test_a_ten_hertz_controller_in_a_twenty_hertz_loop_falls_short() -> None:
 
 
 def test_the_smartcars_topics_come_as_often_as_in_the_recording_of_the_original() -> None:
-    """It has /odom and its tf at 7.67 Hz, /joint_states at 12.06, /diagnostics at 0.97, however uneven its loop."""
+    """The recording has /odom and its tf at 7.67 Hz, /joint_states at 12.06, /diagnostics at 0.97."""
     jitter = random.Random(1)
     node = drive(SMARTCAR, seconds=60.0, late_ns=lambda: jitter.randrange(0, 900_000))
     rates = {topic: len(node.sent(topic)) / 60.0 for topic in ("/odom", "/tf", "/joint_states", "/diagnostics")}

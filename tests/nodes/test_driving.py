@@ -1,4 +1,4 @@
-"""Nodes between a hand and a robot: joysticks and the choice among commands."""
+"""Nodes between user and robot: joysticks and multiplexers."""
 
 from typing import Any
 
@@ -102,7 +102,7 @@ def test_a_virtual_joystick_drives_while_its_button_is_held(stage) -> None:
 
 
 class _Page:
-    """Keeps the function that moves the joystick."""
+    """Stand-in for the page that keeps the function that moves the joystick."""
 
     def __init__(self) -> None:
         self.moves: list[Any] = []

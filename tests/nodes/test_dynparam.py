@@ -37,7 +37,7 @@ def test_list_get_set_dump_and_load(dynparam, stage, capsys, tmp_path: Path) -> 
 
 
 def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> None:
-    """It writes an object of Python, with its groups."""
+    """The original dumps a Python object with its groups."""
     file = tmp_path / "a.yaml"
     file.write_text(
         "!!python/object/new:dynamic_reconfigure.encoding.Config\ndictitems:\n  scan_height: 9\n"

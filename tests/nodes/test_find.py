@@ -1,4 +1,4 @@
-"""A package and a type lead to a program, a stand-in, or a sentence."""
+"""Package and type of a node resolve to a program, a stand-in, or a sentence."""
 
 import importlib
 from pathlib import Path

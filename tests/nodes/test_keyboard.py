@@ -1,4 +1,4 @@
-"""Keys are told apart, and a terminal's keys drive a robot."""
+"""Keys are distinguished, and a terminal's keys drive a robot."""
 
 import os
 import sys

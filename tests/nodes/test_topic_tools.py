@@ -1,4 +1,4 @@
-"""Messages of any type are passed on, thinned out, chosen among and computed from."""
+"""Messages of any type are relayed, throttled, multiplexed and transformed."""
 
 from itertools import pairwise
 
@@ -158,7 +158,7 @@ def test_a_lazy_throttle_and_a_hidden_relay_listen_while_others_do(stage) -> Non
 
 
 def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage) -> None:
-    """Nobody subscribes to a topic that is not there yet, so that it heard nothing, and was never there."""
+    """A relay without subscribers does not subscribe either; it still has to learn the type from a first message."""
     looks: list[str] = []
     stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=0.1)
     (node,) = (node for _, node in stage._running)
@@ -181,7 +181,7 @@ def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage)
 
 
 def test_a_hidden_relay_lets_go_as_soon_as_it_knows_the_type(stage) -> None:
-    """Its next look is an hour away; until then a subscriber to its output is sent nothing."""
+    """The next check is an hour away; until then a subscriber to its output gets nothing."""
     stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=3600.0)
     source = stage.speak("/in", STRING)
     source.publish({"data": "to learn the type"})

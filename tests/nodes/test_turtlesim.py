@@ -148,7 +148,7 @@ def test_without_a_terminal_the_key_reader_says_so(stage, capsys) -> None:
 
 
 class _Page:
-    """Notes what a node asks of the page."""
+    """Stand-in for the page that records a node's requests."""
 
     def __init__(self) -> None:
         self.images: list[str] = []

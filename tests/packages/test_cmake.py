@@ -1,4 +1,4 @@
-"""What a CMakeLists.txt builds."""
+"""Executables that a CMakeLists.txt builds."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A home folder is no package, whatever lies in it, and neither is what holds one."""
+"""A home folder is not a package, whatever it holds, and neither is its parent."""
 
 import sys
 from pathlib import Path

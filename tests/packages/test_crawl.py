@@ -1,4 +1,4 @@
-"""Looking for packages below a folder, with whatever else lies in it."""
+"""Search for packages below a folder, among other files."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""Where URIs lead, in workspaces, on Gazebo's paths and among our own files."""
+"""URIs resolved in workspaces, on Gazebo's paths and among Trundle's own files."""
 
 from pathlib import Path
 
@@ -51,7 +51,7 @@ def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: P
 
 
 def test_a_path_relative_to_where_the_user_is_leads_to_an_absolute_one(tmp_path: Path, monkeypatch) -> None:
-    """What is found is handed on to readers that look beside other files."""
+    """Readers that look beside other files get the path."""
     package(tmp_path / "ws" / "robot")
     monkeypatch.chdir(tmp_path)
 

@@ -1,4 +1,4 @@
-"""Worlds, stand-ins and packages of our own: they read without a remark, and say what they are."""
+"""Worlds, stand-ins and packages that Trundle ships: they read without findings, and are labelled."""
 
 import math
 from pathlib import Path
@@ -178,7 +178,7 @@ def test_meshes_of_stand_ins_can_be_read_and_enclose_something() -> None:
 def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """An argument's default that nobody reads must not stop a launch; a file that is asked for is missing by name."""
+    """An unused argument's default must not stop a launch; a file that is used and missing is named."""
     monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", tmp_path / "none")
     packages = Packages({"HOME": "/nobody"}, start=HERE)
     plugins = {"gazebo_plugins", "gazebo_ros_control", "hector_gazebo_plugins", "velodyne_gazebo_plugins"}

@@ -1,4 +1,4 @@
-"""Statics of what stands on points of a floor, and slides on them: the truth that driven robots are held to."""
+"""Statics of a body that stands and slides on points of a floor: the reference for driven robots."""
 
 import math
 from collections.abc import Sequence
@@ -16,18 +16,18 @@ class Point:
 
     x: float
     y: float
-    """In the vehicle's frame [m]."""
+    """Position in the vehicle's frame [m]."""
     count: int = 1
-    """How many equally soft points it stands for."""
+    """Number of equally soft points that it represents."""
     mu: float = 1.0
     tread: float = 0.0
-    """How fast its surface runs backwards past the vehicle [m/s]."""
+    """Speed of its surface backwards relative to the vehicle [m/s]."""
     load: float = 0.0
     """[N]"""
 
 
 def share_weight(points: Sequence[Point], weight: float, *, x: float = 0.0, y: float = 0.0) -> list[Point]:
-    """Rest a rigid body on equally soft points, its weight [N] at x, y [m]."""
+    """Loads of equally soft points under a rigid body, its weight [N] at x, y [m]."""
     arms = np.array([(1.0, p.x, p.y) for p in points])
     counts = np.array([p.count for p in points], dtype=float)
     sink = np.linalg.solve((arms * counts[:, None]).T @ arms, weight * np.array([1.0, x, y]))
@@ -35,10 +35,10 @@ def share_weight(points: Sequence[Point], weight: float, *, x: float = 0.0, y: f
 
 
 def drift(points: Sequence[Point]) -> tuple[float, float, float]:
-    """How a vehicle moves whose points slide by Coulomb's law: forwards, sideways [m/s] and turning [rad/s].
+    """Twist of a vehicle whose points slide by Coulomb's law: forwards, sideways [m/s] and yaw rate [rad/s].
 
-    Where nothing speeds up, friction takes the least power that it can: the sum of mu · load · slip, a convex function
-    of the motion. Newton's method finds it, with a slip that is rounded less and less at zero.
+    In steady motion, friction's power is minimal: the sum of mu · load · slip, a convex function of the twist. Newton's
+    method finds it, with a slip that is smoothed less and less at zero.
     """
     arms = np.array([((1.0, 0.0, -p.y), (0.0, 1.0, p.x)) for p in points])
     treads = np.array([(p.tread, 0.0) for p in points])
@@ -69,17 +69,17 @@ class Vehicle:
     """A box on wheels that turn about y, and on balls that do not."""
 
     wheels: tuple[tuple[float, float], ...]
-    """x, y of each [m]."""
+    """x, y of each wheel [m]."""
     balls: tuple[tuple[float, float], ...] = ()
     radius: float = 0.1
-    """Of the wheels [m]; the balls have half of it."""
+    """Radius of the wheels [m]; twice that of the balls."""
     mass: float = 15.0
-    """Of the box [kg]."""
+    """Mass of the box [kg]."""
     wheel_mass: float = 5.0
     x: float = 0.0
-    """Of the box' centre [m]."""
+    """x of the box' centre [m]."""
     mu: float = 1.0
-    """Of the wheels."""
+    """Friction of the wheels."""
     ball_mu: float = 1.0
 
     def sdf(self, name: str = "vehicle") -> str:
@@ -108,7 +108,7 @@ class Vehicle:
         return f'<model name="{name}">{chassis}{wheels}</model>'
 
     def points(self, treads: Sequence[float] = (), *, twist: Sequence[float] = (0.0, 0.0, 0.0)) -> list[Point]:
-        """What it stands on, wheels first; a wheel counts twice.
+        """Points that it stands on, wheels first; a wheel counts twice.
 
         Args:
             treads: see `Point`.

@@ -1,4 +1,4 @@
-"""Small worlds of bodies whose surfaces are what is tested."""
+"""Small worlds for tests of surfaces."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Motions whose outcome is known in closed form."""
+"""Motions with closed-form solutions."""
 
 import math
 from collections.abc import Iterable
@@ -67,7 +67,7 @@ def block() -> Model:
 
 
 def downhill(sim: Simulation) -> float:
-    """How far the block has come along the slope [m]."""
+    """Distance of the block along the slope [m]."""
     x, _, z = sim["block"].pose.position
     return x * math.cos(SLOPE) - z * math.sin(SLOPE)
 
@@ -79,7 +79,7 @@ def arithmetic_geometric_mean(a: float, b: float) -> float:
 
 
 def rising_zeros(samples: Iterable[tuple[float, float]]) -> list[float]:
-    """When a sampled signal crosses zero upwards, between samples by a straight line."""
+    """Times at which a sampled signal crosses zero upwards, linearly interpolated."""
     times: list[float] = []
     last_t, last = math.nan, math.nan
     for t, value in samples:
@@ -131,7 +131,7 @@ def test_joint_friction_stops_a_wheel_when_it_should() -> None:
     wheel.command_effort(0.0)
     while wheel.velocity > 1e-3 and sim.time_ns < 3e9:
         sim.step()
-    # Soft friction lets go of the last 0.1 rad/s over a few steps; the turn is off by speed · h.
+    # Soft friction loses the last 0.1 rad/s over a few steps; the turn is off by speed · h.
     assert (sim.time_ns - started_ns) * 1e-9 == pytest.approx(speed / 30.0, abs=5 * H)
     assert wheel.position - started == pytest.approx(speed**2 / 60.0, abs=speed * H)
     sim.run(0.5)

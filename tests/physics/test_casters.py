@@ -1,4 +1,4 @@
-"""A robot that is borne by more than three points: what each bears follows from micrometres of depth."""
+"""A robot on more than three points: the load of each follows from micrometres of depth."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ PLANE = "<plane><normal>0 0 1</normal><size>20 20</size></plane>"
 
 
 def driven(folder: Path, shape: str, height: float) -> tuple[float, float]:
-    """How far the robot is after 4 s on a floor of this shape [m], and the share of steps with all four contacts."""
+    """Distance of the robot after 4 s on a floor of this shape [m], and the share of steps with all four contacts."""
     floor = (
         f'<model name="floor"><static>true</static><pose>0 0 {height} 0 0 0</pose><link name="l">'
         f'<collision name="c"><geometry>{shape}</geometry></collision></link></model>'

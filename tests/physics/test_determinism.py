@@ -1,4 +1,4 @@
-"""The same inputs give the same bytes, whoever looks and however time is cut up."""
+"""The same inputs give the same bytes, whatever is read meanwhile and however time is divided into strides."""
 
 import os
 import subprocess

@@ -81,7 +81,7 @@ def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -
 
 
 def test_the_sun_s_shadows_fall_where_ours_do() -> None:
-    """Of a box three metres from the origin: where our floor is dark, OpenGL's is."""
+    """Shadow of a box three metres from the origin: OpenGL's floor is dark where Trundle's is."""
     floor = shape(Plane((0.0, 0.0, 1.0), (20.0, 20.0)), 0.0, 0.0, 0.0, (1.0, 1.0, 1.0, 1.0))
     box = shape(Box((1.0, 1.0, 1.0)), 3.0, 1.0, 0.5, (1.0, 0.0, 0.0, 1.0))
     sun = replace(SUN, casts_shadows=True, position=(0.0, 0.0, 10.0))

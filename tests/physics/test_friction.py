@@ -40,7 +40,7 @@ def test_a_block_slides_along_its_grain_and_sticks_across_it(load: Load, directi
 
 @pytest.mark.parametrize(("way", "speed"), [((1.0, 0.0), 0.0), ((0.0, 1.0), 0.2 * G * 0.5)])
 def test_the_direction_of_what_stands_does_not_count(load: Load, way: tuple[float, float], speed: float) -> None:
-    """Gazebo works out the second collision's fdir1 and leaves it unused; ODE's second is the larger of the two."""
+    """Gazebo computes the second collision's fdir1 and leaves it unused; ODE's second is the larger of the two."""
     ground = floor(friction(0.1, 0.5, "<fdir1>1 0 0</fdir1>"))
     sim = load(ground, body("b", BLOCK, friction(10.0), pose="0 0 0.05 0 0 0"))
     sim.run(0.05)
@@ -54,7 +54,7 @@ def test_the_direction_of_what_stands_does_not_count(load: Load, way: tuple[floa
 
 @pytest.mark.parametrize(("fdir1", "grip"), [("1 0 0", 0.5), ("0 0 1", 0.2)])
 def test_a_spinning_wheel_pulls_by_the_direction_that_turns_with_it(load: Load, fdir1: str, grip: float) -> None:
-    """Of a direction that turns with the wheel, what lies in the floor counts, at any angle of the wheel."""
+    """The direction turns with the wheel; its component within the floor acts, at any angle of the wheel."""
     surface = friction(0.5, 0.2, f"<fdir1>{fdir1}</fdir1>")
     wheels = "".join(
         f'<link name="w{i}"><pose>{x} {y} 0.1 {-math.pi / 2} 0 0</pose><inertial><mass>1</mass><inertia>'

@@ -1,4 +1,4 @@
-"""Numbers that nobody means end in a sentence or a world that stays sound, never in anything else."""
+"""Extreme numbers end in a sentence or a stable world."""
 
 import contextlib
 from pathlib import Path

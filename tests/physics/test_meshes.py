@@ -1,4 +1,4 @@
-"""Meshes that are hollow, in several parts or too fine, and terrain."""
+"""Meshes: hollow, of several parts or too fine; and terrain."""
 
 import itertools
 import math

@@ -62,7 +62,7 @@ def _state(engine: Engine) -> np.ndarray:
 
 
 def _truth(engine: Engine, *, steps: int) -> mujoco.MjData:
-    """Where it is after so many steps, by Runge and Kutta's method with a tenth of the step."""
+    """State after so many steps by the Runge-Kutta method, with a tenth of the step."""
     model = copy.copy(engine.compiled.model)
     disable_laws(model)
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4

@@ -1,4 +1,4 @@
-"""The worlds that Gazebo was measured on, beside what the textbook says; `pytest -rP` prints every figure."""
+"""Worlds measured in Gazebo, against analytic results; `pytest -rP` prints every figure."""
 
 import math
 from collections.abc import Callable
@@ -49,7 +49,7 @@ def arithmetic_geometric_mean(a: float, b: float) -> float:
 
 
 def period(sim: Simulation) -> float:
-    """Of the pendulum, over five swings [s]."""
+    """Period of the pendulum, over five swings [s]."""
     hinge = sim.models[0].joints[0]
     crossings: list[float] = []
     before = hinge.position
@@ -92,7 +92,7 @@ def test_a_damped_pendulum_loses_what_it_should(load: Load) -> None:
 
 
 def slid(block: ModelHandle) -> float:
-    """How far down the incline [m]."""
+    """Distance down the incline [m]."""
     x, _, z = block.pose.position
     return (x - START[0]) * math.cos(SLOPE) - (z - START[1]) * math.sin(SLOPE)
 

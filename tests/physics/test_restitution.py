@@ -1,4 +1,4 @@
-"""What bounces leaves with e times the speed that it had at the surface, wherever in a step it meets it."""
+"""Bounces by Newton's law: e times the speed at the surface, wherever in a step the impact is."""
 
 import math
 from collections.abc import Callable
@@ -41,7 +41,7 @@ def load(tmp_path: Path) -> Load:
 
 
 def apexes(sim: Simulation, count: int, *, tilt: float = 0.0) -> list[float]:
-    """How high above the floor the body comes after each bounce [m]."""
+    """Apex above the floor after each bounce [m]."""
     found: list[float] = []
     heights = [math.inf, math.inf]
     while len(found) < count:
@@ -97,7 +97,7 @@ def test_the_last_of_a_row_leaves_with_the_speed_of_the_first(tmp_path: Path, ga
 
 
 def test_of_two_that_hit_a_row_two_leave(tmp_path: Path) -> None:
-    """What stands between is hit twice in one step."""
+    """The balls between are hit twice in one step."""
     assert collide(tmp_path, 1.0, 0.0, 1.0, moving=2) == pytest.approx([0, 0, 0, 1, 1], abs=1e-2)
 
 

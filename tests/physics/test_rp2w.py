@@ -19,7 +19,7 @@ AXLES: dict[str, Vector3] = {
     "right_wheel": (0.0, 0.0, 1.0),
     "front_wheel": (1.0, 0.0, 0.0),
 }
-"""Along which each wheel turns, in its own frame."""
+"""Axle of each wheel, in its own frame."""
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def angle_between(a: Pose, b: Pose) -> float:
 
 
 def angle_between_axles(a: Pose, b: Pose, axle: Vector3) -> float:
-    """What is left of it when a wheel's own roll is not counted [rad]."""
+    """Angle between two axles: `angle_between` without the wheel's own roll [rad]."""
     p, q = a.transform_vector(axle), b.transform_vector(axle)
     return math.acos(min(1.0, sum(x * y for x, y in zip(p, q, strict=True))))
 

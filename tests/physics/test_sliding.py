@@ -1,4 +1,4 @@
-"""What slides stays on its floor, and goes where Coulomb's law takes it."""
+"""Sliding bodies stay on their floor, and move by Coulomb's law."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -31,7 +31,7 @@ def load(tmp_path: Path) -> Load:
 
 
 def loads(sim: Simulation) -> list[float]:
-    """How hard the floor pushes at each contact [N], in the order of the collisions' names."""
+    """Normal force of the floor at each contact [N], in the order of the collisions' names."""
     pushes = ((contact.collisions, abs(contact.force.force[2])) for contact in sim.contacts())
     return [push for _, push in sorted(pushes)]
 

@@ -33,7 +33,7 @@ def slips(slip1: float, slip2: float | None = None) -> str:
 
 
 def body(collisions: str, *, pose: str = "0 0 0.05 0 0 0", mass: float = MASS, name: str = "b") -> str:
-    """One that hardly turns."""
+    """Body with large inertia, which hardly turns."""
     moments = "".join(f"<{m}>10000</{m}>" for m in ("ixx", "iyy", "izz"))
     inertial = f"<inertial><mass>{mass}</mass><inertia>{moments}</inertia></inertial>"
     return f'<model name="{name}"><pose>{pose}</pose><link name="l">{inertial}{collisions}</link></model>'
@@ -58,7 +58,7 @@ def load(tmp_path: Path) -> Load:
 
 
 def way(sim: Simulation, force: tuple[float, float], *, seconds: float = 2.0) -> tuple[float, float]:
-    """How far the body comes under a force [m]."""
+    """Distance of the body under a force [m]."""
     x, y, _ = sim["b"].pose.position
     sim["b"].link("l").apply_wrench(Wrench(force=(*force, 0.0)))
     sim.run(seconds)

@@ -35,7 +35,7 @@ def sensor(name: str, kind: str = "camera", format_: str = "RGB_INT8") -> str:
 
 
 def see(folder: Path, parameters: str = "") -> tuple[Simulation, Wires, list[str]]:
-    """What is published within a quarter of a second, and the sensors that have topics of their own."""
+    """Messages within a quarter of a second, and the sensors with default topics."""
     eyes = sensor("d_color") + sensor("d_depth", "depth") + sensor("d_ired1", format_="L_INT8") + sensor("other")
     plugin = f'<plugin name="camera" filename="librealsense_gazebo_plugin.so"><prefix>d_</prefix>{STREAMS}{parameters}'
     wires: Any = Wires()

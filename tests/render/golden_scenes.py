@@ -1,4 +1,4 @@
-"""Scenes whose pictures are kept; run as a program, their hashes are printed."""
+"""Scenes with stored pictures; run as a program, it prints their hashes."""
 
 import hashlib
 import math
@@ -22,7 +22,7 @@ SPOT = SceneLight(
 
 
 def torus(rings: int = 24, sides: int = 12) -> Mesh:
-    """Of 0.4 m and 0.15 m, painted all over."""
+    """Torus of 0.4 m and 0.15 m, textured."""
     around, along = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
     # Powers of one rotation: the sines of different C libraries differ in their last bits.
     a = np.round(np.exp(2j * math.pi * around / rings), 6)
@@ -93,7 +93,7 @@ def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
 
 
 def scan() -> bytes:
-    """What rays all around find in the first scene."""
+    """Ranges and labels of rays all around in the first scene."""
     made = NativeRenderer(SCENES["sun"])
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
     ways = np.random.default_rng(1).normal(size=(20_001, 3))

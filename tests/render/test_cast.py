@@ -1,4 +1,4 @@
-"""How far it is, and to what."""
+"""Ray casts: ranges, and what is hit."""
 
 import math
 
@@ -131,7 +131,7 @@ def surface(geometry: ShapeGeometry, random: np.random.Generator) -> tuple[NDArr
 @pytest.mark.parametrize("origin", [0.0, 1e4], ids=["here", "10 km away"])
 @pytest.mark.parametrize("name", SOLIDS)
 def test_a_range_is_exact_at_any_distance(name: str, origin: float) -> None:
-    """Who comes to a point of a convex solid from outside has met nothing of it before."""
+    """A ray from outside to a point of a convex solid hits nothing of it before that point."""
     random = np.random.default_rng(7)
     for distance in (0.1, 1.0, 10.0, 30.0, 100.0, 1000.0):
         for _ in range(60):
@@ -256,7 +256,7 @@ def test_of_two_walls_at_one_place_the_first_is_met_whichever_is_come_to_first()
 
 
 def test_a_mesh_behind_another_is_seen_beside_it() -> None:
-    """Whose ball comes first need not be met: rays go on to the next."""
+    """The mesh with the nearest bounding ball need not be hit: rays go on to the next."""
     near, far = quad(0.5, along=1.0), quad(4.0)
     placed = ((far, Pose((3.0, 0.0, 0.0))), (near, Pose((2.0, 0.0, 0.0))))
     made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=pose) for mesh, pose in placed))

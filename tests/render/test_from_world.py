@@ -1,4 +1,4 @@
-"""What of a world is drawn, where, and in which colour."""
+"""Scenes of worlds: shapes, poses and colours."""
 
 from io import BytesIO
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""How light falls: shadows, lamps, highlights, haze."""
+"""Lighting: shadows, lamps, highlights, haze."""
 
 import math
 
@@ -24,14 +24,14 @@ SUN = SceneLight(direction=(0.0, 0.0, -1.0), diffuse=(0.5, 0.5, 0.5, 1.0), casts
 
 
 def picture(*shapes: Shape, lights: tuple[SceneLight, ...] = (SUN,), **scene: object) -> NDArray[np.uint8]:
-    """What is seen from above."""
+    """Image from above."""
     made = NativeRenderer(replace(Scene(bodies=("b",), shapes=shapes, lights=lights, ambient=BLACK), **scene))
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
     return drawn(made, DOWN, LENS).rgb
 
 
 def at(rgb: NDArray[np.uint8], x: float, y: float) -> list[int]:
-    """The colour of the ground there."""
+    """Colour of the ground at a point."""
     return rgb[int(100 - 20 * x), int(100 - 20 * y)].tolist()
 
 

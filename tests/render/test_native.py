@@ -1,4 +1,4 @@
-"""What a camera sees."""
+"""Images of cameras."""
 
 import math
 from typing import Any
@@ -30,7 +30,7 @@ def scene(*shapes: Shape, bodies: int = 1) -> Scene:
 
 
 def renderer(*shapes: Shape) -> NativeRenderer:
-    """Of shapes on one body at the origin."""
+    """Renderer of shapes on one body at the origin."""
     made = NativeRenderer(scene(*shapes))
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
     return made
@@ -323,7 +323,7 @@ def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:
 
 
 def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
-    """Its faces without area may have some now, and the shape after it keeps numbers of its own."""
+    """Faces without area may have some now, and the shape after it keeps its own indices."""
     square = np.array([[0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]], dtype=np.float32)
     faces = np.array([[0, 2, 1], [0, 3, 2]], dtype=np.int32)
     flat = Mesh(square * np.float32([1, 1, 0]), faces)

@@ -1,4 +1,4 @@
-"""What is done to each pixel once a picture is drawn."""
+"""Operations on each pixel of a picture."""
 
 import os
 import subprocess
@@ -81,7 +81,7 @@ def test_depths_that_are_nothing_stay_so() -> None:
 
 @pytest.mark.parametrize("in_place", [False, True])
 def test_depths_outside_a_range_are_not_numbers(in_place: bool) -> None:
-    """Its ends are inside, and nothing endless is, whatever the range."""
+    """The ends of the range are inside, infinity never is."""
     depths = np.array([[0.5, 1.0, 2.0, 3.0, 3.5], [np.nan, np.inf, -np.inf, -0.0, 1e30]], dtype=np.float32)
     out = depths if in_place else None
     expected = np.where((depths >= 1.0) & (depths <= 3.0), depths, np.float32(np.nan))
@@ -108,7 +108,7 @@ def test_the_colours_of_a_pixel_have_the_same_noise_within_black_and_white() -> 
 
 @pytest.mark.parametrize("shape", [(5, 7), (1, 16), (3, 11), (2, 40)])
 def test_a_point_is_where_its_pixel_looks_at_its_depth(shape: tuple[int, int]) -> None:
-    """Of as many pixels as an instruction takes, and of some more."""
+    """Widths: as many pixels as an instruction takes, and some more."""
     random = np.random.default_rng(3)
     depth, right, down = (random.random(shape, dtype=np.float32) for _ in range(3))
     depth[0, 0] = np.nan

@@ -1,4 +1,4 @@
-"""What C++ writes and reads, against rosbags' own code for every type there is."""
+"""C++ codec against rosbags' own code, for every type there is."""
 
 import dataclasses
 import math
@@ -79,7 +79,7 @@ class Maker:
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two values are alike to the last bit."""
+    """Return True if two values are equal to the last bit."""
     if type(one) is not type(other):
         return False
     if isinstance(one, np.ndarray):

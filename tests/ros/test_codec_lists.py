@@ -1,4 +1,4 @@
-"""Lists of numbers where arrays belong: written as the arrays they stand for, or the wrong one among them named."""
+"""Lists of numbers in place of arrays: written as arrays, or the invalid number is named."""
 
 import gc
 import math
@@ -116,7 +116,7 @@ def test_a_field_within_a_list_of_messages_is_named(messages: Messages) -> None:
 
 
 class _Restless:
-    """A number that empties the list it is in when it is asked what it is."""
+    """Number that empties its list when it is converted."""
 
     def __init__(self, numbers: list[Any]) -> None:
         self.numbers = numbers

@@ -30,7 +30,7 @@ for path in glob.glob("/usr/lib/python3/dist-packages/*/*/_*.py"):
 
 @pytest.mark.real_ros
 def test_every_sum_is_that_of_debians_rospy(messages: Messages) -> None:
-    """These are what `rosmsg md5` prints."""
+    """Sums as `rosmsg md5` prints them."""
     if not Path("/usr/lib/python3/dist-packages/std_msgs/msg").is_dir():
         pytest.skip("Debian's python3-std-msgs is not installed")
     done = subprocess.run(["/usr/bin/python3", "-c", _DEBIANS_SUMS], capture_output=True, text=True, timeout=100)

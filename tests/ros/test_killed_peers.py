@@ -50,7 +50,7 @@ with GraphLoop() as loop:
 
 @contextmanager
 def _killed(graph: Any, *words: str) -> Iterator[None]:
-    """A process until the end of the block, and then none, without a word."""
+    """Run a process, and kill it at the end of the block."""
     env = {**os.environ, "ROS_MASTER_URI": graph.core.uri}
     pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.DEVNULL}
     with subprocess.Popen([sys.executable, *words], env=env, **pipes) as process:
@@ -166,7 +166,7 @@ def test_one_in_the_middle_of_a_call_to_the_master(graph: Any) -> None:
 
 
 def test_a_recorder(graph: Any, tmp_path: Path) -> None:
-    """What it wrote until then is in tests/cli/bag/test_bag.py; here is what becomes of those it listened to."""
+    """Its publishers go on; tests/cli/bag/test_bag.py tests the bag written until then."""
     node = graph.node("n")
     publisher = node.advertise("/a", STRING, queue_size=None)
     with _killed(graph, "-m", "trundle", "bag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/a"):

@@ -1,4 +1,4 @@
-"""A frame that comes alone is taken from where it was put; all else is left there."""
+"""A single whole frame is taken from the receive buffer; all else stays there."""
 
 import gc
 import socket

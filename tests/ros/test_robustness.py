@@ -202,7 +202,7 @@ def test_a_publisher_that_promises_four_gigabytes_is_dropped(graph: Any, capfd: 
 
 
 class _LyingNode:
-    """Says that its topics are at a port of the test's."""
+    """Node that states a port of the test's as that of its topics."""
 
     def __init__(self, graph: Any, port: int) -> None:
         self._server = RpcServer(lambda _method, _arguments: (1, "", ["TCPROS", "127.0.0.1", port]))
@@ -266,7 +266,7 @@ def test_stopping_a_busy_graph_leaves_nothing_behind(graph: Any, far: Any) -> No
 
 
 def test_a_loop_that_is_left_in_the_middle_leaves_nothing_open(messages: Any) -> None:
-    """Servers half opened, connections just accepted and tasks that nobody ended: pytest's filter hears of each."""
+    """Half-opened servers, accepted connections and unfinished tasks: pytest's filter catches each."""
     for _ in range(5):
         loop = GraphLoop(messages=messages)
         loop.start()
@@ -284,7 +284,7 @@ def test_a_loop_that_is_left_in_the_middle_leaves_nothing_open(messages: Any) ->
 
 
 def test_a_server_whose_opening_is_cancelled_is_closed(messages: Any) -> None:
-    """Whenever that happens: asyncio lets go of a server that listens already."""
+    """At any moment: asyncio forgets a server that listens already."""
 
     async def open_and_give_up(passes: int) -> None:
         server = RpcServer(lambda _method, _arguments: (1, "", 0))

@@ -1,4 +1,4 @@
-"""Debian's rosmaster and ours, asked the same: every call, with good and bad arguments, answers to the letter."""
+"""Debian's rosmaster and ours: every call, with valid and invalid arguments, has the same answer."""
 
 import socket
 import subprocess
@@ -104,7 +104,7 @@ def rosmaster(tmp_path: Path) -> Iterator[str]:
 
 
 def _answer(master: Any, method: str, *arguments: Any) -> Any:
-    """What a master says, without its own address, in an order of its own where it has none."""
+    """Answer of a master, without its own address; unordered lists are sorted."""
     try:
         answer = getattr(master, method)(*arguments)
     except xmlrpc.client.Fault as fault:

@@ -1,4 +1,4 @@
-"""What cameras and lidars see of actors whose bones move."""
+"""Actors with moving bones in images and lidar scans."""
 
 from pathlib import Path
 from typing import Any
@@ -32,7 +32,7 @@ def world(folder: Path, eye: str, actor: str) -> Any:
 
 
 def seen(sim: Any, camera: Any) -> tuple[float, float]:
-    """How high what the camera sees reaches at 6 m [m], and how near it is [m]."""
+    """Height of what the camera sees at 6 m, and its distance [m]."""
     depth = camera.measure(sim.snapshot()).depth
     rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
     focal = 60.5 / np.tan(0.6)

@@ -25,7 +25,7 @@ def load(folder: Path, body: str, *, gravity: str = "0 0 -9.8", others: str = ""
 
 
 def read(sim: Simulation, seconds: float, *, before: object = None) -> list[ImuReading] | list[RangeReading]:
-    """Every reading of the one sensor over some time."""
+    """All readings of one sensor over some time."""
     (sensor,) = mount_sensors(sim)
     readings: list = []
     sensor.listen(readings.append)
@@ -69,7 +69,7 @@ def test_an_imu_on_a_turning_platform_reads_the_rate_and_the_pull_inwards(tmp_pa
 
 
 def test_an_imu_far_from_the_middle_of_what_tumbles_and_falls_feels_that_alone(tmp_path: Path) -> None:
-    """Its own link's mass is half a metre from it: ω² r = 4.5 m/s²."""
+    """The link's centre of mass is half a metre from it: ω² r = 4.5 m/s²."""
     body = imu(pose="-0.5 0 0 0 0 0", rate=20).replace("<mass>", "<pose>-1 0 0 0 0 0</pose><mass>")
     sim = load(tmp_path, body)
     sim["m"].set_twist(Twist(linear=(0.0, 0.0, 0.0), angular=(0.0, 3.0, 0.0)))
@@ -201,7 +201,7 @@ def test_rays_meet_models_that_came_while_time_went_on(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("type_", ["ray", "gpu_ray"])
 def test_noise_takes_no_range_beyond_the_limits(tmp_path: Path, type_: str) -> None:
-    """As in Gazebo: what is met within reach stays there, and what is not is told without noise."""
+    """As in Gazebo: a hit stays within the limits, and a miss has no noise."""
     wild = "<noise><type>gaussian</type><stddev>50</stddev></noise>"
     fan = "<samples>101</samples><min_angle>-1.2</min_angle><max_angle>1.2</max_angle>"
     (row,) = read(load(tmp_path, ray(fan, noise=wild, type_=type_), others=WALL), 0.1)[-1].ranges
@@ -296,7 +296,7 @@ FLOOR = thing("floor", "0 0 -0.5 0 0 0", "<box><size>9 9 1</size></box>").replac
 
 
 def touched(readings: list[ContactReading]) -> list[int]:
-    """The times of the steps with contacts, of all readings together."""
+    """Times of the steps with contacts, from all readings."""
     return [time_ns for reading in readings for time_ns in dict.fromkeys(touch.time_ns for touch in reading.contacts)]
 
 
@@ -319,7 +319,7 @@ def test_a_bumper_that_tells_seldom_keeps_the_last_hundred_steps(tmp_path: Path)
 
 
 def test_a_bumper_that_nobody_listens_to_for_a_while_forgets(tmp_path: Path) -> None:
-    """What touched before does not come up when somebody listens again; and meanwhile no step is looked at."""
+    """Contacts from before are not reported to a new listener, and meanwhile no step is checked."""
     sim = load(tmp_path, BALL.format(body=BODY, rate=10).replace("0 0 0.3", "0 0 0.1"), others=FLOOR)
     (bumper,) = mount_sensors(sim)
     readings: list[ContactReading] = []

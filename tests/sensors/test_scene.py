@@ -18,7 +18,7 @@ from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
 WORLD_FROM_CAMERA = Pose.from_rpy(0.0, 0.05715, 1.5113, 0.0, 0.0, math.pi / 2)
-"""Where the RP2W's upper camera is at rest."""
+"""Pose of the RP2W's upper camera at rest."""
 
 
 @pytest.fixture(scope="module")

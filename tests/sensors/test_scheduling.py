@@ -1,4 +1,4 @@
-"""When sensors measure: at their rate to the step for as long as it runs, and only if somebody wants to know."""
+"""Schedule of sensors: at their rate to the step, and only with listeners."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -18,11 +18,11 @@ MS = 1_000_000
 BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 ON_JOINTS = ("force_torque",)
 UNHEARD = ("rfidtag", "wireless_transmitter")
-"""They measure nothing: others look for them."""
+"""Sensors that publish nothing: others detect them."""
 
 
 class Blank:
-    """Draws nothing and counts how often."""
+    """Renderer that draws nothing and counts the calls."""
 
     def __init__(self, scene: Scene) -> None:
         del scene

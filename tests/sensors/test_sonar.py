@@ -1,4 +1,4 @@
-"""How near sonars say things are."""
+"""Ranges of sonars."""
 
 from pathlib import Path
 
@@ -11,14 +11,14 @@ _BOX = "<collision name='c'><geometry><box><size>{0} {0} {0}</size></box></geome
 
 
 def range_of(folder: Path, *, wall: float, beside: float = 0.0, arm: str = "", model: str = "") -> float:
-    """What a sonar at the origin that looks along +x says [m].
+    """Range of a sonar at the origin along +x [m].
 
     Args:
         folder: takes the file.
-        wall: how far a wall of 1 m is [m].
-        beside: how far it is off the axis [m].
-        arm: of the sonar's own model, with a link 1 m ahead: the element that joins it, if any.
-        model: what the model says besides.
+        wall: distance of a wall of 1 m [m].
+        beside: its offset from the axis [m].
+        arm: element that joins a link 1 m ahead to the sonar's model, if any.
+        model: further elements of the model.
     """
     file = folder / "w.sdf"
     ahead = f"<link name='arm'><pose>1.25 0 0 0 0 0</pose>{_BOX.format(0.5)}</link>{arm}" if arm else ""

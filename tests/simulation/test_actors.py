@@ -1,4 +1,4 @@
-"""Actors on their ways."""
+"""Actors on their trajectories."""
 
 import math
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What `gz` could do to a world, from Python."""
+"""Commands to a world, as `gz` has them, from Python."""
 
 import math
 from collections.abc import Callable
@@ -39,7 +39,7 @@ def sim(tmp_path: Path) -> Simulation:
 
 
 class Clock:
-    """Notes when it is called."""
+    """Hook that records its times."""
 
     def __init__(self) -> None:
         self.times: list[int] = []
@@ -147,7 +147,7 @@ def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
     sim.run(0.1)
     hinge.command_effort(-0.1)
     sim.run(0.5)
-    assert hinge.effort == pytest.approx(-0.1), "what is told later holds"
+    assert hinge.effort == pytest.approx(-0.1), "the later command holds"
     sim.restore(saved)
     sim.run(0.5)
     assert hinge.velocity == pytest.approx(2 * 0.1 * 0.2 / 0.05, rel=1e-6)

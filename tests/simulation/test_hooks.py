@@ -1,4 +1,4 @@
-"""Who is called when, as simulation time passes."""
+"""Periodic hooks over simulation time."""
 
 from dataclasses import dataclass, field
 
@@ -19,7 +19,7 @@ def empty_world(step_s: float = 0.001) -> Simulation:
 
 @dataclass
 class Track:
-    """What was called, in order: (when [ns], what)."""
+    """Calls in order: (time [ns], hook)."""
 
     calls: list[tuple[int, str]] = field(default_factory=list)
 
@@ -29,7 +29,7 @@ class Track:
 
 @dataclass
 class Acts:
-    """A hook that only acts."""
+    """Hook with only `before_step`."""
 
     track: Track
     name: str = "acts"
@@ -40,7 +40,7 @@ class Acts:
 
 @dataclass
 class Looks:
-    """A hook that only looks."""
+    """Hook with only `after_step`."""
 
     track: Track
     name: str = "looks"
@@ -51,7 +51,7 @@ class Looks:
 
 @dataclass
 class Both:
-    """A hook that does both."""
+    """Hook with both."""
 
     track: Track
 

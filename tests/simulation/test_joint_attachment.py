@@ -1,4 +1,4 @@
-"""Links joined and let go while the world runs."""
+"""Links attached and detached while the world runs."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""One world in motion: the same every time, commanded from anywhere, and clear about what it lacks."""
+"""One world in motion: deterministic, commanded from any thread, with clear errors."""
 
 import threading
 
@@ -56,7 +56,7 @@ def drive(sim: Simulation) -> None:
 
 
 def same(a: Snapshot, b: Snapshot) -> bool:
-    """Whether two snapshots agree to the last bit."""
+    """Return True if two snapshots agree to the last bit."""
     fields = ("poses", "twists", "joint_positions", "joint_velocities", "joint_efforts")
     return a.time_ns == b.time_ns and all(getattr(a, f).tobytes() == getattr(b, f).tobytes() for f in fields)
 
@@ -73,7 +73,7 @@ def test_two_runs_are_the_same_to_the_last_bit() -> None:
 
 
 class Reads:
-    """Looks at everything there is to see."""
+    """Hook that reads everything."""
 
     def __init__(self) -> None:
         self.seen = 0.0
@@ -83,7 +83,7 @@ class Reads:
 
 
 class Peeks:
-    """Looks through the handles, before steps."""
+    """Hook that reads all handles before steps."""
 
     def before_step(self, sim: Simulation) -> None:
         body = sim["cart"].link("body")

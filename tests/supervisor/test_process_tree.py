@@ -1,4 +1,4 @@
-"""Programs and what they start end with the process that started them, however it ends."""
+"""Programs and their children end with the process that started them, however it ends."""
 
 import os
 import signal
@@ -41,7 +41,7 @@ asyncio.run(main())
 
 
 def runs(pid: int) -> bool:
-    """Whether a process lives; whoever inherited a dead one may leave it a zombie."""
+    """Return True if a process lives; a zombie counts as dead."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except (FileNotFoundError, ProcessLookupError):

@@ -1,4 +1,4 @@
-"""Jobs are started, watched over, respawned and stopped."""
+"""Jobs are started, watched, respawned and stopped."""
 
 import asyncio
 import os
@@ -177,7 +177,7 @@ def test_a_deaf_program_and_its_children_are_killed(tmp_path: Path) -> None:
 
 
 def wait_for_end(status: Path) -> None:
-    """A killed process takes a moment; whoever inherited it may leave it a zombie."""
+    """Wait until a killed process has ended; a zombie counts as ended."""
     end = time.monotonic() + TIMEOUT_S
     while True:
         try:

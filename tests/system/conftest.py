@@ -18,7 +18,7 @@ TIMEOUT_S = 60.0
 
 
 class Running:
-    """A `trundle` process that goes on by itself."""
+    """A `trundle` process in the background."""
 
     def __init__(self, arguments: Sequence[str], env: Mapping[str, str], cwd: Path) -> None:
         self.log = cwd / f"{arguments[0]}.log"
@@ -66,7 +66,7 @@ def trundle(env: dict[str, str], tmp_path: Path) -> Callable[..., subprocess.Com
 
 @pytest.fixture
 def start(env: dict[str, str], tmp_path: Path) -> Iterator[Callable[..., Running]]:
-    """Start a command that goes on; it is killed when the test ends."""
+    """Start a command in the background; it is killed when the test ends."""
     started: list[Running] = []
 
     def call(*arguments: str, **more: str) -> Running:
@@ -88,7 +88,7 @@ def master(env: dict[str, str]) -> MasterProxy:
 
 @pytest.fixture
 def until() -> Callable[[str, Callable[[], object]], None]:
-    """Wait for something; a master that is not up yet means it is not so yet."""
+    """Wait until a condition holds; a master that is not up yet counts as False."""
 
     def wait(what: str, is_so: Callable[[], object]) -> None:
         end = time.monotonic() + TIMEOUT_S

@@ -1,4 +1,4 @@
-"""What is wrong ends in one sentence that says where and what to do, and exit code 1."""
+"""Errors end in one sentence with place and remedy, and exit code 1."""
 
 import json
 import socket

@@ -26,7 +26,7 @@ def test_the_published_robot_is_understood_and_its_oddities_are_named(trundle, s
 
 
 def test_a_plain_robot_loads_no_more_than_it_needs(shared) -> None:
-    """What slows a start down most: the engine, numpy, YAML, and the dataclasses of sensors nobody has."""
+    """Modules that slow the start most: the engine, numpy, YAML, and dataclasses of unused sensors."""
     file = shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
     code = "import sys; from trundle.cli import main; main(['check', sys.argv[1]]); print(*sorted(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code, str(file)], capture_output=True, text=True, check=True)

@@ -194,7 +194,7 @@ def test_a_node_that_dies_again_and_again_is_started_ever_more_slowly(start, unt
 
 
 def test_a_second_launch_takes_over_the_names_it_shares(start, trundle, until, package: Path) -> None:
-    """As in ROS: the master tells the older node of that name to shut down, and everything else goes on."""
+    """As in ROS: the master shuts the older node of that name down, and everything else goes on."""
     node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{0}" args="0 0 0 0 0 0 x {0}" output="screen"/>'
     for name in ("first", "second"):
         (package / f"{name}.launch").write_text(f"<launch>{node.format('shared')}{node.format(name)}</launch>")

@@ -73,7 +73,7 @@ def loop() -> Iterator[GraphLoop]:
 
 @pytest.fixture
 def parent(loop: GraphLoop) -> Iterator[tuple[str, Calls]]:
-    """Takes in `far-0`, and keeps what it is told."""
+    """Parent of `far-0` that records its calls."""
     calls: Calls = []
 
     def answer(method: str, arguments: list[Any]) -> object:
@@ -89,7 +89,7 @@ def parent(loop: GraphLoop) -> Iterator[tuple[str, Calls]]:
 
 @pytest.fixture
 def child(start, until, loop: GraphLoop, parent: tuple[str, Calls], package: Path, env: dict[str, str]):
-    """A child that has told its parent where it is, and a way to call it; the master comes up only then."""
+    """A registered child, and a way to call it; the master starts after it."""
     uri, calls = parent
     words = ("launch", "-c", "far-0", "-u", uri, "--run_id", "run 7", "--headless", "--sigint-timeout", "5.0")
     running = start(*words, ROS_PACKAGE_PATH=str(package.parent), OUT=str(package / "said"))

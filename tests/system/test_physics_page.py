@@ -1,4 +1,4 @@
-"""What docs/physics.md says of sensors is what comes on their topics."""
+"""Sensors publish what docs/physics.md states."""
 
 import re
 

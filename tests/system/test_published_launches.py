@@ -1,4 +1,4 @@
-"""Published launch files start their robots and run, whatever of them is not there.
+"""Published launch files start their robots and run, whatever parts are missing.
 
 Each line of `published_launches.txt` is a launch file with its arguments and, behind `->`, topics on which something
 must come while it runs; a robot of one link has none.
@@ -23,16 +23,16 @@ from trundle.packages.stock import STOCK
 from trundle.ros import GraphLoop, Message, Node, to_nsec
 
 _RUN_S = 20
-"""ROS time each of them runs; flat out where it is simulated."""
+"""ROS time of each launch [s]; flat out if simulated."""
 _TIMEOUT_S = 240.0
 _AT_ONCE = 3
 _MESSAGES = 3
-"""On each topic; /tf_static is latched, one is all of it."""
+"""Number of messages awaited on each topic; /tf_static has one, latched."""
 _LINES = Path(__file__).with_name("published_launches.txt").read_text().splitlines()
 _BATCHES = [_LINES[start : start + _AT_ONCE] for start in range(0, len(_LINES), _AT_ONCE)]
 _BAD = re.compile(r"\[ERROR\]|\[FATAL\]|: error:|has died|cannot be started|Traceback")
 _NO_CONTROLLER = re.compile(r"Could not load controller '(\w+)': no controller of type '(\w+)/")
-"""What a robot's own package has compiled is missing, too; ros_control's stock controllers are not."""
+"""Error on a controller that a robot's own package compiles; ros_control's stock controllers must load."""
 _NOT_MOUNTED = (
     "fath_pivot_mount_description/urdf/lockmount.urdf.xacro",
     "flir_camera_description/urdf/flir_blackflys.urdf.xacro",
@@ -54,7 +54,7 @@ def loop() -> Iterator[GraphLoop]:
 @pytest.mark.slow
 @pytest.mark.parametrize("lines", _BATCHES, ids=lambda lines: lines[0].partition("/")[0])
 def test_they_run_without_an_error(shared: Path, tmp_path: Path, loop: GraphLoop, lines: Sequence[str]) -> None:
-    """What they name and no machine has, compiled nodes most of all, is named; all else must be silent."""
+    """Missing parts, mostly compiled nodes, are named; there are no other errors."""
     corpus = shared / "corpus"
     if not corpus.is_dir():
         pytest.skip("the published launch files (../shared/corpus) are not beside this checkout")

@@ -96,7 +96,7 @@ def test_a_published_robot_drives_by_cmd_vel_as_its_tutorial_says(
     def speed() -> float:
         return float(trundle("topic", "echo", "-n", "1", f"{base}/odom/twist/twist/linear/x").stdout.split()[0])
 
-    until("it to stop, as nobody commands it any more", lambda: abs(speed()) < 0.01)
+    until("it to stop, as commands have ended", lambda: abs(speed()) < 0.01)
     assert running.interrupt() == 130
     assert "Traceback" not in running.output()
 

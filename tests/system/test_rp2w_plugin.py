@@ -35,7 +35,7 @@ def with_the_published_model(folder: Path, shared: Path) -> Path:
 
 
 def test_the_published_robot_drives_the_way_its_cameras_look(tmp_path: Path, shared: Path) -> None:
-    """Its seven unit inertias make it heavy: 2 N·m on each wheel bring it to 0.2 m/s in about three seconds."""
+    """Seven unit inertias make the robot heavy: 2 N·m on each wheel bring it to 0.2 m/s in about three seconds."""
     run = Run(with_the_published_model(tmp_path, shared))
     run.plugin.wanted = (0.2, 0.0)
 

@@ -90,7 +90,7 @@ def test_the_plugin_drives_on_cmd_vel(start, trundle, master, until) -> None:
 
 
 def test_the_living_room_is_seen_by_its_robot(trundle, tmp_path) -> None:
-    """What `make demo HEADLESS=1` does: every image counted, and of what there is only what can move is told."""
+    """`make demo HEADLESS=1`: every image is counted, and only movable models are printed."""
     ran = trundle("run", "rp2w_at_home.world", *FLAT_OUT, "--duration", "1")
     seen = trundle("render", "rp2w_at_home.world", "--camera", "my_sensor", "-o", "seen.png")
 

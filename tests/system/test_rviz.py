@@ -30,7 +30,7 @@ Visualization Manager:
 Window Geometry: {Height: 800, Width: 1100}
 """
 PANEL, VIEW = np.s_[70:660, 0:340], np.s_[70:760, 370:1080]
-"""Where rviz lists its displays and where it draws, with this configuration [rows, columns]."""
+"""Regions of rviz' display list and of its picture, with this configuration [rows, columns]."""
 
 
 @pytest.fixture
@@ -69,7 +69,7 @@ def look(env: dict[str, str], tmp_path: Path) -> Iterator[Callable[[], np.ndarra
 
 
 def _is_ok(window: np.ndarray) -> bool:
-    """Whether the list of displays has green ticks and neither an error's red nor a warning's orange."""
+    """Return True if the list of displays has green ticks and neither an error's red nor a warning's orange."""
     red, green, blue = np.moveaxis(window[PANEL], -1, 0)
     ticks = (green > red + 60) & (green > blue + 60)
     faults = (red > green + 60) & (red > blue + 100)
@@ -77,14 +77,14 @@ def _is_ok(window: np.ndarray) -> bool:
 
 
 def _car(window: np.ndarray) -> np.ndarray:
-    """Where the blue car is in the picture, (x, y) [px]; NaN while it is not."""
+    """Position of the blue car in the picture, (x, y) [px]; NaN: not seen."""
     red, green, blue = np.moveaxis(window[VIEW], -1, 0)
     rows, columns = np.nonzero((blue > red + 60) & (blue > green + 60))
     return np.array([columns.mean(), rows.mean()]) if len(rows) > 100 else np.full(2, np.nan)
 
 
 def test_the_real_rviz_shows_the_car_and_it_drives(start, master, until, trundle, shared, look) -> None:
-    """It turns left as it goes: ever farther from where it stood, and up in a picture from above."""
+    """The car turns left: away from its start, and up in a picture from above."""
     packages = str(shared / "seeds")
     start("launch", "smartcar_description", "smartcar_display.rviz.launch", "--headless", ROS_PACKAGE_PATH=packages)
     until("the driver", lambda: "/odom" in dict(master.call("getTopicTypes")))

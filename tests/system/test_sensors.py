@@ -1,4 +1,4 @@
-"""A ray sensor and an imu of a file, on their topics, for whoever subscribes."""
+"""A ray sensor and an imu of a file, on their topics."""
 
 from pathlib import Path
 

@@ -11,7 +11,7 @@ from trundle.ros import MasterProxy
 
 _MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
-# What a gtest or rosunit program does: it writes its results where it is told to.
+# Like a gtest or rosunit program, it writes its results to the file given.
 _CHECK = """#!/usr/bin/env python3
 import os, sys, pathlib
 out = next(w.partition("xml:")[2] for w in sys.argv if w.startswith("--gtest_output="))

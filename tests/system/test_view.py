@@ -43,7 +43,7 @@ def test_gazebos_page_is_at_the_port_after_that_of_rviz(trundle, tmp_path) -> No
 
 
 def _two_free_ports() -> int:
-    """The first of two that nobody listens at."""
+    """First of two adjacent free ports."""
     while True:
         with socket.socket() as one, socket.socket() as other, contextlib.suppress(OSError):
             one.bind(("127.0.0.1", 0))

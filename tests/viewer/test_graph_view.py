@@ -1,4 +1,4 @@
-"""A robot hangs on tf's frames, and what tf does not know is said in rviz's words."""
+"""A robot is placed by tf's frames; missing frames are reported in rviz' words."""
 
 import math
 
@@ -66,7 +66,7 @@ def test_a_fixed_frame_nobody_publishes_hides_everything(buffer: TransformBuffer
 
 @pytest.mark.parametrize(("expects", "said"), [(True, 1), (False, 0)])
 def test_a_page_of_windows_alone_misses_no_frames(expects: bool, said: int) -> None:
-    """turtlesim has none; a robot whose frames are missing is said."""
+    """turtlesim has none; a robot with missing frames is reported."""
     empty = TransformBuffer()
     tree = FrameTree.of(empty, "base_link")
 

@@ -1,4 +1,4 @@
-"""What a person sees and presses, in a real browser."""
+"""The page as seen and operated in a real browser."""
 
 import io
 import time
@@ -48,7 +48,7 @@ def _red(picture: Picture) -> NDArray[np.bool_]:
 
 
 def _eventually(page: Any, look: Callable[[Picture], bool]) -> Picture:
-    """Look at the page until it is as it should be."""
+    """Take pictures of the page until a condition holds."""
     deadline = time.monotonic() + _PATIENCE_S
     while True:
         picture = _scene(page)

@@ -100,7 +100,7 @@ def test_an_image_larger_than_a_thumbnail_is_thinned(viewer: Viewer) -> None:
 
 
 def test_nonsense_from_the_net_is_dropped_in_silence(viewer: Viewer, capfd: pytest.CaptureFixture[str]) -> None:
-    """Whoever can connect may send anything; the page goes on and no traceback is shown."""
+    """Any connected client may send anything; the page goes on and prints no traceback."""
     address = ("127.0.0.1", int(viewer.url.rpartition(":")[2]))
     for nonsense in (b"\x00\xff" * 100, b"GET /../../etc/passwd HTTP/1.1\r\n\r\n", b""):
         with socket.create_connection(address) as connection:

@@ -1,4 +1,4 @@
-"""The XML tree: lines, what nobody read, and hostile text."""
+"""The XML tree: lines, unread elements, and hostile text."""
 
 import pytest
 from lxml import etree

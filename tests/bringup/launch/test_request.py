@@ -1,4 +1,4 @@
-"""What `trundle launch` is asked for: files, packages, pipes."""
+"""Arguments of `trundle launch`: files, packages, pipes."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""How low things reach, however they are turned."""
+"""Lowest points of turned shapes."""
 
 import math
 
@@ -31,5 +31,5 @@ CUBE = Mesh(
     ],
 )
 def test_a_shape_reaches_as_low_as_its_lowest_point(geometry: ShapeGeometry, roll: float, below: float) -> None:
-    """Turned about x, and then about the vertical, which changes nothing."""
+    """Turns about x, and then about the vertical, which changes nothing."""
     assert lowest_point(geometry, Pose.from_rpy(4.0, 5.0, 6.0, roll, 0.0, 0.8)) == pytest.approx(6.0 - below)

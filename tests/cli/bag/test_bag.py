@@ -1,4 +1,4 @@
-"""`trundle bag`, with rosbag's output; bags go both ways between the two."""
+"""`trundle bag`, with rosbag's output; each reads the other's bags."""
 
 import os
 import re
@@ -58,10 +58,10 @@ def bag(tmp_path: Path) -> Path:
 
 
 def _on_disk(path: Path) -> int:
-    """Messages that not even SIGKILL would cost."""
+    """Messages already on disk, which SIGKILL would not lose."""
     try:
         return sum(1 for _ in recover_messages(path))
-    except BagError:  # nothing is there yet
+    except BagError:  # the file has no message yet
         return 0
 
 

@@ -1,4 +1,4 @@
-"""`trundle bag record`: what is recorded until when, and under which name."""
+"""`trundle bag record`: its topics, its end and its file name."""
 
 import os
 import shutil
@@ -38,7 +38,7 @@ def _counts(path: Path) -> dict[str, int]:
 
 
 def test_a_silent_recording_ends_at_its_time_too(graph: Any, tmp_path: Path) -> None:
-    """The time is the recording's, as rosbag counts it; not that of its messages."""
+    """The time counts from the start of the recording, as in rosbag, not from the first message."""
     path = tmp_path / "x.bag"
     assert graph.trundle("bag", "record", "-q", "--duration", "0.5", "-O", str(path), "/silent")[0] == 0
     assert _counts(path) == {}

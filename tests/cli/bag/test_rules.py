@@ -1,4 +1,4 @@
-"""`trundle bag check` and `fix` with rule files, which go both ways between us and rosbag."""
+"""`trundle bag check` and `fix` with rule files, exchanged with rosbag."""
 
 import os
 import re
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.ros.bags_of_old import BETWEEN, OLD_HEADER, OLD_POINT, Content, rule, write_old_bag
+from tests.ros.bags.bags_of_old import BETWEEN, OLD_HEADER, OLD_POINT, Content, rule, write_old_bag
 
 from trundle.ros import BagConnection, BagMessage, Messages, create_bag, open_bag
 
@@ -171,7 +171,7 @@ def test_rules_of_packages_are_named_and_left_out_on_request(
     (package / "rules/points.bmr").write_text(RULE)
     new = str(tmp_path / "new.bag")
     monkeypatch.setenv("ROS_PACKAGE_PATH", "")
-    monkeypatch.chdir(package)  # where one merely is, nothing runs
+    monkeypatch.chdir(package)  # rules of the working directory do not run
     assert graph.trundle("bag", "fix", str(old), new)[0] == 1
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
     assert graph.trundle("bag", "fix", "-n", str(old), new)[0] == 1

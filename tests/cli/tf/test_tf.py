@@ -88,7 +88,7 @@ def test_breaks_in_the_tree_are_named(graph: Any, robot: Any) -> None:
 
     quarrelling = graph.loop.spawn(quarrel())
     error = ""
-    while not error.count("alternating parents"):  # until both were heard
+    while not error.count("alternating parents"):  # until both have published
         code, _, error = graph.trundle("tf", "tree", "-t", "0.2")
         assert code == 0
     quarrelling.cancel()

@@ -316,7 +316,7 @@ def test_messages_are_measured_until_ctrl_c(graph: Any, command: str, first: str
 
 
 class _Standing(WallClock):
-    """A clock that is set by hand."""
+    """Clock that the test sets."""
 
     now = 0
 

@@ -1,4 +1,4 @@
-"""Robots that include what is not there, read with what is left."""
+"""Robots with missing includes, read without them."""
 
 from pathlib import Path
 
@@ -108,7 +108,7 @@ def test_joints_to_what_was_left_out_go_with_it_and_all_that_hangs_there(tmp_pat
 def test_commands_take_the_option(
     tmp_path: Path, command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setenv(LENIENT, "0")  # and whatever it becomes is undone
+    monkeypatch.setenv(LENIENT, "0")  # restored after the test
     file = write(tmp_path)
 
     assert main([command[0], str(file), *command[1:]]) == 1

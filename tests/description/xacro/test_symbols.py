@@ -1,4 +1,4 @@
-"""What xacro gives its expressions, and what hostile files make of it: they end soon, and in a sentence."""
+"""Names in xacro's expressions; hostile files end soon, and in a sentence."""
 
 import html
 import math
@@ -184,7 +184,7 @@ def test_eval_substitutions_are_bounded_too(tmp_path: Path) -> None:
 
 
 def test_a_property_is_worked_out_amid_another(tmp_path: Path) -> None:
-    """What is worked out when first asked for, in the middle of an expression, leaves that one as it was."""
+    """A property evaluated lazily within an expression does not disturb that expression."""
     properties = "".join(
         f'<xacro:property name="{name}" value="{value}"/>'
         for name, value in {"x": "2", "a": "${x*2}", "b": "${x*3}", "f": "${lambda q: q*2}"}.items()

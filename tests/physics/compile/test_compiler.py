@@ -1,4 +1,4 @@
-"""What the compile makes of a world: freedoms, mends, and who may touch whom."""
+"""Compiled worlds: degrees of freedom, repaired values, and collision pairs."""
 
 from pathlib import Path
 
@@ -230,7 +230,7 @@ def test_only_what_may_go_through_something_is_watched_ahead(radius: float, is_w
 
 
 def test_shapes_of_what_only_stands_are_the_worlds_own() -> None:
-    """What something hangs from keeps its own: MuJoCo keeps apart bodies, not shapes."""
+    """A link with children keeps its own body: MuJoCo excludes contacts by body, not by shape."""
     wall = model(link("l", x=1.0), name="wall", static=True)
     post = model(link("l", x=3.0), name="post", static=True)
     gate = model(link("l", x=4.0), name="gate")

@@ -1,4 +1,4 @@
-"""Loads that statics alone does not share, and contacts that give, beside springs and dampers."""
+"""Statically indeterminate loads, and soft contacts, against springs and dampers."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -30,7 +30,7 @@ def load(tmp_path: Path) -> Load:
 
 
 def loads(sim: Simulation) -> dict[str, float]:
-    """How hard the floor pushes each collision of another model [N], by its last names."""
+    """Normal force of the floor on each collision of another model [N], by link and collision."""
     found: dict[str, float] = {}
     for contact in sim.contacts():
         (name,) = (each for each in contact.collisions if not each.startswith("floor"))
@@ -69,7 +69,7 @@ def dropped(shape: str, mass: float, kp: float, kd: float, height: float) -> str
 
 
 def bounce(mass: float, stiffness: float, damping: float, height: float) -> tuple[float, float]:
-    """How deep a mass that falls on a spring with a damper goes, and how high it comes back within a second [m]."""
+    """Lowest height of a mass that falls on a spring with damper, and the highest within a second after it [m]."""
     z, v, dt, heights = height, 0.0, 1e-5, [height]
     for _ in range(100_000):
         push = max(-stiffness * z - damping * v, 0.0) if z < 0.0 else 0.0

@@ -27,7 +27,7 @@ def world(folder: Path, parts: str, state: str = "") -> Path:
 
 
 def saved(sim: Simulation) -> str:
-    """What Gazebo writes of a world: where each link is in it."""
+    """World as saved by Gazebo: the pose of each link."""
     links = "".join(
         f'<link name="{name}"><pose>{" ".join(map(repr, sim["m"].link(name).pose.as_list()))}</pose></link>'
         for name in ("a", "b", "c")

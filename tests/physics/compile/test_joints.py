@@ -170,7 +170,7 @@ HELD = "<gazebo><plugin name='p' filename='libx.so'><mimicJoint> {} </mimicJoint
 
 @pytest.mark.parametrize(("held", "follows"), [("", True), (HELD.format("lead"), True), (HELD.format("follow"), False)])
 def test_a_mimic_of_a_urdf_follows_unless_a_plugin_makes_it(tmp_path: Path, held: str, follows: bool) -> None:
-    """What a plugin holds by other numbers would be held twice."""
+    """A joint that a plugin drives would be driven twice, with different parameters."""
     file = tmp_path / "x.urdf"
     file.write_text(GRIPPER.format(URDF_INERTIA, held))
     sim = trundle.load(str(file))

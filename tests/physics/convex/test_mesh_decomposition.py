@@ -27,7 +27,7 @@ LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
 
 def gate(high: float = 1.5, at: float = 0.0) -> Mesh:
-    """A closed block with a passage of 1 x 1 m through it, as high as it is told: two feet and what lies on them."""
+    """A closed block with a passage of 1 x 1 m, of a given height: two feet and a beam on them."""
     corners = [(x + at, y, z) for z in (0.0, 1.0, high) for y in (-0.5, 0.5) for x in (-1.0, -0.5, 0.5, 1.0)]
     cells = {(0, 0), (2, 0), (0, 1), (1, 1), (2, 1)}
     faces: list[tuple[int, int, int]] = []
@@ -78,7 +78,7 @@ def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
 
 @pytest.fixture
 def cut(monkeypatch: pytest.MonkeyPatch) -> list[ConcavePart]:
-    """What is cut in this process, in order."""
+    """Meshes cut in this process, in order."""
     seen: list[ConcavePart] = []
 
     def counted(part: ConcavePart) -> pieces.ConvexPieces:

@@ -1,4 +1,4 @@
-"""What acts between finding contacts and solving them: in every step of whoever steps, in C."""
+"""Contact laws: they act between collision detection and solver, in every step, in C."""
 
 import threading
 from collections.abc import Iterator
@@ -35,7 +35,7 @@ def ball(tmp_path: Path) -> Simulation:
 
 @pytest.fixture
 def foreign() -> Iterator[list[float]]:
-    """The times at which somebody else's callback is called; it is set after Trundle's."""
+    """Times of calls of another callback, set after Trundle's."""
     calls: list[float] = []
 
     def note(_: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -124,7 +124,7 @@ def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tm
     assert (slow, fast) == ({False}, {True})
     assert sim["ball"].pose.position[2] == pytest.approx(0.006, abs=1e-4)
     assert not steps[-1][1], "it lies there"
-    assert _looks_ahead(model), "for whoever else steps this model"
+    assert _looks_ahead(model), "for others that step this model"
 
 
 @pytest.mark.parametrize(
@@ -138,7 +138,7 @@ def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tm
     ],
 )
 def test_a_step_is_solved_in_the_metric_that_it_needs(tmp_path: Path, what: str, is_plain: bool) -> None:
-    """What dampers and springs add to it is nothing where there are none; a brick's spin has to be taken implicitly."""
+    """Without dampers and springs they add nothing to it; a brick's spin has to be integrated implicitly."""
     shape = BALL.format(0, "")
     if "brick" in what:
         shape = shape.replace("<ixx>0.01", "<ixx>0.02").replace("<sphere><radius>0.1</radius></sphere>", BRICK)

@@ -1,4 +1,4 @@
-"""Driving, reading, keeping and losing the state of a world."""
+"""Stepping, commanding, saving and restoring the state of a world."""
 
 import math
 from pathlib import Path
@@ -53,7 +53,7 @@ def tumbler() -> Simulation:
 
 
 def same(a: Snapshot, b: Snapshot) -> bool:
-    """Whether two snapshots agree to the last bit."""
+    """Return True if two snapshots agree to the last bit."""
     fields = ("poses", "twists", "joint_positions", "joint_velocities", "joint_efforts")
     return a.time_ns == b.time_ns and all(getattr(a, f).tobytes() == getattr(b, f).tobytes() for f in fields)
 

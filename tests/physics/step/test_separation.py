@@ -1,4 +1,4 @@
-"""What begins inside something else is out of it at once, at rest, and upright."""
+"""Bodies that start inside another one are separated at once, at rest, and upright."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""What is at rest costs nothing, changes nothing, and moves again when it is made to."""
+"""Sleeping bodies cost nothing, change nothing, and wake when they are moved."""
 
 import math
 from collections.abc import Callable

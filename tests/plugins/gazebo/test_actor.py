@@ -1,4 +1,4 @@
-"""The person of libActorPlugin.so."""
+"""Actor of libActorPlugin.so."""
 
 import math
 from pathlib import Path
@@ -59,7 +59,7 @@ def test_it_keeps_away_from_models_but_those_it_ignores(tmp_path: Path) -> None:
 
 
 def test_its_bones_keep_step_with_what_it_covers(tmp_path: Path) -> None:
-    """2 s of the animation for each metre; a reset begins anew."""
+    """2 s of the animation per metre; a reset restarts it."""
     sim = load(tmp_path, more="<animation_factor>2</animation_factor>")
     start = sim["walker"].pose.position
 

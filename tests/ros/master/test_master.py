@@ -20,7 +20,7 @@ def stdlib(graph: Any) -> Any:
 
 
 class Listener:
-    """A node's XML-RPC interface that remembers what it is told."""
+    """XML-RPC interface of a node that records its calls."""
 
     def __init__(self) -> None:
         self.told: list[tuple[str, list[Any]]] = []
@@ -109,7 +109,7 @@ def test_parameters_resolve_against_the_caller(stdlib: Any) -> None:
 
 @pytest.mark.parametrize("value", [None, [1, None], {"a": {"b": None}}])
 def test_a_parameter_that_cannot_be_told_is_refused(graph: Any, value: Any) -> None:
-    """It would keep everyone from the namespaces it is in, `rosparam dump` among them."""
+    """It would make its namespaces unreadable, for `rosparam dump` among others."""
     with xmlrpc.client.ServerProxy(graph.core.uri, allow_none=True) as proxy:
         code, text, _ = proxy.setParam("/x", "/nothing", value)
         assert (code, text.startswith("ERROR: parameter [value]")) == (-1, True)
@@ -150,7 +150,7 @@ def test_followers_of_a_parameter_are_told_except_the_one_that_set_it(graph: Any
 
 
 def test_who_sets_a_namespace_is_told_of_the_parts_it_follows(graph: Any, stdlib: Any, listeners: Any) -> None:
-    """As by rosmaster: a node that caches a part would keep the old value for ever."""
+    """As rosmaster does: a node that caches a part would keep the old value for ever."""
     follower = listeners[0]
     stdlib.subscribeParam("/one", follower.uri, "/a/b")
     stdlib.subscribeParam("/one", follower.uri, "/a/c")

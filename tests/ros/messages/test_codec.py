@@ -199,7 +199,7 @@ def test_a_list_may_be_anything_with_a_length(messages: Messages, names: Any) ->
 
 
 class _Restless:
-    """A transform that takes others out of the list it is in, while it is written."""
+    """Transform that removes others from its list while it is written."""
 
     def __init__(self, transforms: list[Any], keeps: int, real: Any) -> None:
         self.transforms, self.keeps, self.real = transforms, keeps, real
@@ -267,7 +267,7 @@ def test_bytes_that_are_no_message_are_refused(messages: Messages, kind: str, da
 
 
 def test_a_long_list_of_nothing_is_refused() -> None:
-    """Its length is all that comes, so that nothing else bounds the memory it takes."""
+    """Only the length is sent, so that nothing else bounds the memory."""
     messages = Messages()
     messages.add("x_msgs/Nothings", "std_msgs/Empty[] all")
     messages.add("x_msgs/Many", "std_msgs/Empty[1000] all")

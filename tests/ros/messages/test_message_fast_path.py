@@ -1,4 +1,4 @@
-"""Messages made quickly are those made by looking at each value: the same ones, and the same refusals."""
+"""The message fast path makes the same messages, and refuses the same values, as the message builder."""
 
 import random
 from typing import Any
@@ -26,7 +26,7 @@ def messages() -> Messages:
 
 
 class Maker:
-    """Makes what users give for a message: mostly what fits, in all the ways it may be written."""
+    """Generator of users' values for a message: mostly valid, in all the ways they may be written."""
 
     def __init__(self, store: Any, seed: int, oddities: float) -> None:
         self.store, self.oddities = store, oddities
@@ -69,7 +69,7 @@ class Maker:
 
 
 def _made(make: Any) -> Any:
-    """What comes of it, as a text that tells types and bits."""
+    """Result as text, with types and bits."""
     try:
         return _text(make())
     except MessageError as error:

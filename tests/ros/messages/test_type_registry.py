@@ -1,4 +1,4 @@
-"""Definitions that are no types: one sentence with file and line, in bounded memory, and nothing of them stays."""
+"""Invalid definitions: one sentence with file and line, in bounded memory, and nothing is registered."""
 
 import os
 import resource

@@ -62,7 +62,7 @@ def test_it_does_not_rest_while_something_is_under_way() -> None:
 
 
 def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
-    """Thousands come and go where every call of a script is a node of its own."""
+    """Scripts that make a node for each call start and end thousands."""
     node = graph.node("passing")
     node.advertise("/a", "std_msgs/String")
     node.subscribe("/b", "std_msgs/String", print)
@@ -79,7 +79,7 @@ def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
 
 
 def test_what_is_begun_while_the_loop_ends_is_ended_too(caplog: pytest.LogCaptureFixture) -> None:
-    """Each task that is told to end begins another one, as a peer's last call does."""
+    """Each cancelled task starts another one, as a peer's last call does."""
     ended: list[int] = []
 
     async def outlive(generation: int) -> None:
@@ -153,7 +153,7 @@ _SCHED_GETATTR = {"x86_64": 315, "aarch64": 275, "riscv64": 275}
 
 
 def _slice_ns(thread: int) -> int:
-    """The time slice of a thread of this process, as the kernel tells it [ns]."""
+    """Time slice of a thread of this process, from the kernel [ns]."""
     number = _SCHED_GETATTR.get(platform.machine()) if platform.system() == "Linux" else None
     if number is None:
         pytest.skip(f"no time slices are known of {platform.system()} on {platform.machine()}")
@@ -162,12 +162,12 @@ def _slice_ns(thread: int) -> int:
         pytest.skip(f"sched_getattr: {os.strerror(ctypes.get_errno())}")
     *_, runtime_ns, _, _ = struct.unpack("<IIQiIQQQ", answer.raw)
     if runtime_ns == 0:
-        pytest.skip(f"Linux {platform.release()} tells no slices; 6.12 does")
+        pytest.skip(f"Linux {platform.release()} reports no slices; 6.12 does")
     return runtime_ns
 
 
 def test_its_thread_asks_for_short_slices_and_whatever_that_starts_does_not() -> None:
-    """A message is read at once on a busy machine; a thread that calculates is not interrupted every 0.1 ms."""
+    """A message is read at once on a busy machine; computing threads are not interrupted every 0.1 ms."""
     usual = _slice_ns(threading.get_native_id())
 
     async def slices() -> tuple[int, int]:

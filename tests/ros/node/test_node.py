@@ -31,7 +31,7 @@ STRING = "std_msgs/String"
 
 @pytest.fixture(params=["same process", "nearby", "TCP", "TCP without writev", "TCP with too many files"])
 def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, Any]:
-    """A talking and a listening node."""
+    """A publishing and a subscribing node."""
     if request.param.startswith("TCP"):
         monkeypatch.setattr("trundle.ros.node.subscription.unix_address", lambda _: None)
     if "writev" in request.param:
@@ -440,7 +440,7 @@ def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeyp
 
 
 def test_a_message_of_another_thread_keeps_its_place(graph: Any, far: Any) -> None:
-    """It is sent at once when nothing waits, in turn otherwise; newcomers and slow readers change that."""
+    """A message is sent at once if none waits, else in turn; new and slow subscribers make messages wait."""
     publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
     got: list[int] = []
     far.node("reader").subscribe(

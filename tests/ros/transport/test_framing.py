@@ -1,4 +1,4 @@
-"""Streams of bytes cut into frames, however they come."""
+"""Byte streams decoded into frames, however they are split."""
 
 import random
 import struct
@@ -10,7 +10,7 @@ from trundle.ros.transport.framing import FrameDecoder
 
 
 def _put(cutter: FrameDecoder, data: bytes, most: int) -> list[bytes]:
-    """Give the cutter at most so many bytes of a stream at a time, as a socket does."""
+    """Feed the decoder at most so many bytes of a stream at a time, as a socket does."""
     frames: list[bytes] = []
     while data:
         room = cutter.get_buffer()

@@ -1,4 +1,4 @@
-"""What goes to one peer, however much of it the kernel takes at a time."""
+"""Bytes to one peer, however many the kernel takes at a time."""
 
 import asyncio
 import socket
@@ -9,7 +9,7 @@ import pytest
 from trundle.ros.transport.send_queue import SendQueue
 
 _FRAMES = [(bytes([i % 200]) * 10, bytes([i % 100 + 100]) * 30_000) for i in range(1000)]
-"""More than the kernel takes while nobody reads, and each short enough for a socket."""
+"""More than the kernel takes without a reader, and each short enough for a socket."""
 
 
 def _tcp_pair() -> tuple[socket.socket, socket.socket]:

@@ -116,7 +116,7 @@ def test_a_preflight_is_given_no_permission(graph: Any, method: str) -> None:
 
 @pytest.mark.parametrize("method", ["GET", "POST", "OPTIONS", "PUT", "HEAD"])
 def test_http_at_a_topics_port_is_hung_up_on(graph: Any, method: str) -> None:
-    """Its first four bytes announce a header of over 100 MB."""
+    """The first four bytes announce a header of over 100 MB."""
     node = graph.node("n")
     node.advertise("/a", "std_msgs/String")
     graph.ready(node)

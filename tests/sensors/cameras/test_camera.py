@@ -1,4 +1,4 @@
-"""Cameras take pictures when they are due, of the instant they are due, and only for somebody."""
+"""Cameras render when due, the state of that time, and only for listeners."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -22,13 +22,13 @@ MS = 1_000_000
 
 
 class CountingRenderer:
-    """Draws nothing and remembers from where."""
+    """Renderer that draws nothing and records the cameras' poses."""
 
     def __init__(self) -> None:
         self.updates: list[NDArray[np.float64]] = []
         self.views: list[tuple[Pose, Intrinsics]] = []
         self.calls: list[int] = []
-        """How many pictures each drew."""
+        """Number of pictures of each call."""
 
     def update(self, poses: NDArray[np.float64]) -> None:
         self.updates.append(poses)
@@ -108,7 +108,7 @@ def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_
 
 
 def test_cameras_that_are_due_together_are_drawn_by_one_call_and_told_of_in_their_order() -> None:
-    """The last one is due at every second instant only, and of the third nobody wants to know."""
+    """The last one is due at every second time only, and the third has no listener."""
     rates = {"left": 10.0, "right": 10.0, "blind": 10.0, "slow": 5.0}
     sim, cameras, renderer = mounted(*(camera(name, update_rate_hz=rate) for name, rate in rates.items()))
     told: list[tuple[str, int]] = []

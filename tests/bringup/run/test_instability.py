@@ -1,0 +1,63 @@
+"""Messages and exit codes when the physics becomes unstable."""
+
+import math
+import os
+import signal
+import threading
+from pathlib import Path
+
+import pytest
+
+from trundle.bringup.run.run import OnInstability, RunOptions, run
+from trundle.cli.main import main
+from trundle.physics import SimulationUnstableError
+
+QUIET = ["--headless", "--no-ros", "--speed", "max", "--duration", "3"]
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Path:
+    """Two balls, and a gravity too large for the time step."""
+    file = tmp_path / "wild.world"
+    ball = '<link name="l"><collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>'
+    file.write_text(
+        '<sdf version="1.6"><world name="w"><gravity>0 0 -1e10</gravity>'
+        f'<model name="ball">{ball}</link></model></world></sdf>'
+    )
+    return file
+
+
+def options(on_instability: OnInstability | None) -> RunOptions:
+    return RunOptions(headless=True, ros=False, speed=None, duration_s=3.0, on_instability=on_instability)
+
+
+def test_without_a_page_the_command_ends_and_says_what_ran_away(
+    world: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", str(world), *QUIET, "--json"]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "the physics became unstable after 0.000 s: 'ball::l' diverged" in err
+    assert "Traceback" not in err
+
+
+def test_reset_starts_anew_but_not_for_ever(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(world), *QUIET, "--on-instability", "reset"]) == 1
+    assert capsys.readouterr().err.count("the simulation is reset") == 10
+
+
+def test_pause_keeps_the_last_good_state_until_somebody_ends_it(
+    world: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    outcome = run(str(world), options("pause"))
+    assert outcome.interrupted
+    assert "the simulation is paused at its last stable state, at 0.000 s" in capsys.readouterr().err
+    state = outcome.as_json()["models"][0]["links"][0]
+    assert all(map(math.isfinite, [*state["pose"], *state["twist"]]))
+
+
+def test_the_error_can_be_asked_what_ran_away(world: Path) -> None:
+    with pytest.raises(SimulationUnstableError) as caught:
+        run(str(world), options(None))
+    assert (caught.value.divergence.link, caught.value.divergence.joint) == ("ball::l", None)

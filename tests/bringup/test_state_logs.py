@@ -1,0 +1,51 @@
+"""gzserver -r: state logs of a world whose models come and go."""
+
+from pathlib import Path
+
+import pytest
+from tests.gazebo_server import PATIENCE_S, Gazebo, until
+
+from trundle.nodes.gazebo import GazeboServer
+from trundle.ros import Node
+from trundle.simulation import read_state_log
+
+BALL = """<sdf version="1.6"><model name="ball"><link name="l"><pose>0 0 9 0 0 0</pose>
+<inertial><mass>1</mass></inertial></link></model></sdf>"""
+
+
+def _record(gazebo: Gazebo, folder: Path) -> None:
+    server = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+    gazebo.loop.spawn(GazeboServer(server, ["-u", "-r", "--record_path", str(folder)], gazebo.host).run())
+    gazebo.loop.run(gazebo.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S), timeout_s=PATIENCE_S)
+    gazebo.loop.run(server.wait_registered())
+
+
+def test_each_file_holds_a_world_until_a_model_comes(bare_gazebo: Gazebo, tmp_path: Path) -> None:
+    folder, gazebo = tmp_path / "logs", bare_gazebo
+    _record(gazebo, folder)
+    gazebo.call("unpause_physics")
+    until(lambda: (folder / "state.log").is_file())
+    assert gazebo.spawn(BALL, "ball").success
+    start_s = gazebo.time_s
+    gazebo.until_s(start_s + 0.3)
+    gazebo.world.close()
+
+    assert "ball::l" not in read_state_log(folder / "state.log").links
+    log = read_state_log(folder / "state-2.log")
+    ball = log.links.index("ball::l")
+    fallen, first_s, last_s = log.poses[:, ball, 2], log.times[0] - start_s, log.times[-1] - start_s
+    assert last_s - first_s > 0.2
+    # Both ends of the fall lie on one parabola from rest at 9 m, wherever on it the log begins.
+    assert (9.0 - fallen[-1]) ** 0.5 - (9.0 - fallen[0]) ** 0.5 == pytest.approx(
+        4.9**0.5 * (last_s - first_s), abs=0.02
+    )
+    assert '<model name="ball"' in log.sdf
+    assert [said for said in gazebo.said if "state-2.log; trundle play shows it" in said]
+
+
+def test_a_folder_that_cannot_be_made_is_said_and_the_world_goes_on(bare_gazebo: Gazebo, tmp_path: Path) -> None:
+    (tmp_path / "taken").write_text("")
+    _record(bare_gazebo, tmp_path / "taken")
+    bare_gazebo.call("unpause_physics")
+    until(lambda: any("recording ends" in said for said in bare_gazebo.said))
+    bare_gazebo.until_s(bare_gazebo.time_s + 0.05)

@@ -1,0 +1,206 @@
+"""Sensor plugins of gazebo_ros: the sensors' readings on the topics and in the frames that they name."""
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from tests.gazebo_server import Gazebo, until
+
+_INERTIA = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
+_RAYS = """<ray><scan><horizontal><samples>5</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></horizontal>
+</scan><range><min>0.1</min><max>10</max></range></ray>"""
+_CAMERA = """<camera><horizontal_fov>1.0</horizontal_fov><image><width>32</width><height>24</height></image>
+<clip><near>0.1</near><far>20</far></clip></camera>"""
+_WALL = """<sdf version="1.6"><model name="wall"><static>1</static><link name="l"><pose>2.5 0 1 0 0 0</pose>
+<collision name="c"><geometry><box><size>1 10 10</size></box></geometry></collision>
+<visual name="v"><geometry><box><size>1 10 10</size></box></geometry></visual></link></model></sdf>"""
+
+
+def _sensor(kind: str, inside: str, plugin: str, parameters: str, *, name: str = "eye") -> str:
+    return f"""<sensor name="{name}" type="{kind}"><update_rate>50</update_rate>{inside}
+<plugin name="{name}_plugin" filename="libgazebo_ros_{plugin}.so">{parameters}</plugin></sensor>"""
+
+
+def _mast(sensors: str, plugin: str = "") -> str:
+    """Model with sensors, 1 m up, fixed to the world."""
+    return f"""<sdf version="1.6"><model name="mast"><link name="head"><pose>0 0 1 0 0 0</pose>
+<inertial><mass>2</mass>{_INERTIA}</inertial>{sensors}</link>
+<joint name="fix" type="fixed"><parent>world</parent><child>head</child></joint>{plugin}</model></sdf>"""
+
+
+def _seeing(gazebo: Gazebo, sensors: str, plugin: str = "") -> None:
+    assert gazebo.spawn(_WALL, "wall").success
+    answer = gazebo.spawn(_mast(sensors, plugin), "mast")
+    assert answer.success, answer.status_message
+    gazebo.call("unpause_physics")
+
+
+def _first(gazebo: Gazebo, topic: str, kind: str) -> Any:
+    heard = gazebo.hear(topic, kind)
+    until(lambda: heard)
+    return heard[-1]
+
+
+@pytest.mark.parametrize("plugin", ["laser", "gpu_laser"])
+def test_a_laser_scans_on_its_topic_in_its_frame(gazebo: Gazebo, plugin: str) -> None:
+    kind = "gpu_ray" if plugin == "gpu_laser" else "ray"
+    parameters = "<topicName>/bot/scan</topicName><frameName>/hokuyo_link</frameName>"
+    _seeing(gazebo, _sensor(kind, _RAYS, plugin, parameters))
+    scan = _first(gazebo, "/bot/scan", "sensor_msgs/LaserScan")
+
+    assert scan.header.frame_id == "hokuyo_link"
+    assert len(scan.ranges) == 5
+    assert scan.ranges[2] == pytest.approx(2.0, abs=1e-3)
+    topics = dict(gazebo.loop.run(gazebo.client.master.call("getTopicTypes")))
+    assert "/mast/head/eye/scan" not in topics  # the plugin's topic takes its place
+
+
+def test_without_a_plugin_a_sensor_hangs_in_the_tree_of_its_urdf(gazebo: Gazebo) -> None:
+    """The sensor is on a lumped link, whose frame only robot_state_publisher sends."""
+    inertia = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    joint = '<joint name="j" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0 0 1"/></joint>'
+    sensor = '<gazebo reference="mast"><sensor name="mast" type="imu"><always_on>1</always_on></sensor></gazebo>'
+    gazebo.spawn(f'<robot name="bot"><link name="base">{inertia}</link><link name="mast"/>{joint}{sensor}</robot>', "b")
+    gazebo.call("unpause_physics")
+    imu = _first(gazebo, "/b/base/mast/imu", "sensor_msgs/Imu")
+    (placed,) = _first(gazebo, "/tf_static", "tf2_msgs/TFMessage").transforms
+
+    assert imu.header.frame_id == placed.child_frame_id == "mast_sensor"
+    assert placed.header.frame_id == "base"
+    assert placed.transform.translation.z == pytest.approx(1.0)
+
+
+def test_points_of_velodynes_and_of_files_for_ros_2(gazebo: Gazebo) -> None:
+    ros = "<ros><namespace>/lidar</namespace><remapping>~/out:=cloud</remapping></ros>"
+    sensors = _sensor("ray", _RAYS, "velodyne_laser", "<topicName>/velodyne</topicName><frameName>v</frameName>")
+    sensors += _sensor("ray", _RAYS, "ray_sensor", f"{ros}<frame_name>f</frame_name>", name="second")
+    _seeing(gazebo, sensors)
+    for topic, frame in (("/velodyne", "v"), ("/lidar/cloud", "f")):
+        cloud = _first(gazebo, topic, "sensor_msgs/PointCloud2")
+        assert (cloud.header.frame_id, cloud.width) == (frame, 5)
+
+
+def test_a_sonar_tells_the_nearest(gazebo: Gazebo) -> None:
+    parameters = "<topicName>sonar</topicName><frameName>sonar_link</frameName><fov>0.4</fov>"
+    _seeing(gazebo, _sensor("ray", _RAYS, "range", f"{parameters}<radiation>infrared</radiation>"))
+    told = _first(gazebo, "/sonar", "sensor_msgs/Range")
+
+    assert told.range == pytest.approx(2.0, abs=1e-3)
+    assert (told.radiation_type, told.header.frame_id) == (1, "sonar_link")
+    assert told.field_of_view == pytest.approx(0.4)
+    assert (told.min_range, told.max_range) == (pytest.approx(0.1), pytest.approx(10.0))
+
+
+def test_a_camera_is_where_its_plugin_says(gazebo: Gazebo) -> None:
+    parameters = """<robotNamespace>r</robotNamespace><cameraName>front</cameraName><frameName>camera_link</frameName>
+<imageTopicName>image_raw</imageTopicName><hackBaseline>0.07</hackBaseline><distortionK1>0.01</distortionK1>"""
+    _seeing(gazebo, _sensor("camera", _CAMERA, "camera", parameters))
+    image = _first(gazebo, "/r/front/image_raw", "sensor_msgs/Image")
+    info = _first(gazebo, "/r/front/camera_info", "sensor_msgs/CameraInfo")
+
+    assert (image.width, image.height, image.encoding) == (32, 24, "rgb8")
+    assert image.header.frame_id == info.header.frame_id == "camera_link"
+    focal = 16 / math.tan(0.5)
+    assert info.K[0] == pytest.approx(focal)
+    assert info.P[3] == pytest.approx(-0.07 * focal)
+    assert list(info.D) == pytest.approx([0.01, 0, 0, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("sensor", "trigger", "kind", "pictures"),
+    [
+        (_CAMERA.replace("<camera>", "<camera><triggered>1</triggered>"), "/mast/head/eye/trigger", "Bool", None),
+        (_CAMERA, "/front/image_trigger", "Empty", "/front/image_raw"),
+    ],
+    ids=["sdf", "plugin"],
+)
+def test_a_triggered_camera_waits_to_be_told(
+    gazebo: Gazebo, sensor: str, trigger: str, kind: str, pictures: str | None
+) -> None:
+    """The camera runs, as its neighbour shows, and takes one image for one trigger."""
+    if pictures is None:
+        eye = f'<sensor name="eye" type="camera"><update_rate>50</update_rate>{sensor}</sensor>'
+    else:
+        eye = _sensor("camera", sensor, "triggered_camera", "<cameraName>front</cameraName>")
+    _seeing(gazebo, eye + f'<sensor name="other" type="camera"><update_rate>50</update_rate>{_CAMERA}</sensor>')
+    told = gazebo.client.advertise(trigger, f"std_msgs/{kind}")
+    heard = gazebo.hear(pictures or "/mast/head/eye/image_raw", "sensor_msgs/Image")
+    others = gazebo.hear("/mast/head/other/image_raw", "sensor_msgs/Image")
+    until(lambda: told.has_subscribers and len(others) > 5)
+    assert not heard
+    told.publish({"data": True} if kind == "Bool" else {})
+    until(lambda: heard)
+    seen = len(others)
+    until(lambda: len(others) > seen + 5)
+    assert len(heard) == 1
+
+
+def test_a_kinect_sees_depths_and_points_within_its_reach(gazebo: Gazebo) -> None:
+    parameters = (
+        "<cameraName>kinect</cameraName><frameName>optical</frameName><pointCloudCutoffMax>2.05</pointCloudCutoffMax>"
+    )
+    _seeing(gazebo, _sensor("depth", _CAMERA, "openni_kinect", parameters))
+    depths = _first(gazebo, "/kinect/depth/image_raw", "sensor_msgs/Image")
+    cloud = _first(gazebo, "/kinect/points", "sensor_msgs/PointCloud2")
+
+    assert (depths.encoding, depths.header.frame_id) == ("32FC1", "optical")
+    values = memoryview(bytes(depths.data)).cast("f")
+    assert values[12 * 32 + 16] == pytest.approx(2.0, abs=1e-3)
+    assert math.isnan(values[0]) or values[0] <= 2.05
+    assert (cloud.width, cloud.height) == (32, 24)
+
+
+def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
+    parameters = "<topicName>imu</topicName><frameName>imu_link</frameName><updateRateHZ>20</updateRateHZ>"
+    parameters += "<gaussianNoise>0.01</gaussianNoise><xyzOffset>0 0 0</xyzOffset><rpyOffset>0 0 1</rpyOffset>"
+    _seeing(gazebo, _sensor("imu", "", "imu_sensor", parameters))
+    heard = gazebo.hear("/imu", "sensor_msgs/Imu")
+    until(lambda: len(heard) > 5)
+
+    stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for m in heard]
+    assert min(b - a for a, b in pairwise(stamps[1:])) > 0.035  # the sensor has 50 Hz
+    assert heard[-1].linear_acceleration.z == pytest.approx(9.8, abs=0.2)
+    assert heard[-1].orientation_covariance[0] == pytest.approx(1e-4)
+    assert heard[-1].header.frame_id == "imu_link"
+    assert [w.rpartition(": ")[2] for w in gazebo.report.warnings if "Offset" in w] == ["<rpyOffset> is not supported"]
+
+
+def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:
+    contact = "<contact><collision>c</collision></contact>"
+    bumper = _sensor("contact", contact, "bumper", "<bumperTopicName>bumps</bumperTopicName>")
+    ball = f"""<sdf version="1.6"><model name="ball"><pose>0 0 0.1 0 0 0</pose><link name="l">
+<inertial><mass>1</mass>{_INERTIA}</inertial><collision name="c"><geometry><sphere><radius>0.1</radius></sphere>
+</geometry></collision>{bumper}</link></model></sdf>"""
+    assert gazebo.spawn(ball, "ball").success
+    gazebo.call("unpause_physics")
+    heard = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
+    until(lambda: any(message.states for message in heard))
+    state = next(message for message in heard if message.states).states[0]
+    assert "ball" in state.collision1_name
+    assert "ground_plane" in state.collision2_name
+
+
+def test_a_joint_tells_what_it_carries(gazebo: Gazebo) -> None:
+    """The head weighs 2 kg: it pulls the world down with 19.6 N."""
+    parameters = "<jointName>fix</jointName><topicName>ft</topicName>"
+    plugin = f'<plugin name="ft" filename="libgazebo_ros_ft_sensor.so">{parameters}</plugin>'
+    _seeing(gazebo, "", plugin)
+    told = _first(gazebo, "/ft", "geometry_msgs/WrenchStamped")
+    assert told.wrench.force.z == pytest.approx(-19.6, rel=1e-3)
+    assert told.header.frame_id == "head"
+
+
+def test_sensors_go_on_when_other_models_come_and_what_is_unknown_is_named(gazebo: Gazebo) -> None:
+    sensors = _sensor("ray", _RAYS, "laser", "<topicName>scan</topicName>")
+    sensors += _sensor("ray", _RAYS, "sparkle", "", name="other")
+    sensors += _sensor("imu", "", "laser", "", name="wrong")
+    _seeing(gazebo, sensors)
+    heard = gazebo.hear("/scan", "sensor_msgs/LaserScan")
+    until(lambda: heard)
+    gazebo.spawn(_WALL.replace("2.5 0 1", "1.5 0 1"), "nearer")
+    until(lambda: heard[-1].ranges[2] == pytest.approx(1.0, abs=1e-3))
+
+    warnings = "\n".join(gazebo.report.warnings)
+    assert "plugin libgazebo_ros_sparkle.so is not supported yet; the sensor has topics without" in warnings
+    assert "sensor 'wrong' is of type imu; a ray sensor is needed" in warnings
