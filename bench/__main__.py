@@ -1,4 +1,4 @@
-"""`make bench`: every benchmark of the house in one run, as ratios against a peer of the same run."""
+"""`make bench`: every benchmark in one run, as ratios against a peer of the same run."""
 
 import importlib
 import sys

@@ -1,7 +1,7 @@
-"""What `trundle check` and `trundle xacro` cost, whole processes, against the tools that people have.
+"""CPU time of `trundle check` and `trundle xacro`, whole processes, against ROS' tools.
 
-The peer that expands the smartcar at all is the xacro of ROS 1, 1.13.3: it calls macros without their prefix, as the
-file does. It needs Debian's python3-roslaunch and is installed for the run. Today's xacro, of Trundle's own
+The only peer that expands the smartcar is the xacro of ROS 1, 1.13.3: it allows macro calls without prefix, as the
+file has them. It needs Debian's python3-roslaunch and is installed for the run. Today's xacro, of Trundle's own
 environment, leaves those calls as they are, and check_urdf then finds no robot: it does less, and is shown as such.
 """
 
@@ -30,7 +30,7 @@ _NOT_IN_THE_COLLECTION = (
     "lms1xx/urdf/sick_lms1xx.urdf.xacro",
     "velodyne_description/urdf/VLP-16.urdf.xacro",
 )
-"""What the Husky includes for parts that it does not carry by default."""
+"""Includes of the Husky for parts that it does not carry by default."""
 _AMENT = """class PackageNotFoundError(KeyError): pass
 def get_package_share_directory(name):
     return {0!r}[name]
@@ -38,7 +38,7 @@ def get_package_share_directory(name):
 
 
 def run() -> list[Row]:
-    """Processor time of whole processes by turns in one run; a peer that cannot be had is left out."""
+    """Measure CPU time of whole processes, alternating, in one run; a peer that cannot be installed is left out."""
     if not HUSKY.is_dir():
         return []
     with tempfile.TemporaryDirectory() as name:
@@ -74,7 +74,7 @@ def _workspace(folder: Path) -> tuple[Path, Path]:
 
 
 def _ament(folder: Path) -> Path:
-    """What today's xacro asks for packages."""
+    """Environment in which today's xacro finds the packages."""
     package = folder / "ament/ament_index_python"
     package.mkdir(parents=True)
     (package / "__init__.py").touch()
@@ -84,7 +84,7 @@ def _ament(folder: Path) -> Path:
 
 
 def _xacros(folder: Path) -> list[tuple[str, str]]:
-    """Every xacro there is or can be had: its command and its name."""
+    """Yield command and name of every xacro that is installed or can be."""
     found: list[tuple[str, str]] = []
     if today := shutil.which("xacro", path=str(Path(sys.executable).parent)):
         found.append((today, "xacro of today"))
@@ -108,7 +108,7 @@ def _compared(
 
 
 def _seconds(commands: Sequence[Sequence[str]], env: dict[str, str]) -> float:
-    """Processor time, which other work on the machine disturbs less than the clock on the wall."""
+    """CPU time [s], which other processes disturb less than wall time."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     for command in commands:
         subprocess.run(command, env=env, capture_output=True, check=False)

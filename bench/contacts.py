@@ -1,4 +1,4 @@
-"""Worlds whose contacts follow laws that MuJoCo lacks, or are many: the simulation beside a plain loop of `mj_step`.
+"""Worlds with many contacts, or with contact laws that MuJoCo lacks: the simulation beside a loop of `mj_step`.
 
 The loop steps the same bodies with the same options, without those laws, from where the simulation is. Times are of
 this process' CPU. Figures of Gazebo 11, for reading, are of another run.
@@ -31,9 +31,9 @@ class _Scene:
     models: str
     steps: int
     gazebo: float
-    """[steps/s] Of Gazebo 11.1 on two cores."""
+    """Rate of Gazebo 11.1 on two cores [steps/s]."""
     wheels: int = 0
-    """Driven ones of model `m0`."""
+    """Number of driven wheels of model `m0`."""
 
 
 def run() -> list[Row]:

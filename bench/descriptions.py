@@ -1,4 +1,4 @@
-"""How fast descriptions are read, in processor time of one process each, against the tools that people have."""
+"""CPU time of reading descriptions, one process each, against other readers."""
 
 import os
 import statistics
@@ -24,11 +24,11 @@ _OF_THE_MODELS = 6
 """The peer reads every sixth file of the database: all of them take it half a minute."""
 
 Reader: TypeAlias = Callable[[Sequence[Path]], float]
-"""Reads files, and says how many seconds of CPU that took."""
+"""Reads files; returns the CPU time [s]."""
 
 
 def run() -> list[Row]:
-    """Ours and theirs by turns in one run; a peer that cannot be had is left out."""
+    """Measure readers in alternation; a peer that cannot be installed is left out."""
     if not MODELS.is_dir():
         return []
     with tempfile.TemporaryDirectory() as name:
@@ -45,7 +45,7 @@ def _sdf(folder: Path) -> Row:
 
 
 def _urdf(folder: Path) -> Row:
-    """Every URDF of the collection that needs no expansion; both resolve where every link is.
+    """Every URDF of the collection that needs no expansion; both compute the pose of every link.
 
     yourdfpy reads less: links, joints and materials, but no sensors, plugins and surfaces of <gazebo> and no
     <transmission>; it looks for no files, and names nothing that it does not know.
@@ -91,7 +91,7 @@ def _yourdfpy(folder: Path) -> Reader | None:
 
 
 def _program(command: list[str], variables: dict[str, str]) -> Reader:
-    """One that takes the names of files and prints the time that they took."""
+    """Reader that runs a program on the files' names and reads the time from its output."""
 
     def read(files: Sequence[Path]) -> float:
         names = "\n".join(map(str, files))
@@ -103,6 +103,6 @@ def _program(command: list[str], variables: dict[str, str]) -> Reader:
 
 
 def _by_turns(ours: Reader, theirs: Reader | None, shares: Sequence[Sequence[Path]]) -> float | None:
-    """The median of their time over ours, share by share: how many times faster ours is."""
+    """Median over shares of their time over ours."""
     ours(shares[0])  # loads what is loaded on first use
     return None if theirs is None else statistics.median(theirs(share) / ours(share) for share in shares)

@@ -26,7 +26,7 @@ _THEIRS = [_DEBIANS, "-W", "ignore", str(_END), "rospy"]
 
 
 def run() -> list[Row]:
-    """Pairs of processes, of one interpreter if may be; without Debian's rospy there are no ratios."""
+    """Run pairs of processes, of one interpreter if possible; without Debian's rospy there are no ratios."""
     return [
         _row("Twist, flat out", "messages/s", lambda end, _: _rate(end, _TWIST, 30_000)),
         _row("Twist in one process", "messages/s", lambda end, own: _rate(end, _TWIST, 30_000, one=own)),
@@ -38,7 +38,7 @@ def run() -> list[Row]:
 
 @contextmanager
 def _fresh_master() -> Generator[dict[str, str]]:
-    """A master that knows nobody yet; yields the environment of its nodes."""
+    """Start a fresh master; yield the environment of its nodes."""
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
@@ -49,7 +49,7 @@ def _fresh_master() -> Generator[dict[str, str]]:
 
 @cache
 def _ours() -> list[str]:
-    """Our end, on rospy's interpreter if that is of our version: libraries are compared, not builds of Python."""
+    """Trundle's end, on rospy's interpreter if of the same version: libraries are compared, not builds of Python."""
     if Path(_DEBIANS).exists():
         asked = [_DEBIANS, "-c", "import sys; print(list(sys.version_info[:2]))"]
         if json.loads(subprocess.run(asked, check=True, capture_output=True).stdout) == _VERSION:
@@ -58,7 +58,7 @@ def _ours() -> list[str]:
 
 
 def _row(name: str, unit: str, measure: Callable[[Sequence[str], bool], float], *, against: str = "rospy") -> Row:
-    """Measure both in turns, if the original is here."""
+    """Measure both in alternation, if rospy is installed."""
     if not Path(_ROSTOPIC).exists():
         return Row(name, statistics.median(measure(_ours(), True) for _ in range(_RUNS)), unit, "", None)
     pairs = [(measure(_ours(), True), measure(_THEIRS, False)) for _ in range(_RUNS)]
@@ -67,7 +67,7 @@ def _row(name: str, unit: str, measure: Callable[[Sequence[str], bool], float], 
 
 
 def _rate(end: Sequence[str], kind: str, count: int, *, one: bool = False) -> float:
-    """From the first message's sending to the last one's coming [messages/s]."""
+    """Rate from sending the first message to receiving the last [messages/s]."""
     if one:
         both = _ends(end, ["both"], kind, count, 0)[0]
         return count / (both["end"] - both["start"])
@@ -76,13 +76,13 @@ def _rate(end: Sequence[str], kind: str, count: int, *, one: bool = False) -> fl
 
 
 def _age(end: Sequence[str]) -> float:
-    """99 in 100 messages, sent a thousand times a second, are younger than this when they come [ms]."""
+    """99th percentile of message ages at 1 kHz [ms]."""
     ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000)[0]["ages"])
     return ages[len(ages) * 99 // 100] * 1e3
 
 
 def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict[str, Any]]:
-    """Run one process for each role; what each says."""
+    """Run one process for each role; return their outputs."""
     with _fresh_master() as env, ExitStack() as processes:
         started = [
             processes.enter_context(

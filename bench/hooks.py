@@ -89,7 +89,7 @@ def _robot_with_lidar() -> Simulation:
 
 
 def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
-    """An arm on its way along a trajectory, as a launch file would have it."""
+    """Arm that follows a trajectory, set up as by a launch file."""
     links = "".join(_LINK.format(name=f"l{i}") for i in range(len(_JOINTS) + 1))
     joints = "".join(_JOINT.format(i=i, next=i + 1, axis="0 1 0" if i % 2 else "0 0 1") for i in range(len(_JOINTS)))
     plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin>'
@@ -127,7 +127,7 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
 
 
 def _stepped(sim: Simulation, future: Future[Any]) -> Any:
-    """Step until something on the graph has come about."""
+    """Step until a condition on the graph holds."""
     while not future.done():
         sim.step(1)
         time.sleep(0.001)

@@ -1,4 +1,4 @@
-"""How long it takes to read a large launch file: `trundle launch --nodes` against `roslaunch --nodes`."""
+"""Time to read a large launch file: `trundle launch --nodes` against `roslaunch --nodes`."""
 
 import gzip
 import json
@@ -55,7 +55,7 @@ def _largest() -> list[dict[str, Any]]:
 
 
 def _timed(command: Sequence[str], env: dict[str, str]) -> tuple[float, str | None]:
-    """From start to exit [s], and what it printed; None where it failed."""
+    """Wall time from start to exit [s], and the output; None: it failed."""
     start = time.perf_counter()
     done = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
     return time.perf_counter() - start, done.stdout if done.returncode == 0 else None

@@ -22,9 +22,9 @@ _TOPICS, _LISTENERS, _RATE_HZ = 200, 50, 100.0
 _NEWCOMERS_HZ = 5.0
 _PATIENCE_S = 60.0
 _LOOKS = 20
-"""So often it is said how it goes, and memory is looked at."""
+"""Number of progress lines and memory readings."""
 _SETTLED = 4
-"""Looks until everything that is made once has been made; what memory grows by from there on counts."""
+"""Readings until all that is allocated once is; growth counts from there."""
 MAX_GROWN_MB = 10.0
 _LATE_MS = 100
 """Ten ticks of /clock."""
@@ -33,7 +33,7 @@ _TWIST, _STRING = "geometry_msgs/Twist", "std_msgs/String"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Report:
-    """What came of it."""
+    """Result of the run."""
 
     published: int
     received: int
@@ -46,18 +46,18 @@ class Report:
     clock_late: int
     """Clock messages older than ten ticks."""
     publishing_mb: list[float]
-    """Memory of the publishing process, look by look."""
+    """Memory of the publishing process at each reading [MB]."""
     listening_mb: list[float]
 
     @property
     def grown_mb(self) -> dict[str, float]:
-        """What either process has grown by since it was settled."""
+        """Growth of either process since `_SETTLED` [MB]."""
         looks = {"publishing": self.publishing_mb, "listening": self.listening_mb}
         return {name: mb[-1] - mb[min(_SETTLED, len(mb)) - 1] for name, mb in looks.items()}
 
     @property
     def faults(self) -> list[str]:
-        """What is not well, but for a /clock that a busy machine makes late."""
+        """Faults, except a late /clock, which a busy machine causes."""
         grown = [f"the {name} process grew by {mb:.0f} MB" for name, mb in self.grown_mb.items() if mb > MAX_GROWN_MB]
         missed = [f"{self.missed_latched} newcomers missed the latched message"] if self.missed_latched else []
         back = [f"/clock went back {self.clock_backwards} times"] if self.clock_backwards else []
@@ -103,7 +103,7 @@ def run_load(seconds: float) -> Report:
 
 
 def _ask(process: "subprocess.Popen[str]") -> dict[str, Any]:
-    """What the listening process has heard so far."""
+    """Counts of the listening process so far."""
     assert process.stdin is not None
     assert process.stdout is not None
     process.stdin.write("\n")
@@ -119,13 +119,13 @@ def _progress(elapsed_s: float, rounds: int, resident: list[float], heard: dict[
 
 
 class _Ears:
-    """Fifty nodes that listen, and newcomers."""
+    """Fifty subscribing nodes, and newcomers."""
 
     def __init__(self, loop: GraphLoop, uri: str) -> None:
         self._loop, self._uri = loop, uri
         self._counts: Counter[str] = Counter()
         self._ages: Counter[int] = Counter()
-        """Age of /clock [ms] → how often."""
+        """Age of /clock [ms] → count."""
         self._latest = 0
         self._resident: list[float] = []
         for i in range(_LISTENERS):
@@ -159,7 +159,7 @@ class _Ears:
             await asyncio.sleep(1 / _NEWCOMERS_HZ)
 
     def heard(self) -> dict[str, Any]:
-        """All counts, and how memory went."""
+        """All counts, and the memory."""
         self._resident.append(_resident_mb())
         ages = sorted(self._ages.elements()) or [0]
         counts = {name: self._counts[name] for name in ("received", "newcomers", "missed_latched", "clock_backwards")}

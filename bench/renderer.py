@@ -117,7 +117,7 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
 
 
 def _many_cameras() -> list[Row]:
-    """Instants a second at which 12, then 24 cameras of 160x120 look; twice as many should cost twice as much."""
+    """Rate of frames of 12, then of 24 cameras of 160x120 [1/s]; twice as many should cost twice as much."""
     scene = scenes.with_shadows(scenes.primitives())
     renderer = NativeRenderer(scene)
 
@@ -130,7 +130,7 @@ def _many_cameras() -> list[Row]:
 
 
 def _rp2w() -> Row:
-    """Simulated seconds a CPU second, both cameras at 30 Hz."""
+    """Simulated seconds per CPU second, both cameras at 30 Hz."""
     sim = trundle.load(str(ROBOT))
     cameras = mount_cameras(sim, NativeRenderer)
     for camera in cameras:

@@ -33,7 +33,7 @@ class OverTrundle:
         self._node = Node(f"bench_{role}", loop=self._loop, rosout=False)
 
     def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
-        """A function that publishes a message with a number in it, and one that tells whether anybody hears it."""
+        """Return functions that publish a message with a number, and check for a subscriber."""
         publisher = self._node.advertise("/bench", kind, queue_size=None)
         new = self._node.new
         if kind == "sensor_msgs/Image":
@@ -61,14 +61,14 @@ class OverTrundle:
 
 
 class OverRospy:
-    """The original's."""
+    """rospy."""
 
     def __init__(self, role: str) -> None:
         self._rospy: Any = import_module("rospy")
         self._rospy.init_node(f"bench_{role}", disable_signals=True, disable_rosout=True)
 
     def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
-        """A function that publishes a message with a number in it, and one that tells whether anybody hears it."""
+        """Return functions that publish a message with a number, and check for a subscriber."""
         cls = _rospy_type(kind)
         publisher = self._rospy.Publisher("/bench", cls, queue_size=0)
 
@@ -96,7 +96,7 @@ def _rospy_type(kind: str) -> Any:
 
 
 def main() -> None:
-    """Be the end, or both, that the command line says."""
+    """Run the ends that the command line names."""
     library, role, kind, count, rate_hz = sys.argv[1:]
     end = {"trundle": OverTrundle, "rospy": OverRospy}[library](role)
     total, period_s = int(count), 1 / float(rate_hz) if float(rate_hz) else 0.0
@@ -115,7 +115,7 @@ def main() -> None:
         publish, is_heard = end.publisher(kind)
         while not is_heard():
             time.sleep(0.01)
-        publish(time.monotonic())  # the first one finds everything cold
+        publish(time.monotonic())  # the first one warms up
         time.sleep(_WARM_S)
         said["start"] = due = time.monotonic()
         for _ in range(total):
@@ -127,7 +127,7 @@ def main() -> None:
         done.wait()
         said |= {"end": time.monotonic(), "ages": ages[1:] if period_s else []}
     print(json.dumps(said), flush=True)
-    sys.stdin.read()  # stay until whoever started this has what it wants
+    sys.stdin.read()  # stay until the parent process has its result
 
 
 if __name__ == "__main__":

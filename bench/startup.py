@@ -1,4 +1,4 @@
-"""How long a user waits: from the command to the first step, and to the car's first odometry."""
+"""Startup: wall time from the command to the first step, and to the car's first odometry."""
 
 import os
 import statistics

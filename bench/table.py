@@ -12,7 +12,7 @@ class Row:
     value: float
     unit: str
     against: str
-    """The peer, measured in the same run; empty where there is none."""
+    """Peer, measured in the same run; empty: none."""
     ratio: float | None
     """Median of value over the peer's, pair by pair."""
 

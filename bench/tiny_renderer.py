@@ -15,7 +15,7 @@ from trundle.render import Intrinsics, Scene, Shape
 from trundle.spatial import Pose
 
 _GROUND_M = 20.0
-"""As far as a plane reaches; TinyRenderer draws triangles only."""
+"""Half size of a plane; TinyRenderer draws triangles only [m]."""
 
 
 class TinyRenderer:
@@ -34,7 +34,7 @@ class TinyRenderer:
         self._bodies = [(shape.body, self._body(shape)) for shape in scene.shapes]
 
     def update(self, poses: NDArray[np.float64]) -> None:
-        """Put everything where it is."""
+        """Set the poses."""
         for body, number in self._bodies:
             x, y, z, qw, qx, qy, qz = poses[body].tolist()
             self._bullet.resetBasePositionAndOrientation(
@@ -42,7 +42,7 @@ class TinyRenderer:
             )
 
     def render(self, views: Sequence[tuple[Pose, Intrinsics]]) -> None:
-        """Draw what cameras see."""
+        """Render the cameras' images."""
         bullet = self._bullet
         for eye, lens in views:
             ahead, up = eye.transform_vector((1.0, 0.0, 0.0)), eye.transform_vector((0.0, 0.0, 1.0))
@@ -60,7 +60,7 @@ class TinyRenderer:
             )
 
     def close(self) -> None:
-        """Let go of it."""
+        """Free the renderer."""
         self._bullet.disconnect(self._client)
 
     def _body(self, shape: Shape) -> int:

@@ -1,8 +1,8 @@
-"""Turns the joints of the worlds in this folder: what a controller or a ROS node does for a robot.
+"""Drives the joints of the worlds in this folder, as a controller or a ROS node would.
 
 Each <motor> of <plugin filename="libmotors.so"> has the name of a <joint>, and any of <speed> [rad/s or m/s], which a
-motor keeps from then on, <effort> [N·m or N], the most that it may use, and <start> [rad/s or m/s], a speed that the
-joint is let go with. The physics engine does the rest: nothing here runs while the world does.
+motor keeps, <effort> [N·m or N], its limit, and <start> [rad/s or m/s], the joint's initial speed. The physics engine
+does the rest: nothing here runs at a step.
 """
 
 import math
@@ -15,7 +15,7 @@ from trundle.simulation import ModelHandle, Simulation
 
 
 class Motors(Plugin):
-    """Joints that begin at a speed or are kept at one."""
+    """Joints with an initial speed, or kept at one."""
 
     period_ns = 1 << 62  # never again
 
@@ -28,7 +28,7 @@ class Motors(Plugin):
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> "Motors":
-        del node  # nobody commands them
+        del node  # they take no commands
         return cls(sim, model, tag)
 
     def reset(self) -> None:

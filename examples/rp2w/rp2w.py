@@ -1,10 +1,10 @@
-"""Drives the RP2W telepresence robot: the plugin that `librp2w.so` was, and the worked example of a plugin.
+"""Drives the RP2W telepresence robot: replaces `librp2w.so`, and serves as the example of a plugin.
 
 Copy this file beside your own model.sdf; the model's <plugin filename="…/librp2w.so"> then loads it.
 
     /cmd_vel       geometry_msgs/Twist     linear.x [m/s] forwards, angular.z [rad/s] to the left
-    /camera/pan    std_msgs/Float64        where the camera base turns to [rad], positive to the left
-    /camera/tilt   std_msgs/Float64        where the camera tilts to [rad], positive is up
+    /camera/pan    std_msgs/Float64        angle of the camera base [rad], positive to the left
+    /camera/tilt   std_msgs/Float64        angle of the camera's tilt [rad], positive is up
     /odom          nav_msgs/Odometry       from the wheels; also tf world → odom → base_footprint
     /joint_states  sensor_msgs/JointState  every joint
 
@@ -66,7 +66,7 @@ class Rp2w(Plugin):
         self.look(self.tilt, 0.0)
 
     def join(self, node: "ros.Node", sim: Simulation, model: ModelHandle) -> None:
-        """Speak and listen on the ROS graph; callbacks run between two steps."""
+        """Advertise and subscribe; callbacks run between two steps."""
         self.odom = node.advertise("/odom", "nav_msgs/Odometry", queue_size=5)
         self.tf = ros.TransformBroadcaster(node)
         x_forward = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
