@@ -111,7 +111,7 @@ def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
     mujoco.mj_forward(model, data)
     geoms, far = np.empty(len(ways), dtype=np.int32), np.empty(len(ways))
     flat, origin = ways.reshape(-1), np.array(eye.position)
-    rate = _rate(lambda: ours.cast(eye, ways, reach_m=30.0))
+    rate = _rate(lambda: ours.cast(eye, ways, max_range_m=30.0))
     peer = _rate(lambda: mujoco.mj_multiRay(model, data, origin, flat, None, 1, -1, geoms, far, None, len(ways), 30.0))
     return Row(name, rate, "scans/s", "mj_multiRay", rate / peer)
 

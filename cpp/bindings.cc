@@ -1,4 +1,4 @@
-// The Python module; the only file that knows nanobind.
+// The Python module `_native`; the only file of the renderer that includes nanobind.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -17,24 +17,24 @@ using Array = nb::ndarray<Number, nb::numpy, nb::c_contig, nb::device::cpu, Shap
 
 using Colour = std::array<float, 3>;
 
-Frame frame_of(const std::array<double, 7>& pose, const char* whose) {
-  const auto frame = Frame::of(pose.data());
-  if (!frame) throw std::invalid_argument(std::string("the pose of ") + whose + " is not of finite numbers");
-  return *frame;
+Transform transform_of(const std::array<double, 7>& pose, const char* owner) {
+  const auto transform = Transform::from_pose(pose.data());
+  if (!transform) throw std::invalid_argument(std::string("the pose of ") + owner + " is not finite");
+  return *transform;
 }
 
 }  // namespace
 
 NB_MODULE(_native, module) {
-  nb::set_leak_warnings(false);  // of renderers that are in use when a program ends: their memory goes with it
-  nb::enum_<Kind>(module, "Kind")
-      .value("PLANE", Kind::kPlane)
-      .value("BOX", Kind::kBox)
-      .value("SPHERE", Kind::kSphere)
-      .value("CYLINDER", Kind::kCylinder)
-      .value("CAPSULE", Kind::kCapsule)
-      .value("ELLIPSOID", Kind::kEllipsoid)
-      .value("MESH", Kind::kMesh);
+  nb::set_leak_warnings(false);  // renderers alive at exit are freed with the process
+  nb::enum_<ShapeKind>(module, "ShapeKind")
+      .value("PLANE", ShapeKind::kPlane)
+      .value("BOX", ShapeKind::kBox)
+      .value("SPHERE", ShapeKind::kSphere)
+      .value("CYLINDER", ShapeKind::kCylinder)
+      .value("CAPSULE", ShapeKind::kCapsule)
+      .value("ELLIPSOID", ShapeKind::kEllipsoid)
+      .value("MESH", ShapeKind::kMesh);
 
   nb::enum_<LightKind>(module, "LightKind")
       .value("DIRECTIONAL", LightKind::kDirectional)
@@ -47,19 +47,20 @@ NB_MODULE(_native, module) {
       .value("EXPONENTIAL", FogKind::kExponential)
       .value("SQUARED", FogKind::kSquared);
 
-  nb::class_<Mesh>(module, "Mesh").def(
-      "__init__",
-      [](Mesh* self, Array<const float, nb::shape<-1, 3>> vertices, Array<const int32_t, nb::shape<-1, 3>> faces,
-         std::optional<Array<const float, nb::shape<-1, 3, 2>>> uv,
-         std::optional<Array<const float, nb::shape<-1, 3, 3>>> normals) {
-        const auto numbers = [](const auto& array) {
-          return array ? std::vector<float>(array->data(), array->data() + array->size()) : std::vector<float>();
-        };
-        new (self) Mesh(make_mesh({vertices.data(), vertices.data() + vertices.size()},
-                                  {faces.data(), faces.data() + faces.size()}, numbers(uv), numbers(normals)));
-      },
-      nb::arg("vertices"), nb::arg("faces"), nb::kw_only(), nb::arg("uv") = nb::none(),
-      nb::arg("normals") = nb::none());
+  nb::class_<Mesh>(module, "Mesh")
+      .def(
+          "__init__",
+          [](Mesh* self, Array<const float, nb::shape<-1, 3>> vertices, Array<const int32_t, nb::shape<-1, 3>> faces,
+             std::optional<Array<const float, nb::shape<-1, 3, 2>>> uv,
+             std::optional<Array<const float, nb::shape<-1, 3, 3>>> normals) {
+            const auto numbers = [](const auto& array) {
+              return array ? std::vector<float>(array->data(), array->data() + array->size()) : std::vector<float>();
+            };
+            new (self) Mesh(make_mesh({vertices.data(), vertices.data() + vertices.size()},
+                                      {faces.data(), faces.data() + faces.size()}, numbers(uv), numbers(normals)));
+          },
+          nb::arg("vertices"), nb::arg("faces"), nb::kw_only(), nb::arg("uv") = nb::none(),
+          nb::arg("normals") = nb::none());
 
   nb::class_<Image>(module, "Texture")
       .def(
@@ -71,13 +72,12 @@ NB_MODULE(_native, module) {
           },
           nb::arg("rgb"));
 
-  nb::class_<LookSpec>(module, "Look")
+  nb::class_<MaterialSpec>(module, "Material")
       .def(
           "__init__",
-          [](LookSpec* self, Colour ambient, Colour diffuse, Colour specular, Colour emissive, float shininess,
-             float opacity, int32_t texture,
-             std::array<float, 2> repeat) {
-            new (self) LookSpec{ambient, diffuse, specular, emissive, shininess, opacity, texture, repeat};
+          [](MaterialSpec* self, Colour ambient, Colour diffuse, Colour specular, Colour emissive, float shininess,
+             float opacity, int32_t texture, std::array<float, 2> repeat) {
+            new (self) MaterialSpec{ambient, diffuse, specular, emissive, shininess, opacity, texture, repeat};
           },
           nb::kw_only(), nb::arg("ambient"), nb::arg("diffuse"), nb::arg("specular"), nb::arg("emissive"),
           nb::arg("shininess"), nb::arg("opacity"), nb::arg("texture") = -1,
@@ -86,12 +86,13 @@ NB_MODULE(_native, module) {
   nb::class_<ShapeSpec>(module, "Shape")
       .def(
           "__init__",
-          [](ShapeSpec* self, Kind kind, int32_t body, int32_t mesh, Vec3 size,
-             std::array<double, 7> body_from_shape, LookSpec look, bool casts_shadow) {
-            new (self) ShapeSpec{kind, body, mesh, size, frame_of(body_from_shape, "a shape"), look, casts_shadow};
+          [](ShapeSpec* self, ShapeKind kind, int32_t body, int32_t mesh, Vec3 size,
+             std::array<double, 7> body_from_shape, MaterialSpec material, bool casts_shadow) {
+            new (self)
+                ShapeSpec{kind, body, mesh, size, transform_of(body_from_shape, "a shape"), material, casts_shadow};
           },
           nb::arg("kind"), nb::kw_only(), nb::arg("body"), nb::arg("mesh") = -1, nb::arg("size"),
-          nb::arg("body_from_shape"), nb::arg("look"), nb::arg("casts_shadow") = true);
+          nb::arg("body_from_shape"), nb::arg("material"), nb::arg("casts_shadow") = true);
 
   nb::class_<LightSpec>(module, "Light")
       .def(
@@ -99,8 +100,9 @@ NB_MODULE(_native, module) {
           [](LightSpec* self, LightKind kind, int32_t body, Vec3 position, Vec3 direction, Colour diffuse,
              Colour specular, std::array<float, 3> attenuation, float range, float inner_angle, float outer_angle,
              float falloff, bool casts_shadows) {
-            new (self) LightSpec{kind, body, position, direction, diffuse, specular, attenuation[0], attenuation[1],
-                                 attenuation[2], range, inner_angle, outer_angle, falloff, casts_shadows};
+            new (self)
+                LightSpec{kind,           body,           position, direction,   diffuse,     specular, attenuation[0],
+                          attenuation[1], attenuation[2], range,    inner_angle, outer_angle, falloff,  casts_shadows};
           },
           nb::arg("kind"), nb::kw_only(), nb::arg("body") = -1, nb::arg("position"), nb::arg("direction"),
           nb::arg("diffuse"), nb::arg("specular"), nb::arg("attenuation"), nb::arg("range"), nb::arg("inner_angle"),
@@ -121,7 +123,7 @@ NB_MODULE(_native, module) {
           [](Renderer* self, int32_t bodies, std::vector<Mesh> meshes, std::vector<Image> textures,
              std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights, Colour ambient, Colour horizon,
              Colour zenith, std::optional<Fog> fog, int32_t threads) {
-            if (bodies < 0) throw std::invalid_argument("there cannot be fewer than no bodies");
+            if (bodies < 0) throw std::invalid_argument("bodies must be at least 0");
             const Sky sky{{horizon[0], horizon[1], horizon[2]}, {zenith[0], zenith[1], zenith[2]}, {}, 0};
             new (self) Renderer(SceneSpec{bodies, std::move(meshes), std::move(textures), std::move(shapes),
                                           std::move(lights), ambient, sky, fog.value_or(Fog{})},
@@ -138,7 +140,7 @@ NB_MODULE(_native, module) {
             self.update(poses.data());
           },
           nb::arg("poses"))
-      .def("reshape", &Renderer::reshape, nb::arg("mesh"), nb::arg("form"))
+      .def("set_mesh", &Renderer::set_mesh, nb::arg("index"), nb::arg("mesh"))
       .def(
           "render",
           [](Renderer& self, const std::vector<std::array<double, 7>>& world_from_cameras,
@@ -154,68 +156,71 @@ NB_MODULE(_native, module) {
             if (lenses.size() != count) throw std::invalid_argument("each camera must have a lens");
             if (height < 1 || width < 1 || height > 16384 || width > 16384)
               throw std::invalid_argument("a picture is 1 to 16384 pixels wide and high");
-            std::vector<Shot> shots;
+            std::vector<CameraTarget> targets;
             for (size_t i = 0; i < count; ++i) {
               const auto [focal, near_, far_] = lenses[i];
               if (!(near_ > 0.0 && far_ > near_ && focal > 0.0))
                 throw std::invalid_argument("a camera needs 0 < near < far and a focal length above 0");
               const size_t first = i * height * width;
-              shots.push_back({frame_of(world_from_cameras[i], "a camera"), (int32_t)width, (int32_t)height, focal,
-                               near_, far_, rgb.data() + 3 * first, depth ? depth->data() + first : nullptr,
-                               segmentation ? segmentation->data() + first : nullptr});
+              targets.push_back({transform_of(world_from_cameras[i], "a camera"), (int32_t)width, (int32_t)height,
+                                 focal, near_, far_, rgb.data() + 3 * first, depth ? depth->data() + first : nullptr,
+                                 segmentation ? segmentation->data() + first : nullptr});
             }
             nb::gil_scoped_release unlocked;
-            self.render(shots);
+            self.render(targets);
           },
           nb::arg("world_from_cameras"), nb::kw_only(), nb::arg("lenses"), nb::arg("rgb"),
           nb::arg("depth") = nb::none(), nb::arg("segmentation") = nb::none());
 
-  renderer.def(
-      "cast",
-      [](Renderer& self, std::array<double, 7> world_from_place, Array<const double, nb::shape<-1, 3>> directions,
-         double reach, int32_t exclude, Array<double, nb::shape<-1>> ranges, Array<int32_t, nb::shape<-1>> shapes) {
-        const size_t count = directions.shape(0);
-        if (ranges.shape(0) != count || shapes.shape(0) != count)
-          throw std::invalid_argument("there must be one range and one shape for each direction");
-        if (count > 100'000'000) throw std::invalid_argument("more than a hundred million rays");
-        const Frame place = frame_of(world_from_place, "the place that rays start from");
-        nb::gil_scoped_release unlocked;
-        self.cast(place, directions.data(), count, reach, exclude, ranges.data(), shapes.data());
-      });  // by position: to look for names takes a while
+  renderer.def("cast_rays", [](Renderer& self, std::array<double, 7> world_from_origin,
+                               Array<const double, nb::shape<-1, 3>> directions, double max_range, int32_t exclude,
+                               Array<double, nb::shape<-1>> ranges, Array<int32_t, nb::shape<-1>> shapes) {
+    const size_t count = directions.shape(0);
+    if (ranges.shape(0) != count || shapes.shape(0) != count)
+      throw std::invalid_argument("there must be one range and one shape for each direction");
+    if (count > 100'000'000) throw std::invalid_argument("more than a hundred million rays");
+    const Transform origin = transform_of(world_from_origin, "the origin of rays");
+    nb::gil_scoped_release unlocked;
+    self.cast_rays(origin, directions.data(), count, max_range, exclude, ranges.data(), shapes.data());
+  });  // positional: looking up names takes a while
 
   const auto noise_of = [](uint64_t seed, float mean, float stddev) {
     return Noise{{(uint32_t)seed, (uint32_t)(seed >> 32)}, mean, stddev};
   };
-  module.def("add_depth_noise",
-             [noise_of](Array<float, nb::ndim<2>> depths, uint64_t seed, float mean, float stddev) {
-               nb::gil_scoped_release unlocked;
-               best_kernel().add_depth_noise(noise_of(seed, mean, stddev), (int64_t)depths.size(), depths.data());
-             },
-             nb::arg("depths"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
-  module.def("add_colour_noise",
-             [noise_of](Array<uint8_t, nb::shape<-1, -1, 3>> rgb, uint64_t seed, float mean, float stddev) {
-               nb::gil_scoped_release unlocked;
-               best_kernel().add_colour_noise(noise_of(seed, mean, stddev), (int64_t)rgb.size() / 3, rgb.data());
-             },
-             nb::arg("rgb"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
-  module.def("clip_depths",
-             [](Array<const float, nb::ndim<2>> depths, float near, float far, Array<float, nb::ndim<2>> clipped) {
-               if (clipped.size() != depths.size()) throw std::invalid_argument("both must be of one height and width");
-               nb::gil_scoped_release unlocked;
-               best_kernel().clip_depths((int64_t)depths.size(), near, far, depths.data(), clipped.data());
-             },
-             nb::arg("depths"), nb::kw_only(), nb::arg("near"), nb::arg("far"), nb::arg("clipped"));
-  module.def("fill_cloud",
-             [](Array<float, nb::shape<-1, -1, 4>> points, Array<const float, nb::ndim<2>> depth,
-                Array<const uint8_t, nb::shape<-1, -1, 3>> rgb, Array<const float, nb::ndim<2>> right,
-                Array<const float, nb::ndim<2>> down) {
-               const size_t count = depth.size();
-               if (points.size() != 4 * count || rgb.size() != 3 * count || right.size() != count || down.size() != count)
-                 throw std::invalid_argument("all must be of one height and width");
-               nb::gil_scoped_release unlocked;
-               best_kernel().fill_cloud((int64_t)count, depth.data(), rgb.data(), right.data(), down.data(), points.data());
-             },
-             nb::arg("points"), nb::kw_only(), nb::arg("depth"), nb::arg("rgb"), nb::arg("right"), nb::arg("down"));
+  module.def(
+      "add_depth_noise",
+      [noise_of](Array<float, nb::ndim<2>> depths, uint64_t seed, float mean, float stddev) {
+        nb::gil_scoped_release unlocked;
+        best_kernel().add_depth_noise(noise_of(seed, mean, stddev), (int64_t)depths.size(), depths.data());
+      },
+      nb::arg("depths"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
+  module.def(
+      "add_colour_noise",
+      [noise_of](Array<uint8_t, nb::shape<-1, -1, 3>> rgb, uint64_t seed, float mean, float stddev) {
+        nb::gil_scoped_release unlocked;
+        best_kernel().add_colour_noise(noise_of(seed, mean, stddev), (int64_t)rgb.size() / 3, rgb.data());
+      },
+      nb::arg("rgb"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
+  module.def(
+      "clip_depths",
+      [](Array<const float, nb::ndim<2>> depths, float near, float far, Array<float, nb::ndim<2>> clipped) {
+        if (clipped.size() != depths.size()) throw std::invalid_argument("both must be of one height and width");
+        nb::gil_scoped_release unlocked;
+        best_kernel().clip_depths((int64_t)depths.size(), near, far, depths.data(), clipped.data());
+      },
+      nb::arg("depths"), nb::kw_only(), nb::arg("near"), nb::arg("far"), nb::arg("clipped"));
+  module.def(
+      "fill_cloud",
+      [](Array<float, nb::shape<-1, -1, 4>> points, Array<const float, nb::ndim<2>> depth,
+         Array<const uint8_t, nb::shape<-1, -1, 3>> rgb, Array<const float, nb::ndim<2>> right,
+         Array<const float, nb::ndim<2>> down) {
+        const size_t count = depth.size();
+        if (points.size() != 4 * count || rgb.size() != 3 * count || right.size() != count || down.size() != count)
+          throw std::invalid_argument("all must be of one height and width");
+        nb::gil_scoped_release unlocked;
+        best_kernel().fill_cloud((int64_t)count, depth.data(), rgb.data(), right.data(), down.data(), points.data());
+      },
+      nb::arg("points"), nb::kw_only(), nb::arg("depth"), nb::arg("rgb"), nb::arg("right"), nb::arg("down"));
 
-  module.def("instruction_set", [] { return best_kernel().name; }, "Of the kernel that draws on this machine.");
+  module.def("instruction_set", [] { return best_kernel().name; }, "Name of the kernel in use.");
 }

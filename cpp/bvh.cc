@@ -9,25 +9,24 @@ namespace trundle {
 namespace {
 
 constexpr int kBins = 16;
-constexpr int kDeepest = kMostWaiting / kWidest - 2;
+constexpr int kMaxDepth = kMaxStack / kMaxLanes - 2;
 
-struct Box {
+struct Aabb {
   std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
 
-  void take(const Box& other) {
-    for (int i = 0; i < 3; ++i)
-      low[i] = std::min(low[i], other.low[i]), high[i] = std::max(high[i], other.high[i]);
+  void extend(const Aabb& other) {
+    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], other.low[i]), high[i] = std::max(high[i], other.high[i]);
   }
   double area() const {
     const double x = (double)high[0] - low[0], y = (double)high[1] - low[1], z = (double)high[2] - low[2];
     return x < 0 ? 0 : x * y + y * z + z * x;
   }
-  float middle(int axis) const { return 0.5f * (low[axis] + high[axis]); }
+  float centre(int axis) const { return 0.5f * (low[axis] + high[axis]); }
 };
 
 std::array<float, 3> corner_of(const Triangles& mesh, int32_t face, int corner) {
   const int32_t vertex = mesh.corners[corner][face];
-  return {mesh.places[0][vertex], mesh.places[1][vertex], mesh.places[2][vertex]};
+  return {mesh.positions[0][vertex], mesh.positions[1][vertex], mesh.positions[2][vertex]};
 }
 
 void add_face(const Triangles& mesh, int32_t face, BvhLeaf& leaf, int32_t at) {
@@ -40,83 +39,87 @@ void add_face(const Triangles& mesh, int32_t face, BvhLeaf& leaf, int32_t at) {
   }
 }
 
-// A box, and below it either triangles, `count` from `first` on, or two boxes: the next one and `first`.
-struct Pair {
-  Box box;
+// Leaf with `count` triangles of Builder::order from `first` on or, with count 0, a parent of the next node and
+// `first`.
+struct BinaryNode {
+  Aabb box;
   int32_t first, count;
   int32_t leaves;
 };
 
-// Divides by two, by the surface area heuristic.
-struct Builder {
+// Binary tree by the surface area heuristic.
+struct BinaryBuilder {
   const Triangles& mesh;
-  std::vector<Box> boxes;
+  std::vector<Aabb> boxes;
   std::vector<int32_t> order;
-  std::vector<Pair> nodes;
+  std::vector<BinaryNode> nodes;
 
-  explicit Builder(const Triangles& mesh) : mesh(mesh), boxes((size_t)mesh.face_count) {
+  explicit BinaryBuilder(const Triangles& mesh) : mesh(mesh), boxes((size_t)mesh.face_count) {
     for (int32_t face = 0; face < mesh.face_count; ++face) {
       order.push_back(face);
       for (int corner = 0; corner < 3; ++corner) {
         const auto p = corner_of(mesh, face, corner);
-        boxes[face].take({p, p});
+        boxes[face].extend({p, p});
       }
     }
     divide(0, mesh.face_count, 0);
   }
 
-  // Where the surface area heuristic says; the number of triangles in the first part, 0 where none is better.
-  int32_t split(int32_t first, int32_t count, const Box& middles, double whole) {
+  // Partition by the cheapest of kBins planes per axis; returns the left side's size, 0 where a leaf is cheaper.
+  int32_t split(int32_t first, int32_t count, const Aabb& centres, double whole) {
     double best = (double)count * whole;
     int best_axis = -1, best_bin = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const float extent = middles.high[axis] - middles.low[axis];
+      const float extent = centres.high[axis] - centres.low[axis];
       if (!(extent > 0.0f)) continue;
-      std::array<Box, kBins> bins;
+      std::array<Aabb, kBins> bins;
       std::array<int32_t, kBins> counts{};
       for (int32_t i = first; i < first + count; ++i) {
-        const int bin = bin_of(boxes[order[i]].middle(axis), middles, axis);
-        bins[bin].take(boxes[order[i]]);
+        const int bin = bin_of(boxes[order[i]].centre(axis), centres, axis);
+        bins[bin].extend(boxes[order[i]]);
         ++counts[bin];
       }
       std::array<double, kBins> above{};
-      Box box;
-      int32_t many = 0;
-      for (int bin = kBins - 1; bin > 0; --bin) box.take(bins[bin]), many += counts[bin], above[bin] = many * box.area();
-      box = Box(), many = 0;
+      Aabb box;
+      int32_t seen = 0;
+      for (int bin = kBins - 1; bin > 0; --bin)
+        box.extend(bins[bin]), seen += counts[bin], above[bin] = seen * box.area();
+      box = Aabb(), seen = 0;
       for (int bin = 0; bin + 1 < kBins; ++bin) {
-        box.take(bins[bin]), many += counts[bin];
-        const double cost = many * box.area() + above[bin + 1] + 0.5 * whole;
-        if (many > 0 && many < count && cost < best) best = cost, best_axis = axis, best_bin = bin;
+        box.extend(bins[bin]), seen += counts[bin];
+        const double cost = seen * box.area() + above[bin + 1] + 0.5 * whole;
+        if (seen > 0 && seen < count && cost < best) best = cost, best_axis = axis, best_bin = bin;
       }
     }
     if (best_axis < 0) return 0;
     const auto begin = order.begin() + first;
-    return (int32_t)(std::stable_partition(begin, begin + count, [&](int32_t face) {
-                       return bin_of(boxes[face].middle(best_axis), middles, best_axis) <= best_bin;
-                     }) -
+    return (int32_t)(std::stable_partition(begin, begin + count,
+                                           [&](int32_t face) {
+                                             return bin_of(boxes[face].centre(best_axis), centres, best_axis) <=
+                                                    best_bin;
+                                           }) -
                      begin);
   }
 
-  static int bin_of(float at, const Box& middles, int axis) {
-    const float share = (at - middles.low[axis]) / (middles.high[axis] - middles.low[axis]);
+  static int bin_of(float at, const Aabb& centres, int axis) {
+    const float share = (at - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
     return std::clamp((int)(share * kBins), 0, kBins - 1);
   }
 
   void divide(int32_t first, int32_t count, int depth) {
-    Box box, middles;
+    Aabb box, centres;
     for (int32_t i = first; i < first + count; ++i) {
-      const Box& one = boxes[order[i]];
-      const std::array<float, 3> middle{one.middle(0), one.middle(1), one.middle(2)};
-      box.take(one);
-      middles.take({middle, middle});
+      const Aabb& one = boxes[order[i]];
+      const std::array<float, 3> centre{one.centre(0), one.centre(1), one.centre(2)};
+      box.extend(one);
+      centres.extend({centre, centre});
     }
     const size_t here = nodes.size();
-    nodes.push_back({box, first, count, (count + kLeaf - 1) / kLeaf});
-    if (count <= kLeaf) return;
-    int32_t left = depth < kDeepest ? split(first, count, middles, box.area()) : 0;
+    nodes.push_back({box, first, count, (count + kLeafSize - 1) / kLeafSize});
+    if (count <= kLeafSize) return;
+    int32_t left = depth < kMaxDepth ? split(first, count, centres, box.area()) : 0;
     if (left == 0 && count <= 64) return;
-    if (left == 0 && depth >= kDeepest) return;
+    if (left == 0 && depth >= kMaxDepth) return;
     if (left == 0) left = count / 2;
     divide(first, left, depth + 1);
     nodes[here].first = (int32_t)nodes.size();
@@ -126,49 +129,49 @@ struct Builder {
   }
 };
 
-// Joins what was divided to nodes of kWidest boxes, full where most of them are: at the bottom.
-struct Joiner {
+// Collapses the binary tree into nodes of kMaxLanes children, filled from the bottom up.
+struct Collapser {
   const Triangles& mesh;
   const std::vector<int32_t>& order;
-  const std::vector<Pair>& pairs;
-  float margin;  // [m] what single precision may lose
+  const std::vector<BinaryNode>& binary;
+  float margin;  // [m] rounding error of single precision
   std::vector<BvhNode> nodes;
   std::vector<BvhLeaf> leaves;
 
-  void join(int32_t from) {
-    int32_t most = 1;  // leaves below one box
-    while (most * kWidest < pairs[from].leaves) most *= kWidest;
-    std::vector<int32_t> below = {from};
-    while (below.size() < (size_t)kWidest) {
-      const auto fullest = std::max_element(below.begin(), below.end(), [&](int32_t a, int32_t b) {
-        return (pairs[a].count > 0 ? 0 : pairs[a].leaves) < (pairs[b].count > 0 ? 0 : pairs[b].leaves);
+  void collapse(int32_t from) {
+    int32_t most = 1;  // leaves below one child
+    while (most * kMaxLanes < binary[from].leaves) most *= kMaxLanes;
+    std::vector<int32_t> children = {from};
+    while (children.size() < (size_t)kMaxLanes) {
+      const auto fullest = std::max_element(children.begin(), children.end(), [&](int32_t a, int32_t b) {
+        return (binary[a].count > 0 ? 0 : binary[a].leaves) < (binary[b].count > 0 ? 0 : binary[b].leaves);
       });
       const int32_t divided = *fullest;
-      if (pairs[divided].count > 0 || (pairs[divided].leaves <= most && divided != from)) break;
+      if (binary[divided].count > 0 || (binary[divided].leaves <= most && divided != from)) break;
       *fullest = divided + 1;
-      below.push_back(pairs[divided].first);
+      children.push_back(binary[divided].first);
     }
     const size_t here = nodes.size();
     nodes.emplace_back();
-    for (int i = 0; i < kWidest; ++i) {
-      const bool used = i < (int)below.size();
+    for (int i = 0; i < kMaxLanes; ++i) {
+      const bool used = i < (int)children.size();
       for (int axis = 0; axis < 3; ++axis) {
-        nodes[here].low[axis][i] = used ? pairs[below[i]].box.low[axis] - margin : 3e38f;
-        nodes[here].high[axis][i] = used ? pairs[below[i]].box.high[axis] + margin : -3e38f;
+        nodes[here].low[axis][i] = used ? binary[children[i]].box.low[axis] - margin : 3e38f;
+        nodes[here].high[axis][i] = used ? binary[children[i]].box.high[axis] + margin : -3e38f;
       }
       nodes[here].first[i] = nodes[here].count[i] = 0;
     }
-    for (size_t i = 0; i < below.size(); ++i) {
-      const Pair& pair = pairs[below[i]];
-      nodes[here].first[i] = (int32_t)(pair.count > 0 ? leaves.size() : nodes.size());
-      if (pair.count == 0) {
-        join(below[i]);
+    for (size_t i = 0; i < children.size(); ++i) {
+      const BinaryNode& node = binary[children[i]];
+      nodes[here].first[i] = (int32_t)(node.count > 0 ? leaves.size() : nodes.size());
+      if (node.count == 0) {
+        collapse(children[i]);
         continue;
       }
-      nodes[here].count[i] = (pair.count + kLeaf - 1) / kLeaf;
+      nodes[here].count[i] = (node.count + kLeafSize - 1) / kLeafSize;
       leaves.resize(leaves.size() + (size_t)nodes[here].count[i]);
-      for (int32_t k = 0; k < pair.count; ++k)
-        add_face(mesh, order[pair.first + k], leaves[(size_t)(nodes[here].first[i] + k / kLeaf)], k % kLeaf);
+      for (int32_t k = 0; k < node.count; ++k)
+        add_face(mesh, order[node.first + k], leaves[nodes[here].first[i] + k / kLeafSize], k % kLeafSize);
     }
   }
 };
@@ -176,13 +179,13 @@ struct Joiner {
 }  // namespace
 
 Bvh make_bvh(const Triangles& mesh) {
-  Builder builder(mesh);
+  BinaryBuilder builder(mesh);
   float largest = 0.0f;
   for (int axis = 0; axis < 3; ++axis)
     largest = std::max({largest, -builder.nodes[0].box.low[axis], builder.nodes[0].box.high[axis]});
-  Joiner joiner{mesh, builder.order, builder.nodes, 4e-6f * largest, {}, {}};
-  joiner.join(0);
-  return {std::move(joiner.nodes), std::move(joiner.leaves)};
+  Collapser collapser{mesh, builder.order, builder.nodes, 4e-6f * largest, {}, {}};
+  collapser.collapse(0);
+  return {std::move(collapser.nodes), std::move(collapser.leaves)};
 }
 
 }  // namespace trundle

@@ -1,4 +1,4 @@
-// A tree of boxes around the triangles of a mesh, as many at once as the widest machine compares.
+// Bounding volume hierarchy of a mesh; nodes hold kMaxLanes children.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct Bvh {
   BvhView view() const { return {nodes.data(), leaves.data()}; }
 };
 
-// Of what is never empty: a mesh with faces.
+// The mesh must have faces.
 Bvh make_bvh(const Triangles& mesh);
 
 }  // namespace trundle

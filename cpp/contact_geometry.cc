@@ -6,10 +6,10 @@ namespace trundle {
 
 namespace {
 
-constexpr double kShortest = 1e-6;  // part of a direction that lies in the surface: where less does, it has none
+constexpr double kMinTangent = 1e-6;  // smallest tangential part of a direction that counts
 
-// Turn the two rows of a contact's constraint that are along its tangents, and the speeds along them; what else follows
-// from them, MuJoCo works out after its control callback.
+// Turn a contact's two tangential constraint rows and their velocities. MuJoCo derives the rest after its control
+// callback.
 void turn_rows(const mjModel* m, mjData* d, const mjContact& contact, double cosine, double sine) {
   if (contact.efc_address < 0) return;
   const int row = contact.efc_address + 1;
@@ -34,7 +34,7 @@ double approach_speed(const mjModel* m, const mjData* d, const mjContact& contac
   double speeds[2];
   for (int side = 0; side < 2; ++side) {
     const int body = m->geom_bodyid[contact.geom[side]];
-    const double* velocity = d->cvel + 6 * body;  // at the tree's centre of mass: rotation, translation
+    const double* velocity = d->cvel + 6 * body;  // of the tree's centre of mass: angular, linear
     const double* centre = d->subtree_com + 3 * m->body_rootid[body];
     const double arm[3] = {contact.pos[0] - centre[0], contact.pos[1] - centre[1], contact.pos[2] - centre[2]};
     double turning[3];
@@ -58,23 +58,23 @@ void ContactJacobian::find(const mjModel* m, const mjData* d, const mjContact& c
   for (int row = 0; row < count; ++row) {
     const double* axis = contact.frame + 3 * (row % 3);
     const double* motion = second_.data() + 3 * nv * (row / 3);
-    for (int i = 0; i < nv; ++i) {
+    for (int i = 0; i < nv; ++i)
       rows[row * nv + i] = axis[0] * motion[i] + axis[1] * motion[nv + i] + axis[2] * motion[2 * nv + i];
-    }
   }
 }
 
 bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const double along[3]) {
   double* frame = contact.frame;
-  const double out = dot(along, frame);
-  double within[3] = {along[0] - out * frame[0], along[1] - out * frame[1], along[2] - out * frame[2]};
-  const double length = std::sqrt(dot(within, within));
-  if (!(length > kShortest * std::sqrt(dot(along, along)))) return false;
-  for (double& each : within) each /= length;
-  const double cosine = dot(within, frame + 3), sine = dot(within, frame + 6);
+  const double normal_part = dot(along, frame);
+  double tangent[3] = {along[0] - normal_part * frame[0], along[1] - normal_part * frame[1],
+                       along[2] - normal_part * frame[2]};
+  const double length = std::sqrt(dot(tangent, tangent));
+  if (!(length > kMinTangent * std::sqrt(dot(along, along)))) return false;
+  for (double& each : tangent) each /= length;
+  const double cosine = dot(tangent, frame + 3), sine = dot(tangent, frame + 6);
   if (sine == 0 && cosine > 0) return true;
   turn_rows(m, d, contact, cosine, sine);
-  std::copy(within, within + 3, frame + 3);
+  std::copy(tangent, tangent + 3, frame + 3);
   cross(frame + 6, frame, frame + 3);
   return true;
 }

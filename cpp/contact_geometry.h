@@ -1,4 +1,4 @@
-// How two bodies move against each other where they touch, as a function of all speeds.
+// Kinematics at contacts: relative velocity, Jacobian, tangents.
 #pragma once
 
 #include <cmath>
@@ -12,9 +12,8 @@ inline double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
 
 inline double normalize(double v[3]) {
   const double length = std::sqrt(dot(v, v));
-  if (length > 0) {
+  if (length > 0)
     for (int i = 0; i < 3; ++i) v[i] /= length;
-  }
   return length;
 }
 
@@ -24,21 +23,22 @@ inline void cross(double out[3], const double a[3], const double b[3]) {
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// How fast the two bodies of a contact come closer along its normal [m/s].
+// Approach speed of a contact's bodies along its normal [m/s].
 double approach_speed(const mjModel* m, const mjData* d, const mjContact& contact);
 
-// Velocity of the second body against the first, along the normal out of the first and two tangents, and about it.
+// Jacobian of the second body's velocity relative to the first: along the normal (out of the first), along two
+// tangents, about the normal.
 class ContactJacobian {
  public:
-  // Write (count, nv) rows, three or four.
+  // rows: (count, nv), count 3 or 4.
   void find(const mjModel* m, const mjData* d, const mjContact& contact, double* rows, int count = 3);
 
  private:
   std::vector<double> first_, second_;
 };
 
-// Lay a contact's first tangent along a direction, less what is normal, and its constraint with it; false where nothing
-// is left of it.
+// Turn a contact's first tangent, and its constraint rows, to a direction projected into the tangent plane; false if
+// the projection vanishes.
 bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const double along[3]);
 
 }  // namespace trundle

@@ -1,7 +1,8 @@
-// The Python module `_contact_laws`: what MuJoCo's contacts lack, done in C between finding contacts and solving them.
+// The Python module `_contact_laws`: contact laws that MuJoCo lacks, applied between collision detection and the
+// solver.
 //
-// MuJoCo calls `apply_laws` there by mjcb_control, in every step of every model; one without tables of laws costs a
-// comparison. mjcb_sensor says when the constraints are solved. Whoever set these callbacks before is called first.
+// MuJoCo calls them by mjcb_control in every step of every model; a model without tables costs a comparison.
+// mjcb_sensor runs after the solver. Callbacks that were installed before are called first.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -15,13 +16,13 @@
 #include "contact_offset.h"
 #include "friction_slip.h"
 #include "law_tables.h"
-#include "look_ahead.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
 #include "plain_metric.h"
 #include "plane_cylinder.h"
 #include "restitution.h"
 #include "surface_motion.h"
+#include "tunnelling.h"
 #include "velocity_damping.h"
 #include "velocity_motor.h"
 
@@ -36,14 +37,14 @@ namespace {
 std::atomic<mjfGeneric> previous = nullptr;
 std::atomic<mjfSensor> previous_sensor = nullptr;
 
-// Turn and release friction; return whether constraints are to be made again.
+// Friction directions, surface motion and slip; return whether the constraints must be rebuilt.
 bool turn_friction(const LawTables& laws, const mjModel* m, mjData* d) {
   align_friction(laws, m, d);
   move_surfaces(laws, m, d);
   return release_slipping(laws, m, d);
 }
 
-void make_constraints(const mjModel* m, mjData* d) {
+void rebuild_constraints(const mjModel* m, mjData* d) {
   mujoco.mj_makeConstraint(m, d);
   mujoco.mj_island(m, d);
   mujoco.mj_projectConstraint(m, d);
@@ -51,7 +52,7 @@ void make_constraints(const mjModel* m, mjData* d) {
 
 void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   const bool changed = turn_friction(laws, m, d);
-  if (changed) make_constraints(m, d);
+  if (changed) rebuild_constraints(m, d);
   const bool bounced = !laws.restitution.empty() && apply_restitution(laws, m, d);
   if (bounced || changed) mujoco.mj_fwdVelocity(m, d);
   resist_slip(laws, m, d);
@@ -59,16 +60,16 @@ void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   shift_contacts(laws, m, d);
 }
 
-// A state that is evaluated and not stepped on has its friction, and nothing that acts over a step.
+// For a state that is evaluated, not stepped: friction only, nothing that acts over a step.
 void apply_friction(const LawTables& laws, const mjModel* m, mjData* d) {
   if (turn_friction(laws, m, d)) {
-    make_constraints(m, d);
+    rebuild_constraints(m, d);
     mujoco.mj_fwdVelocity(m, d);
   }
   resist_slip(laws, m, d);
 }
 
-thread_local bool busy = false;  // whoever is called first may call us in turn
+thread_local bool busy = false;  // a previous callback may call this one
 
 void on_control(const mjModel* m, mjData* d) {
   if (busy) return;
@@ -79,10 +80,10 @@ void on_control(const mjModel* m, mjData* d) {
     if (laws.on) apply_laws(laws, m, d);
     else if (laws.evaluates) apply_friction(laws, m, d);
     apply_springs(laws, m, d);
-    center_bias(laws, m, d);
+    apply_midpoint_bias(laws, m, d);
     drive_motors(laws, m, d);
-    look_ahead(laws, m, d);
-    if (laws.on) take_plain_metric(m, d);
+    update_ccd(laws, m, d);
+    if (laws.on) use_plain_metric(m, d);
   }
   busy = false;
 }
@@ -92,13 +93,13 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = true;
   if (const mjfSensor first = previous_sensor.load()) first(m, d, stage);
   LawTables laws;
-  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && (laws.on || laws.evaluates)) keep_loads(laws, m, d);
+  if (stage == mjSTAGE_ACC && LawTables::find(m, laws) && (laws.on || laws.evaluates)) record_loads(laws, m, d);
   busy = false;
 }
 
-// Have MuJoCo call the laws, behind whoever it calls now.
+// Install the callbacks, keeping those installed before.
 void install() {
-  busy = false;  // where an exception left the last step
+  busy = false;  // an exception may have left it set
   if (*mujoco.control != on_control) {
     previous = *mujoco.control;
     *mujoco.control = on_control;
@@ -124,26 +125,26 @@ void bind(const std::vector<std::uintptr_t>& addresses) {
   mujoco.control = reinterpret_cast<mjfGeneric*>(*next++);
   mujoco.sensor = reinterpret_cast<mjfSensor*>(*next++);
   mujoco.time = reinterpret_cast<mjfTime*>(*next++);
-  *mujoco.time = nullptr;  // looking at the clock some thirty times a step takes a fifteenth of a small robot's step
+  *mujoco.time = nullptr;  // profiling reads the clock some thirty times a step, 1/15 of a small robot's step
 #define TRUNDLE_BIND(name) mujoco.name = reinterpret_cast<decltype(mujoco.name)>(*next++);
   TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_BIND)
 #undef TRUNDLE_BIND
 }
 
 // A model and its data, by their addresses.
-struct Addressed {
+struct ModelData {
   const mjModel* m;
   mjData* d;
   LawTables laws;
 
-  Addressed(std::uintptr_t model, std::uintptr_t data)
+  ModelData(std::uintptr_t model, std::uintptr_t data)
       : m(reinterpret_cast<const mjModel*>(model)), d(reinterpret_cast<mjData*>(data)) {
     if (!LawTables::find(m, laws)) throw std::invalid_argument("this model has no laws");
   }
 };
 
 void report(std::uintptr_t model, std::uintptr_t data) {
-  const Addressed each(model, data);
+  const ModelData each(model, data);
   report_efforts(each.laws, each.m, each.d);
 }
 

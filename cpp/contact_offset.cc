@@ -13,8 +13,8 @@ namespace trundle {
 
 namespace {
 
-constexpr double kJerk = 0.02;     // [m/s] past one another in one step; what is slower lifts nothing by 0.1 mm
-constexpr double kSlowest = 1e-6;  // [m/s] what slides slower does not lift by anything that counts
+constexpr double kMinRowJump = 0.02;  // [m/s] change of tangential velocity in one step; less lifts by under 0.1 mm
+constexpr double kMinSpeed = 1e-6;    // [m/s] slower sliding lifts negligibly
 
 struct Spring {
   double stiffness, damping;  // [1/s², 1/s] of a row, by MuJoCo's rules for solref
@@ -29,10 +29,10 @@ Spring spring(const mjtNum* solref, double impedance) {
   return {-solref[0] / (d * d), -solref[1] / d};
 }
 
-// How far a contact's sliding would lift it [m]; accelerations are those of the step before, one for each row.
+// Height by which sliding would lift a contact [m]; accelerations: of the previous step, per constraint row.
 //
-// A row's force is (reference − acceleration) / R. While a contact slides, its friction rows are off by what is
-// left of their reference, and the dual of the cone puts the normal row off by μ times that.
+// A row's force is (reference − acceleration) / R. While a contact slides, its friction rows miss their reference by a
+// residual, and the dual cone offsets the normal row by μ times that.
 double lift(const mjContact& contact, const mjData* d, double h, const double* accelerations) {
   const double impedance = contact.solimp[1];
   const bool own = contact.solreffriction[0] != 0 || contact.solreffriction[1] != 0;
@@ -45,31 +45,31 @@ double lift(const mjContact& contact, const mjData* d, double h, const double* a
     const double left = contact.friction[j - 1] * (accelerations[row] + damping * d->efc_vel[row] / (1 + h * damping));
     sum += left * left;
   }
-  // The normal spring is that at the step's end, which divides its reference by the same sum as R.
+  // The normal spring is implicit, which divides its reference by the same sum as R.
   const double whole = 1 + h * normal.damping + h * h * stiffness;
-  // What hits is held by friction that was not there the step before, as strong as what stops it.
+  // At an impact, friction that the previous step lacked holds with up to μ times the stopping force.
   const double most = std::max(contact.friction[0], contact.friction[1]);
   const double impact = std::max(-d->efc_vel[contact.efc_address], 0.0) * normal.damping / whole;
   return std::max(std::sqrt(sum) - most * most * impact, 0.0) * whole / stiffness;
 }
 
-bool slides(const mjContact& contact, const mjData* d) {
+bool is_sliding(const mjContact& contact, const mjData* d) {
   double sum = 0;
   for (int j = 1; j < contact.dim; ++j) {
     const double speed = d->efc_vel[contact.efc_address + j];
     sum += speed * speed;
   }
-  return sum > kSlowest * kSlowest;
+  return sum > kMinSpeed * kMinSpeed;
 }
 
-// The trees of a contact, the one of the smaller number first; -1: the world.
+// Kinematic trees of a contact, lower id first; -1: the world.
 std::pair<int, int> trees(const mjModel* m, const mjContact& contact) {
   return std::minmax(m->body_treeid[m->geom_bodyid[contact.geom[0]]], m->body_treeid[m->geom_bodyid[contact.geom[1]]]);
 }
 
-// Twice what friction holds a freedom with [N·m or N], where the lighter of two that touch rests on all of their contacts;
-// column: that freedom's in the constraints' Jacobian.
-double hold(const mjModel* m, const mjData* d, const double* column) {
+// Twice the effort by which friction holds a degree of freedom [N·m or N], if the lighter of two trees rests on all of
+// their contacts; column: of the constraint Jacobian.
+double holding_effort(const mjModel* m, const mjData* d, const double* column) {
   double sum = 0;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
@@ -78,9 +78,8 @@ double hold(const mjModel* m, const mjData* d, const double* column) {
     const auto alike = [&](const mjContact& other) { return trees(m, other) == both; };
     const auto points = std::count_if(d->contact, d->contact + d->ncon, alike);
     double mass = mjMAXVAL;
-    for (const int tree : {both.first, both.second}) {
+    for (const int tree : {both.first, both.second})
       if (tree >= 0) mass = std::min(mass, m->body_subtreemass[m->tree_bodyadr[tree]]);
-    }
     const double* across = column + contact.efc_address + 1;
     const double load = 2.0 * std::sqrt(dot(m->opt.gravity, m->opt.gravity)) * mass / static_cast<double>(points);
     sum += load * std::hypot(contact.friction[0] * across[0], contact.friction[1] * across[1]);
@@ -88,7 +87,7 @@ double hold(const mjModel* m, const mjData* d, const double* column) {
   return sum;
 }
 
-// The accelerations by which contacts are shifted, one for each row of the constraints, worked out when one is asked for.
+// Accelerations per constraint row, computed on demand.
 class Accelerations {
  public:
   Accelerations(const LawTables& laws, const mjModel* m, mjData* d) : m_(m), d_(d) {
@@ -99,7 +98,7 @@ class Accelerations {
       next.assign(m->nv, 0.0);
       next[jump.dof] = 1.0;
       find(next.data(), next_);
-      const double left = (jump.effort - hold(m, d, next_.data())) * m->dof_invweight0[jump.dof];
+      const double left = (jump.effort - holding_effort(m, d, next_.data())) * m->dof_invweight0[jump.dof];
       if (left <= 0.0) continue;
       if (!jumps_) now_.assign(d->qacc_warmstart, d->qacc_warmstart + m->nv);
       now_[jump.dof] = std::clamp(jump.acceleration, -left, left);
@@ -108,14 +107,14 @@ class Accelerations {
     if (jumps_) find(now_.data(), next_);
   }
 
-  // Those of the step before.
+  // Of the previous step.
   const double* before() {
     if (!known_) find(d_->qacc_warmstart, before_);
     known_ = true;
     return before_.data();
   }
 
-  // Those of this step, where a motor's jump pulls a contact's surfaces past one another; null: none does.
+  // Of this step, if a motor's command step makes the contact slide; else null.
   const double* after_jump(const mjContact& contact) {
     if (!jumps_) return nullptr;
     double sum = 0;
@@ -123,7 +122,7 @@ class Accelerations {
       const double change = m_->opt.timestep * (next_[row] - before()[row]);
       sum += change * change;
     }
-    return sum > kJerk * kJerk ? next_.data() : nullptr;
+    return sum > kMinRowJump * kMinRowJump ? next_.data() : nullptr;
   }
 
  private:
@@ -135,7 +134,7 @@ class Accelerations {
   const mjModel* m_;
   mjData* d_;
   bool jumps_ = false, known_ = false;
-  static thread_local std::vector<double> now_, before_, next_;  // kept from step to step
+  static thread_local std::vector<double> now_, before_, next_;  // reused between steps
 };
 
 thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Accelerations::next_;
@@ -155,7 +154,7 @@ void shift_contacts(const LawTables& laws, const mjModel* m, mjData* d) {
     }
     if (contact.dim < 3) continue;
     const double* after = accelerations.after_jump(contact);
-    if (!after && !slides(contact, d)) continue;
+    if (!after && !is_sliding(contact, d)) continue;
     margin -= lift(contact, d, m->opt.timestep, after ? after : accelerations.before());
   }
 }

@@ -1,4 +1,4 @@
-// Pictures of a scene: the maps of its lights, then what a camera sees.
+// Rendering: shadow maps, then cameras.
 #include <algorithm>
 #include <cmath>
 #include <system_error>
@@ -8,39 +8,39 @@
 
 namespace trundle {
 
-// The first tile of some rows, and how many there are.
-std::pair<size_t, size_t> tiles_between(const View& view, int32_t top, int32_t bottom) {
+// First tile of the given rows, and their number of tiles.
+std::pair<size_t, size_t> tile_range(const View& view, int32_t top, int32_t bottom) {
   const auto stride = (size_t)view.tile_stride(), first = (size_t)(top / kTileHeight) * stride;
-  return {first, (size_t)rows_of_tiles(bottom) * stride - first};
+  return {first, (size_t)tile_rows(bottom) * stride - first};
 }
 
-// Rows of one of some pictures that a thread draws.
+// Rows of one image that one thread draws.
 struct Renderer::Band {
   size_t thread, picture;
   int32_t top, bottom;
 
-  // What of a shape is in them; nothing where none is.
-  std::optional<Solid> of(Solid solid) const {
-    solid.top = std::max(solid.top, top), solid.bottom = std::min(solid.bottom, bottom);
-    return solid.top < solid.bottom ? std::optional(solid) : std::nullopt;
+  // The part of a shape within the band, if any.
+  std::optional<Renderable> clip(Renderable renderable) const {
+    renderable.top = std::max(renderable.top, top), renderable.bottom = std::min(renderable.bottom, bottom);
+    return renderable.top < renderable.bottom ? std::optional(renderable) : std::nullopt;
   }
 
-  // Nothing in them hides what has more than this nearness.
-  void clear_tiles(const View& view, float nearness, float* hidden) const {
-    const auto [first, count] = tiles_between(view, top, bottom);
-    std::fill_n(hidden + first, count, nearness);
+  // Reset the band's hierarchical z.
+  void clear_tiles(const View& view, float inverse_depth, float* hi_z) const {
+    const auto [first, count] = tile_range(view, top, bottom);
+    std::fill_n(hi_z + first, count, inverse_depth);
   }
 };
 
-constexpr int64_t kTilesForThread = 2048;  // 256 ki pixels: of fewer, starting a thread is most of what it saves
+constexpr int64_t kTilesForThread = 2048;  // 256 Ki pixels; for fewer, starting a thread costs most of what it saves
 
-// Of all pictures, one below another, each thread has a band from above and one from below: skies are less work than
-// what is under them. The two in the middle are one.
+// With all images stacked, each thread draws one band counted from the top and one from the bottom, because skies cost
+// less than what is below them. The two middle bands are one.
 template <typename Work>
-void Renderer::in_bands(const std::vector<View>& views, const Work& work) {
-  const auto count = (int64_t)rooms_.size();
-  std::vector<int64_t> starts{0};  // of each picture, in tiles
-  for (const View& view : views) starts.push_back(starts.back() + (int64_t)tiles_of(view));
+void Renderer::for_each_band(const std::vector<View>& views, const Work& work) {
+  const auto count = (int64_t)workspaces_.size();
+  std::vector<int64_t> starts{0};  // of each image, in tiles
+  for (const View& view : views) starts.push_back(starts.back() + (int64_t)tile_count(view));
   const auto draw_between = [&](int64_t thread, int64_t first, int64_t last) {
     for (size_t i = 0; i < views.size(); ++i) {
       const auto row = [&](int64_t band) {
@@ -60,168 +60,183 @@ void Renderer::in_bands(const std::vector<View>& views, const Work& work) {
   const int64_t helpful = std::min(count, starts.back() / kTilesForThread + 1);
   try {
     for (; started < helpful; ++started) others.emplace_back(draw, started);
-  } catch (const std::system_error&) {  // the system has no more threads to give: this one does the rest
+  } catch (const std::system_error&) {  // no more threads: this one does the rest
   }
   for (int64_t thread = started; thread < count; ++thread) draw(thread);
   draw(0);
   for (std::thread& other : others) other.join();
 }
 
-// What is near first: it hides the rest. What is endless may be near somewhere, and comes last.
-void Renderer::sort_by_nearness(std::vector<Solid>& solids) const {
-  const auto rank = [this](const Solid& solid) { return is_endless(scene_.shapes[solid.index]) ? -INFINITY : solid.nearest; };
-  std::stable_sort(solids.begin(), solids.end(), [&](const Solid& a, const Solid& b) { return rank(a) > rank(b); });
+// Front to back, for early rejection; infinite planes last.
+void Renderer::sort_front_to_back(std::vector<Renderable>& renderables) const {
+  const auto rank = [this](const Renderable& renderable) {
+    return is_infinite(scene_.shapes[renderable.index]) ? -INFINITY : renderable.max_inverse_depth;
+  };
+  std::stable_sort(renderables.begin(), renderables.end(),
+                   [&](const Renderable& a, const Renderable& b) { return rank(a) > rank(b); });
 }
 
-void Renderer::see_all(const View& view, const std::vector<Solid>& solids, const Band& band,
-                       Buffers buffers) const {
+void Renderer::rasterize_all(const View& view, const std::vector<Renderable>& renderables, const Band& band,
+                             Buffers buffers) const {
   const Kernel& kernel = best_kernel();
-  for (const Solid& solid : solids)
-    if (const auto part = band.of(solid)) kernel.see(view, *part, buffers), kernel.settle(view, *part, buffers);
+  for (const Renderable& renderable : renderables)
+    if (const auto part = band.clip(renderable))
+      kernel.rasterize(view, *part, buffers), kernel.update_hi_z(view, *part, buffers);
 }
 
-// Flat things lie on the ground: what a plane would shade is below it.
-void Renderer::draw_maps() {
+// Planes cast no shadow: they are floors, and nothing is below them.
+void Renderer::render_shadow_maps() {
   std::vector<size_t> casters;
-  std::vector<Corners> corners;
+  std::vector<BoxCorners> corners;
   for (size_t i = 0; i < scene_.shapes.size(); ++i) {
     const ShapeSpec& shape = scene_.shapes[i];
     const auto& world_from_shape = shape_poses_[i];
-    if (!shape.casts_shadow || shape.kind == Kind::kPlane || looks_[i].opacity < 1.0f || !world_from_shape) continue;
+    if (!shape.casts_shadow || shape.kind == ShapeKind::kPlane || materials_[i].opacity < 1.0f || !world_from_shape)
+      continue;
     const Vec3 &low = bounds_[i].low, &high = bounds_[i].high;
     if (!(low[0] <= high[0])) continue;
-    Corners box;
+    BoxCorners box;
     for (int corner = 0; corner < 8; ++corner)
-      box[corner] = world_from_shape->move({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
-                                           corner & 4 ? high[2] : low[2]});
+      box[corner] = world_from_shape->apply(
+          {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]});
     if (!std::all_of(box.begin(), box.end(), [](const Vec3& p) { return std::isfinite(p[0] + p[1] + p[2]); })) continue;
     casters.push_back(i);
     corners.push_back(box);
   }
-  for (size_t i = 0; i < maps_.size(); ++i) {
+  for (size_t i = 0; i < shadow_maps_.size(); ++i) {
     const LightSpec& light = scene_.lights[i];
-    const auto body = light.body < 0 ? Frame() : body_poses_[light.body];
-    maps_[i] = light.casts_shadows && body ? look_from(light, *body, corners) : std::nullopt;
-    if (!maps_[i]) continue;
-    const View& view = maps_[i]->view;
-    std::vector<Solid> solids;
+    const auto body = light.body < 0 ? Transform() : body_poses_[light.body];
+    shadow_maps_[i] = light.casts_shadows && body ? make_shadow_map(light, *body, corners) : std::nullopt;
+    if (!shadow_maps_[i]) continue;
+    const View& view = shadow_maps_[i]->view;
+    std::vector<Renderable> renderables;
     for (const size_t caster : casters) {
-      Solid solid;
-      if (!place(view, maps_[i]->world_from_view, caster, Detail::kSeen, solid)) continue;
-      solids.push_back(solid);
-      maps_[i]->cover(solid);
+      Renderable renderable;
+      if (!project_shape(view, shadow_maps_[i]->world_from_view, caster, Detail::kLod, renderable)) continue;
+      renderables.push_back(renderable);
+      shadow_maps_[i]->add_caster(renderable);
     }
-    sort_by_nearness(solids);
-    for (Room& room : rooms_) room.hidden.fit(tiles_of(view));
-    in_bands({view}, [&](const Band& band) {
-      Room& room = rooms_[band.thread];
-      band.clear_tiles(view, maps_[i]->nearness.front(), room.hidden.data());  // of nothing yet
-      see_all(view, solids, band, {maps_[i]->nearness.data(), nullptr, nullptr, nullptr, room.hidden.data(),
-                                   room.projected.data(), room.large.data()});
+    sort_front_to_back(renderables);
+    for (Workspace& workspace : workspaces_) workspace.hi_z.reserve(tile_count(view));
+    for_each_band({view}, [&](const Band& band) {
+      Workspace& workspace = workspaces_[band.thread];
+      band.clear_tiles(view, shadow_maps_[i]->inverse_depth.front(), workspace.hi_z.data());  // empty
+      rasterize_all(view, renderables, band,
+                    {shadow_maps_[i]->inverse_depth.data(), nullptr, nullptr, nullptr, workspace.hi_z.data(),
+                     workspace.projected.data(), workspace.large_faces.data()});
     });
   }
-  maps_are_old_ = false;
+  shadow_maps_dirty_ = false;
 }
 
-int32_t byte_of(double share) { return (int32_t)(std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * 255.0 + 0.5 : 0); }
+int32_t byte_of(double share) {
+  return (int32_t)(std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * 255.0 + 0.5 : 0);
+}
 
-struct Renderer::Sight {
+struct Renderer::VisibleSet {
   std::vector<ShadowMap> maps;
   std::vector<Light> lights;
   Sky sky;
-  std::vector<Solid> solids, see_through;
+  std::vector<Renderable> opaque, transparent;
 };
 
-Renderer::Sight Renderer::sight_of(const Shot& shot, const View& view) {
-  Sight sight{std::vector<ShadowMap>(maps_.size()), {}, scene_.sky, {}, {}};
-  for (size_t i = 0; i < maps_.size(); ++i) {
+Renderer::VisibleSet Renderer::find_visible(const CameraTarget& target, const View& view) {
+  VisibleSet visible{std::vector<ShadowMap>(shadow_maps_.size()), {}, scene_.sky, {}, {}};
+  for (size_t i = 0; i < shadow_maps_.size(); ++i) {
     const LightSpec& light = scene_.lights[i];
-    const auto body = light.body < 0 ? Frame() : body_poses_[light.body];
+    const auto body = light.body < 0 ? Transform() : body_poses_[light.body];
     if (!body) continue;
-    if (maps_[i]) sight.maps[i] = map_for(*maps_[i], shot.world_from_camera);
-    sight.lights.push_back(light_for(light, *body, shot.world_from_camera, maps_[i] ? &sight.maps[i] : nullptr));
+    if (shadow_maps_[i]) visible.maps[i] = shadow_map_in_camera(*shadow_maps_[i], target.world_from_camera);
+    visible.lights.push_back(
+        light_in_camera(light, *body, target.world_from_camera, shadow_maps_[i] ? &visible.maps[i] : nullptr));
   }
   for (int i = 0; i < 3; ++i) {
-    sight.sky.up[i] = (float)shot.world_from_camera.rotation[6 + i];
-    sight.sky.even |= byte_of(sight.sky.horizon[i]) << (8 * i);
+    visible.sky.up[i] = (float)target.world_from_camera.rotation[6 + i];
+    visible.sky.packed_horizon |= byte_of(visible.sky.horizon[i]) << (8 * i);
   }
-  // Distances and segments are of every triangle.
-  const Detail detail = shot.depth || shot.segment ? Detail::kAll : Detail::kSeen;
+  // Depth and segmentation use the full meshes.
+  const Detail detail = target.depth || target.segmentation ? Detail::kFull : Detail::kLod;
   for (size_t i = 0; i < scene_.shapes.size(); ++i) {
-    Solid solid;
-    if (looks_[i].opacity > 0.0f && place(view, shot.world_from_camera, i, detail, solid))
-      (looks_[i].opacity < 1.0f ? sight.see_through : sight.solids).push_back(solid);
+    Renderable renderable;
+    if (materials_[i].opacity > 0.0f && project_shape(view, target.world_from_camera, i, detail, renderable))
+      (materials_[i].opacity < 1.0f ? visible.transparent : visible.opaque).push_back(renderable);
   }
-  sort_by_nearness(sight.solids);
-  const auto away = [](const Solid& solid) {
-    return solid.centre[0] * solid.centre[0] + solid.centre[1] * solid.centre[1] + solid.centre[2] * solid.centre[2];
+  sort_front_to_back(visible.opaque);
+  const auto away = [](const Renderable& renderable) {
+    return renderable.centre[0] * renderable.centre[0] + renderable.centre[1] * renderable.centre[1] +
+           renderable.centre[2] * renderable.centre[2];
   };
-  std::stable_sort(sight.see_through.begin(), sight.see_through.end(),
-                   [&](const Solid& a, const Solid& b) { return away(a) > away(b); });
-  return sight;
+  std::stable_sort(visible.transparent.begin(), visible.transparent.end(),
+                   [&](const Renderable& a, const Renderable& b) { return away(a) > away(b); });
+  return visible;
 }
 
-void Renderer::render(const std::vector<Shot>& shots) {
-  if (maps_are_old_) draw_maps();
+void Renderer::render(const std::vector<CameraTarget>& targets) {
+  if (shadow_maps_dirty_) render_shadow_maps();
   std::vector<View> views;
-  std::vector<Sight> sights;
-  for (const Shot& shot : shots) {
-    const int32_t stride = (shot.width + kWidest - 1) / kWidest * kWidest;
-    const View view{shot.width, shot.height, stride, shot.width * 0.5f, shot.height * 0.5f,
-                    (float)shot.focal, (float)shot.near_, (float)shot.far_, false};
+  std::vector<VisibleSet> visible_sets;
+  for (const CameraTarget& target : targets) {
+    const int32_t stride = (target.width + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+    const View view{target.width,        target.height,        stride,
+                    target.width * 0.5f, target.height * 0.5f, (float)target.focal,
+                    (float)target.near_, (float)target.far_,   false};
     views.push_back(view);
-    sights.push_back(sight_of(shot, view));
-    const size_t count = (size_t)stride * (size_t)shot.height, tiles = tiles_of(view);
-    for (Room& room : rooms_) {
-      room.nearness.fit(count), room.id.fit(count), room.colour.fit(count), room.hidden.fit(tiles);
-      if (shot.segment) room.segment.fit(count);
-      if (!sights.back().see_through.empty())
-        room.nearness_through.fit(count), room.id_through.fit(count), room.hidden_through.fit(tiles);
+    visible_sets.push_back(find_visible(target, view));
+    const size_t count = (size_t)stride * (size_t)target.height, tiles = tile_count(view);
+    for (Workspace& workspace : workspaces_) {
+      workspace.inverse_depth.reserve(count), workspace.id.reserve(count), workspace.colour.reserve(count),
+          workspace.hi_z.reserve(tiles);
+      if (target.segmentation) workspace.segmentation.reserve(count);
+      if (!visible_sets.back().transparent.empty())
+        workspace.inverse_depth_through.reserve(count), workspace.id_through.reserve(count),
+            workspace.hi_z_through.reserve(tiles);
     }
   }
-  in_bands(views, [&](const Band& band) {
-    draw(shots[band.picture], views[band.picture], sights[band.picture], band);
+  for_each_band(views, [&](const Band& band) {
+    draw(targets[band.picture], views[band.picture], visible_sets[band.picture], band);
   });
 }
 
-void Renderer::draw(const Shot& shot, const View& view, const Sight& sight, const Band& band) {
+void Renderer::draw(const CameraTarget& target, const View& view, const VisibleSet& visible, const Band& band) {
   const Kernel& kernel = best_kernel();
-  Room& room = rooms_[band.thread];
-  Lighting lighting{{}, sight.lights.data(), (int32_t)sight.lights.size(), scene_.fog};
+  Workspace& workspace = workspaces_[band.thread];
+  Lighting lighting{{}, visible.lights.data(), (int32_t)visible.lights.size(), scene_.fog};
   std::copy(scene_.ambient.begin(), scene_.ambient.end(), lighting.ambient);
-  const Buffers buffers{room.nearness.data(), room.id.data(), room.colour.data(),
-                        shot.segment ? room.segment.data() : nullptr, room.hidden.data(), room.projected.data(),
-                        room.large.data()};
+  const Buffers buffers{workspace.inverse_depth.data(), workspace.id.data(),
+                        workspace.colour.data(),        target.segmentation ? workspace.segmentation.data() : nullptr,
+                        workspace.hi_z.data(),          workspace.projected.data(),
+                        workspace.large_faces.data()};
   const auto stride = (size_t)view.stride;
   const size_t first = (size_t)band.top * stride, area = (size_t)(band.bottom - band.top) * stride;
-  std::fill_n(buffers.nearness + first, area, 1.0f / view.far_);
+  std::fill_n(buffers.inverse_depth + first, area, 1.0f / view.far_);
   for (int32_t row = band.top; row < band.bottom; ++row)
-    std::fill_n(buffers.nearness + (size_t)row * stride + view.width, view.stride - view.width, INFINITY);
+    std::fill_n(buffers.inverse_depth + (size_t)row * stride + view.width, view.stride - view.width, INFINITY);
   std::fill_n(buffers.id + first, area, -1);
-  if (shot.segment) std::fill_n(buffers.segment + first, area, -1);
-  band.clear_tiles(view, 1.0f / view.far_, buffers.hidden);
-  see_all(view, sight.solids, band, buffers);
-  kernel.fill(view, sight.sky, band.top, band.bottom, buffers);
-  for (const Solid& solid : sight.solids)
-    if (const auto part = band.of(solid)) kernel.shade(view, *part, lighting, buffers);
-  Buffers through = buffers;  // over what is there already, seen through a buffer of its own
-  through.nearness = room.nearness_through.data(), through.id = room.id_through.data();
-  through.hidden = room.hidden_through.data();
-  for (const Solid& solid : sight.see_through) {
-    const auto part = band.of(solid);
+  if (target.segmentation) std::fill_n(buffers.segmentation + first, area, -1);
+  band.clear_tiles(view, 1.0f / view.far_, buffers.hi_z);
+  rasterize_all(view, visible.opaque, band, buffers);
+  kernel.fill_sky(view, visible.sky, band.top, band.bottom, buffers);
+  for (const Renderable& renderable : visible.opaque)
+    if (const auto part = band.clip(renderable)) kernel.shade(view, *part, lighting, buffers);
+  Buffers through = buffers;  // blended over the image; visibility in buffers of its own
+  through.inverse_depth = workspace.inverse_depth_through.data(), through.id = workspace.id_through.data();
+  through.hi_z = workspace.hi_z_through.data();
+  for (const Renderable& renderable : visible.transparent) {
+    const auto part = band.clip(renderable);
     if (!part) continue;
     const size_t from = (size_t)part->top * stride, rows = (size_t)(part->bottom - part->top) * stride;
-    std::copy_n(buffers.nearness + from, rows, through.nearness + from);
+    std::copy_n(buffers.inverse_depth + from, rows, through.inverse_depth + from);
     std::fill_n(through.id + from, rows, -1);
-    const auto [tile, tiles] = tiles_between(view, part->top, part->bottom);
-    std::copy_n(buffers.hidden + tile, tiles, through.hidden + tile);
-    see_all(view, {solid}, band, through);
+    const auto [tile, tiles] = tile_range(view, part->top, part->bottom);
+    std::copy_n(buffers.hi_z + tile, tiles, through.hi_z + tile);
+    rasterize_all(view, {renderable}, band, through);
     kernel.shade(view, *part, lighting, through);
   }
-  kernel.develop(view, band.top, band.bottom, buffers, shot.rgb, shot.depth);
-  if (!shot.segment) return;
+  kernel.resolve(view, band.top, band.bottom, buffers, target.rgb, target.depth);
+  if (!target.segmentation) return;
   for (int32_t row = band.top; row < band.bottom; ++row)
-    std::copy_n(buffers.segment + (size_t)row * stride, shot.width, shot.segment + (size_t)row * (size_t)shot.width);
+    std::copy_n(buffers.segmentation + (size_t)row * stride, target.width,
+                target.segmentation + (size_t)row * (size_t)target.width);
 }
 
 }  // namespace trundle

@@ -12,42 +12,43 @@ namespace trundle {
 
 namespace {
 
-constexpr double kSmooth = 1e-5;  // friction that MuJoCo takes for none
-constexpr double kFirm = 0.1;     // part of what a force changes in a step: a surface that slips less, holds
-constexpr int kRows = 4;          // along the normal, along two tangents, about the normal
+constexpr double kFrictionless = 1e-5;  // friction that MuJoCo treats as zero
+constexpr double kMinSlipRatio = 0.1;   // of slip to admittance; less slip is treated as none
+constexpr int kRows = 4;                // normal, two tangents, torsion
 
-// A contact that slips in this step: along two tangents, and about the normal.
-struct Slipping {
+// Slipping contact: along two tangents and about the normal.
+struct SlippingContact {
   int contact, group;
-  double side;         // 1: forces of the group are on the second body; -1: on the first
-  double slip[3];      // [m/s/N], [rad/s/(N·m)]; 0: MuJoCo's friction holds
-  double change[3];    // what a force changes within a step, in the same units
-  double friction[3];  // [-], [-], [m]
-  double speed[3];     // of the surface [m/s]
-  double force[3];     // that resists [N], [N], [N·m]
+  double side;           // 1: forces of the group are on the second body; -1: on the first
+  double slip[3];        // [m/s/N], [rad/s/(N·m)]; 0: MuJoCo's friction holds
+  double admittance[3];  // velocity that a unit force adds in one step, in the same units
+  double friction[3];    // [-], [-], [m]
+  double speed[3];       // of the surface [m/s]
+  double force[3];       // applied [N], [N], [N·m]
 };
 
-// Contacts that slip as one: their load, and the force and torque about the normal of the last step.
+// Contacts that slip as one: normal load, force and torsional torque of the previous step.
 struct Group {
   double load, force[3], torque;
 };
 
-// What the tables say of a contact.
-struct SlipOf {
+// Slip of a contact by the tables.
+struct ContactSlip {
   double slip[3];
   double patch;  // see FrictionRow
   int group;
   double side;
 };
 
-thread_local std::vector<Slipping> slipping;
+thread_local std::vector<SlippingContact> slipping;
 thread_local const mjData* slipping_in = nullptr;
-thread_local std::vector<double> rows, moved, shares;  // kept from step to step
+thread_local std::vector<double> rows, solved, shares;  // reused between steps
 
 Group* groups(const mjModel* m, mjData* d) { return reinterpret_cast<Group*>(d->userdata + m->nu); }
 
-// How much a contact slips by the motion of one of its bodies.
-bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact, SlipOf& found) {
+// Add the slip of a moving surface, if one of the bodies has it.
+bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact,
+                ContactSlip& found) {
   const auto [motion, second] = motion_at(laws, contact);
   if (!motion || (motion->slip[0] <= 0 && motion->slip[1] <= 0)) return false;
   found.group = laws.body_of(contact.geom[second]);
@@ -57,7 +58,7 @@ bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const 
   return true;
 }
 
-bool find_slip(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact, SlipOf& found) {
+bool find_slip(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact, ContactSlip& found) {
   found = {};
   if (contact.dim < 3 || contact.exclude != 0) return false;
   bool slips = false;
@@ -75,20 +76,20 @@ bool find_slip(const LawTables& laws, const mjModel* m, const mjData* d, const m
   return slips;
 }
 
-// What a force changes within a step, along the tangents and about the normal: the contact's rows are there.
-void find_changes(const mjModel* m, mjData* d, double change[3]) {
+// Velocity that a unit force adds in one step, along the tangents and about the normal; needs the contact's Jacobian.
+void find_admittance(const mjModel* m, mjData* d, double admittance[3]) {
   const int nv = m->nv;
-  moved.resize(3 * nv);
-  mujoco.mj_solveM(m, d, moved.data(), rows.data() + nv, 3);
+  solved.resize(3 * nv);
+  mujoco.mj_solveM(m, d, solved.data(), rows.data() + nv, 3);
   for (int t = 0; t < 3; ++t) {
     double sum = 0;
-    for (int i = 0; i < nv; ++i) sum += rows[(t + 1) * nv + i] * moved[t * nv + i];
-    change[t] = sum * m->opt.timestep;
+    for (int i = 0; i < nv; ++i) sum += rows[(t + 1) * nv + i] * solved[t * nv + i];
+    admittance[t] = sum * m->opt.timestep;
   }
 }
 
-// Swap the tangents: the solver wants the direction that holds to be the first.
-void swap_tangents(mjContact& contact, Slipping& each) {
+// Swap the tangents: the solver needs the direction with friction first.
+void swap_tangents(mjContact& contact, SlippingContact& each) {
   double* frame = contact.frame;
   for (int i = 0; i < 3; ++i) {
     const double first = frame[3 + i];
@@ -100,82 +101,79 @@ void swap_tangents(mjContact& contact, Slipping& each) {
   contact.surfacevel[1] = -run;
   std::swap(contact.friction[0], contact.friction[1]);
   std::swap(each.slip[0], each.slip[1]);
-  std::swap(each.change[0], each.change[1]);
+  std::swap(each.admittance[0], each.admittance[1]);
 }
 
-// Let a contact slip; false: all of it holds.
-bool release(const mjModel* m, mjData* d, Slipping& each) {
+// Switch off the friction of slipping directions; false: none slips.
+bool release_contact(const mjModel* m, mjData* d, SlippingContact& each) {
   thread_local ContactJacobian jacobian;
   mjContact& contact = d->contact[each.contact];
   rows.resize(kRows * m->nv);
   jacobian.find(m, d, contact, rows.data(), kRows);
-  find_changes(m, d, each.change);
-  for (int t = 0; t < 3; ++t) {
-    if (each.slip[t] < kFirm * each.change[t] || t + 2 > contact.dim) each.slip[t] = 0.0;
-  }
+  find_admittance(m, d, each.admittance);
+  for (int t = 0; t < 3; ++t)
+    if (each.slip[t] < kMinSlipRatio * each.admittance[t] || t + 2 > contact.dim) each.slip[t] = 0.0;
   if (each.slip[0] > 0.0 && each.slip[1] == 0.0) swap_tangents(contact, each);
   bool any = false;
   for (int t = 0; t < 3; ++t) {
     each.friction[t] = contact.friction[t];
     each.speed[t] = t < 2 ? contact.surfacevel[t] : 0.0;
     if (each.slip[t] > 0.0) {
-      contact.friction[t] = kSmooth;
+      contact.friction[t] = kFrictionless;
       any = true;
     }
   }
   return any;
 }
 
-// ODE's torque grows with the patch of contact, whose radius is the square root of its depth and curvature: what is
-// pressed by N on a stiffness kp is N / kp deep.
-void size_patch(mjContact& contact, double patch, double load) {
-  contact.friction[2] = std::max(std::sqrt(patch * load), kSmooth);
+// ODE's torsional friction grows with the contact patch, whose radius is the square root of depth times curvature
+// radius; a load N on a stiffness kp is N / kp deep.
+void set_torsional_friction(mjContact& contact, double patch, double load) {
+  contact.friction[2] = std::max(std::sqrt(patch * load), kFrictionless);
 }
 
-// Force of a contact along one of its directions: that which leaves it at slip · force in the end, whatever else pushes.
+// Force along one direction for which the velocity converges to slip · force, whatever other forces act.
 //
-// -speed / slip alone is unstable where it slips less than a force changes within a step; in the force that the last
-// step had, that which else pushes is known.
-double force_along(const Slipping& each, int t, double share, double speed, double last) {
-  return (each.change[t] * last - speed) / (share * (each.slip[t] + each.change[t]));
+// -speed / slip alone is unstable where the slip is below the admittance; the previous step's force accounts for the
+// other forces.
+double force_along(const SlippingContact& each, int t, double share, double speed, double last) {
+  return (each.admittance[t] * last - speed) / (share * (each.slip[t] + each.admittance[t]));
 }
 
-void push(const mjModel* m, mjData* d, Slipping& each, Group& group, const Group& last, double share) {
+void apply_force(const mjModel* m, mjData* d, SlippingContact& each, Group& group, const Group& last, double share) {
   thread_local ContactJacobian jacobian;
   const int nv = m->nv;
   const mjContact& contact = d->contact[each.contact];
   rows.resize(kRows * nv);
   jacobian.find(m, d, contact, rows.data(), kRows);
-  double over[3];
+  double excess[3];
   double* force = each.force;
   for (int t = 0; t < 3; ++t) {
     double speed = each.speed[t];
     for (int i = 0; i < nv; ++i) speed += rows[(t + 1) * nv + i] * d->qvel[i];
     const double before = t < 2 ? dot(contact.frame + 3 * (t + 1), last.force) : last.torque;
     force[t] = each.slip[t] > 0 ? force_along(each, t, share, speed, each.side * before) : 0.0;
-    over[t] = force[t] / std::max(each.friction[t] * last.load / share, 1e-12);
+    excess[t] = force[t] / std::max(each.friction[t] * last.load / share, 1e-12);
   }
-  const double sliding = std::max(std::sqrt(over[0] * over[0] + over[1] * over[1]), 1.0);
-  const double turning = std::max(std::abs(over[2]), 1.0);
+  const double sliding = std::max(std::sqrt(excess[0] * excess[0] + excess[1] * excess[1]), 1.0);
+  const double turning = std::max(std::abs(excess[2]), 1.0);
   for (int t = 0; t < 3; ++t) {
     force[t] /= t < 2 ? sliding : turning;
     for (int i = 0; i < nv; ++i) d->qfrc_passive[i] += force[t] * rows[(t + 1) * nv + i];
   }
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     group.force[i] += each.side * (force[0] * contact.frame[3 + i] + force[1] * contact.frame[6 + i]);
-  }
   group.torque += each.side * force[2];
 }
 
-// Have contacts say what they resist with: who asks for their forces reads those of the solver's rows.
-void show_slipping(mjData* d) {
+// Write applied forces to the solver's rows, from which contact forces are read.
+void report_slip_forces(mjData* d) {
   if (slipping_in != d) return;
-  for (const Slipping& each : slipping) {
+  for (const SlippingContact& each : slipping) {
     if (each.contact >= d->ncon) return;
     const int first = d->contact[each.contact].efc_address;
-    for (int t = 0; first >= 0 && t < 3; ++t) {
+    for (int t = 0; first >= 0 && t < 3; ++t)
       if (each.slip[t] > 0.0) d->efc_force[first + 1 + t] = each.force[t];
-    }
   }
   slipping_in = nullptr;
 }
@@ -187,46 +185,43 @@ bool release_slipping(const LawTables& laws, const mjModel* m, mjData* d) {
   slipping_in = d;
   if (!laws.moves && laws.pair_groups == 0) return false;
   shares.assign(static_cast<std::size_t>(m->nbody + laws.pair_groups), 0.0);
-  SlipOf found;
-  for (int i = 0; i < d->ncon; ++i) {
+  ContactSlip found;
+  for (int i = 0; i < d->ncon; ++i)
     if (find_slip(laws, m, d, d->contact[i], found)) shares[found.group] += 1.0;
-  }
   bool changed = false;
   for (int i = 0; i < d->ncon; ++i) {
     if (!find_slip(laws, m, d, d->contact[i], found)) continue;
     if (found.patch > 0) {
-      size_patch(d->contact[i], found.patch, groups(m, d)[found.group].load / shares[found.group]);
+      set_torsional_friction(d->contact[i], found.patch, groups(m, d)[found.group].load / shares[found.group]);
       changed = true;
     }
-    Slipping each{i, found.group, found.side, {found.slip[0], found.slip[1], found.slip[2]}, {}, {}, {}, {}};
-    if (*std::max_element(each.slip, each.slip + 3) > 0.0 && release(m, d, each)) slipping.push_back(each);
+    SlippingContact each{i, found.group, found.side, {found.slip[0], found.slip[1], found.slip[2]}, {}, {}, {}, {}};
+    if (*std::max_element(each.slip, each.slip + 3) > 0.0 && release_contact(m, d, each)) slipping.push_back(each);
   }
   return changed || !slipping.empty();
 }
 
 void resist_slip(const LawTables& laws, const mjModel* m, mjData* d) {
   if (!laws.moves && laws.pair_groups == 0) return;
-  Group* kept = groups(m, d);
+  Group* stored = groups(m, d);
   thread_local std::vector<Group> last;
-  last.assign(kept, kept + m->nbody + laws.pair_groups);
-  for (std::size_t i = 0; i < last.size(); ++i) kept[i] = {last[i].load, {}, {}};
-  for (Slipping& each : slipping) {
-    push(m, d, each, kept[each.group], last[each.group], shares[each.group]);
-  }
+  last.assign(stored, stored + m->nbody + laws.pair_groups);
+  for (std::size_t i = 0; i < last.size(); ++i) stored[i] = {last[i].load, {}, {}};
+  for (SlippingContact& each : slipping)
+    apply_force(m, d, each, stored[each.group], last[each.group], shares[each.group]);
 }
 
-void keep_loads(const LawTables& laws, const mjModel* m, mjData* d) {
+void record_loads(const LawTables& laws, const mjModel* m, mjData* d) {
   if (!laws.moves && laws.pair_groups == 0) return;
-  Group* kept = groups(m, d);
-  for (int i = 0; i < m->nbody + laws.pair_groups; ++i) kept[i].load = 0.0;
-  SlipOf found;
+  Group* stored = groups(m, d);
+  for (int i = 0; i < m->nbody + laws.pair_groups; ++i) stored[i].load = 0.0;
+  ContactSlip found;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
-    if (contact.efc_address >= 0 && find_slip(laws, m, d, contact, found)) {
-      kept[found.group].load += d->efc_force[contact.efc_address];
-    }
+    if (contact.efc_address >= 0 && find_slip(laws, m, d, contact, found))
+      stored[found.group].load += d->efc_force[contact.efc_address];
   }
-  show_slipping(d);
+  report_slip_forces(d);
 }
 
 }  // namespace trundle

@@ -1,24 +1,23 @@
-// Friction that gives way to a force, and friction against turning that grows with the load: ODE's slip1, slip2, slip3
-// and surface_radius, and the slip of tyres that Gazebo's WheelSlipPlugin works out in each step.
+// Force-dependent slip and load-dependent torsional friction: ODE's slip1, slip2, slip3 and surface_radius, and the
+// tyre slip of Gazebo's WheelSlipPlugin.
 //
-// What slips has a tangential velocity of slip · force, up to the force that friction would hold. Gazebo multiplies the
-// slip of a pair of collisions by the number of its contact points, so that all of them together slip as one would: a
-// box on four points of ODE, a cylinder on two, and our contacts, whatever their number. Along a direction that slips,
-// MuJoCo's friction is switched off, and a force of ours takes its place.
+// A slipping contact has a tangential velocity of slip · force, up to Coulomb's limit. Gazebo multiplies the slip of a
+// pair of collisions by its number of contact points, so that together they slip as one would; so do these contacts,
+// whatever their number. Along a slipping direction MuJoCo's friction is switched off and replaced by an applied force.
 #pragma once
 
 #include "law_tables.h"
 
 namespace trundle {
 
-// Find what slips in this step, and switch its friction off; return whether constraints are to be made again.
+// Find slipping contacts and switch their friction off; return whether the constraints must be rebuilt.
 bool release_slipping(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Push against what slips in this step, once the constraints are made.
+// Apply the forces of slipping contacts; call once the constraints are built.
 void resist_slip(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Keep how hard each group of contacts is pressed, which limits its friction in the next step [N], and have contacts that
-// slip say what they resist with; once the constraints are solved.
-void keep_loads(const LawTables& laws, const mjModel* m, mjData* d);
+// Record each group's normal load [N], which limits its friction in the next step, and report the forces of slipping
+// contacts; call once the constraints are solved.
+void record_loads(const LawTables& laws, const mjModel* m, mjData* d);
 
 }  // namespace trundle

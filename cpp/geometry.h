@@ -1,4 +1,4 @@
-// Meshes and images as they are kept for drawing.
+// Meshes and textures, prepared for rendering.
 #pragma once
 
 #include <array>
@@ -6,31 +6,31 @@
 #include <vector>
 
 #include "kernel.h"
-#include "place.h"
+#include "transform.h"
 
 namespace trundle {
 
 struct Mesh {
-  std::array<std::vector<float>, 3> places;
+  std::array<std::vector<float>, 3> positions;
   std::array<std::vector<int32_t>, 3> corners;
-  std::vector<float> normals, layout, bend;
+  std::vector<float> normals, uv_planes, normal_planes;
   int32_t vertex_count = 0, face_count = 0;
   Vec3 low{}, high{};
   Triangles triangles() const;
 };
 
-// `vertices` and `faces` hold three numbers each. For each corner of each face, `uv` holds two numbers and `normals`
-// three; both may be empty. Faces whose corners do not exist throw std::invalid_argument; those without area or with a
-// corner that is no number are left out of sight. Where a corner's normal is none, the face's is.
+// vertices (V, 3), faces (F, 3), uv (F, 3, 2) and normals (F, 3, 3) per face corner; the latter two may be empty. A
+// vertex index out of range throws std::invalid_argument; faces without area or with a NaN are dropped. An invalid
+// corner normal is replaced by the face's.
 Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& faces, const std::vector<float>& uv,
                const std::vector<float>& normals);
 
 struct Image {
   std::vector<int32_t> texels;
-  Texture texture{};  // its texels are set where the image has come to rest
+  Texture texture{};  // `texels` points here once the Image has its final address
 };
 
-// From rows of red, green, blue, the highest row first.
+// rgb: (height, width, 3), top row first.
 Image make_image(const uint8_t* rgb, int32_t width, int32_t height);
 
 }  // namespace trundle

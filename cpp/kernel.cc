@@ -1,110 +1,112 @@
-// Visibility, then light: what every pixel sees first, then its colour once. Compiled once per instruction set; nothing
-// of the standard library is used here, so that no copy of it for one instruction set is linked into another.
+// Deferred rendering: visibility first, then each pixel is shaded once. Compiled once per instruction set; the standard
+// library is not used here, so that no copy of it for one instruction set is linked into another.
 #include "kernel.h"
 
-#include "cast.h"
+#include "image_noise.h"
 #include "intersect.h"
-#include "lanes.h"
-#include "noise.h"
 #include "pixels.h"
 #include "raster.h"
+#include "ray_cast.h"
 #include "shade.h"
+#include "simd.h"
 
 namespace trundle::TRUNDLE_ISA {
 namespace {
 
-// Where rays start and how they run, in the shape's frame, a row at a time.
-template <bool parallel>
-struct Rays {
+// Rays through the pixels of a row, in a shape's frame.
+template <bool orthographic>
+struct PixelRays {
   const View& view;
-  const Solid& solid;
+  const Renderable& renderable;
   float step, z;
 
-  Rays(const View& view, const Solid& solid) : view(view), solid(solid), step(1.0f / view.focal), z(0.0f) {}
+  PixelRays(const View& view, const Renderable& renderable)
+      : view(view), renderable(renderable), step(1.0f / view.focal), z(0.0f) {}
   void begin_row(int row) { z = (view.centre_v - ((float)row + 0.5f)) * step; }
-  template <Kind kind>
-  Meeting<F> meet_at(F u) const {
-    const float* axes = solid.axes;
+  template <ShapeKind kind>
+  RayHit<F> hit_at(F u) const {
+    const float* axes = renderable.axes;
     const F y = (view.centre_u - u) * step;
     const F3 across = {axes[2] * z + axes[1] * y, axes[5] * z + axes[4] * y, axes[8] * z + axes[7] * y};
     const F3 ahead = {splat(axes[0]), splat(axes[3]), splat(axes[6])};
-    if constexpr (parallel) return meet<kind>(solid.size, splat(solid.eye) + across, ahead);
-    return meet<kind>(solid.size, splat(solid.eye), ahead + across);
+    if constexpr (orthographic) return intersect<kind>(renderable.size, splat(renderable.eye) + across, ahead);
+    return intersect<kind>(renderable.size, splat(renderable.eye), ahead + across);
   }
 };
 
-template <Kind kind, bool parallel, bool with_id>
-void see_along(const View& view, const Solid& solid, const Buffers& buffers) {
-  Rays<parallel> rays(view, solid);
-  const float nearest = parallel ? -view.near_ : 1.0f / view.near_;
-  const int first = solid.left / kLanes * kLanes;
-  for (int row = solid.top; row < solid.bottom; ++row) {
+template <ShapeKind kind, bool orthographic, bool with_id>
+void rasterize_rays(const View& view, const Renderable& renderable, const Buffers& buffers) {
+  PixelRays<orthographic> rays(view, renderable);
+  const float near_limit = orthographic ? -view.near_ : 1.0f / view.near_;
+  const int first = renderable.left / kLanes * kLanes;
+  for (int row = renderable.top; row < renderable.bottom; ++row) {
     rays.begin_row(row);
-    const float* hidden = buffers.hidden + row / kTileHeight * view.tile_stride();
-    for (int column = first; column < solid.right; column += kLanes) {
-      if (solid.nearest < hidden[column / kTileWidth]) continue;
-      const F u = counting() + ((float)column + 0.5f);
-      const Meeting<F> met = rays.template meet_at<kind>(u);
-      const F nearness = parallel ? -met.depth : 1.0f / met.depth;
+    const float* hi_z = buffers.hi_z + row / kTileHeight * view.tile_stride();
+    for (int column = first; column < renderable.right; column += kLanes) {
+      if (renderable.max_inverse_depth < hi_z[column / kTileWidth]) continue;
+      const F u = lane_indices() + ((float)column + 0.5f);
+      const RayHit<F> hit = rays.template hit_at<kind>(u);
+      const F inverse_depth = orthographic ? -hit.depth : 1.0f / hit.depth;
       const int at = row * view.stride + column;
-      const F before = load(buffers.nearness + at);
-      const I may = met.hit & (nearness <= nearest) & (u > (float)solid.left) & (u < (float)solid.right);
-      if (!any(may & (nearness >= before))) continue;
-      put<with_id>(buffers, at, may, nearness, before, solid.first_id);
+      const F old = load(buffers.inverse_depth + at);
+      const I mask =
+          hit.mask & (inverse_depth <= near_limit) & (u > (float)renderable.left) & (u < (float)renderable.right);
+      if (!any(mask & (inverse_depth >= old))) continue;
+      write_pixels<with_id>(buffers, at, mask, inverse_depth, old, renderable.first_id);
     }
   }
 }
 
-template <Kind kind>
-void see_solid(const View& view, const Solid& solid, const Buffers& buffers) {
-  if (view.parallel) return see_along<kind, true, false>(view, solid, buffers);
-  if (!buffers.id) return see_along<kind, false, false>(view, solid, buffers);
-  see_along<kind, false, true>(view, solid, buffers);
+template <ShapeKind kind>
+void rasterize_shape(const View& view, const Renderable& renderable, const Buffers& buffers) {
+  if (view.orthographic) return rasterize_rays<kind, true, false>(view, renderable, buffers);
+  if (!buffers.id) return rasterize_rays<kind, false, false>(view, renderable, buffers);
+  rasterize_rays<kind, false, true>(view, renderable, buffers);
 }
 
-void see(const View& view, const Solid& solid, const Buffers& buffers) {
-  switch (solid.kind) {
-    case Kind::kPlane: return see_solid<Kind::kPlane>(view, solid, buffers);
-    case Kind::kBox: return see_solid<Kind::kBox>(view, solid, buffers);
-    case Kind::kSphere: return see_solid<Kind::kSphere>(view, solid, buffers);
-    case Kind::kCylinder: return see_solid<Kind::kCylinder>(view, solid, buffers);
-    case Kind::kCapsule: return see_solid<Kind::kCapsule>(view, solid, buffers);
-    case Kind::kEllipsoid: return see_solid<Kind::kEllipsoid>(view, solid, buffers);
-    case Kind::kMesh: return see_mesh(view, solid, buffers);
+void rasterize(const View& view, const Renderable& renderable, const Buffers& buffers) {
+  switch (renderable.kind) {
+    case ShapeKind::kPlane: return rasterize_shape<ShapeKind::kPlane>(view, renderable, buffers);
+    case ShapeKind::kBox: return rasterize_shape<ShapeKind::kBox>(view, renderable, buffers);
+    case ShapeKind::kSphere: return rasterize_shape<ShapeKind::kSphere>(view, renderable, buffers);
+    case ShapeKind::kCylinder: return rasterize_shape<ShapeKind::kCylinder>(view, renderable, buffers);
+    case ShapeKind::kCapsule: return rasterize_shape<ShapeKind::kCapsule>(view, renderable, buffers);
+    case ShapeKind::kEllipsoid: return rasterize_shape<ShapeKind::kEllipsoid>(view, renderable, buffers);
+    case ShapeKind::kMesh: return rasterize_mesh(view, renderable, buffers);
   }
 }
 
-void settle(const View& view, const Solid& solid, const Buffers& buffers) {
-  const int first = solid.left / kTileWidth, last = (solid.right - 1) / kTileWidth;
-  for (int top = solid.top / kTileHeight; top <= (solid.bottom - 1) / kTileHeight; ++top)
+void update_hi_z(const View& view, const Renderable& renderable, const Buffers& buffers) {
+  const int first = renderable.left / kTileWidth, last = (renderable.right - 1) / kTileWidth;
+  for (int top = renderable.top / kTileHeight; top <= (renderable.bottom - 1) / kTileHeight; ++top)
     for (int left = first; left <= last; ++left) {
       const int bottom = (top + 1) * kTileHeight < view.height ? (top + 1) * kTileHeight : view.height;
       F farthest = splat(3e38f);
       for (int row = top * kTileHeight; row < bottom; ++row)
         for (int column = 0; column < kTileWidth; column += kLanes)
-          farthest = min(load(buffers.nearness + row * view.stride + left * kTileWidth + column), farthest);
-      buffers.hidden[top * view.tile_stride() + left] = least(farthest);
+          farthest = min(load(buffers.inverse_depth + row * view.stride + left * kTileWidth + column), farthest);
+      buffers.hi_z[top * view.tile_stride() + left] = reduce_min(farthest);
     }
 }
 
-void fill(const View& view, const Sky& sky, int32_t top, int32_t bottom, const Buffers& buffers) {
+void fill_sky(const View& view, const Sky& sky, int32_t top, int32_t bottom, const Buffers& buffers) {
   const float step = 1.0f / view.focal;
-  float more[3];
-  bool is_even = true;
-  for (int i = 0; i < 3; ++i) more[i] = sky.zenith[i] - sky.horizon[i], is_even &= more[i] == 0.0f;
+  float range[3];
+  bool is_uniform = true;
+  for (int i = 0; i < 3; ++i) range[i] = sky.zenith[i] - sky.horizon[i], is_uniform &= range[i] == 0.0f;
   for (int row = top; row < bottom; ++row) {
     const float z = (view.centre_v - ((float)row + 0.5f)) * step;
     for (int column = 0; column < view.stride; column += kLanes) {
       const int at = row * view.stride + column;
-      const I none = load(buffers.id + at) < 0;
-      if (!any(none)) continue;
-      I word = splat(sky.even);
-      if (!is_even) {
-        const F y = (view.centre_u - (counting() + ((float)column + 0.5f))) * step;
+      const I empty = load(buffers.id + at) < 0;
+      if (!any(empty)) continue;
+      I word = splat(sky.packed_horizon);
+      if (!is_uniform) {
+        const F y = (view.centre_u - (lane_indices() + ((float)column + 0.5f))) * step;
         const F up = (sky.up[0] + sky.up[1] * y + sky.up[2] * z) / sqrt(1.0f + y * y + z * z);
         const F share = sqrt(max(up, F{}));
-        const I high = to_byte(sky.horizon[0] + share * more[0]) | to_byte(sky.horizon[1] + share * more[1]) << 8 |
-                       to_byte(sky.horizon[2] + share * more[2]) << 16;
+        const I high = to_byte(sky.horizon[0] + share * range[0]) | to_byte(sky.horizon[1] + share * range[1]) << 8 |
+                       to_byte(sky.horizon[2] + share * range[2]) << 16;
         word = select(up > 0.0f, high, word);
       }
       store(buffers.colour + at, word);
@@ -112,15 +114,15 @@ void fill(const View& view, const Sky& sky, int32_t top, int32_t bottom, const B
   }
 }
 
-void shade(const View& view, const Solid& solid, const Lighting& lighting, const Buffers& buffers) {
-  switch (solid.kind) {
-    case Kind::kPlane: return shade_solid<Kind::kPlane>(view, solid, lighting, buffers);
-    case Kind::kBox: return shade_solid<Kind::kBox>(view, solid, lighting, buffers);
-    case Kind::kSphere: return shade_solid<Kind::kSphere>(view, solid, lighting, buffers);
-    case Kind::kCylinder: return shade_solid<Kind::kCylinder>(view, solid, lighting, buffers);
-    case Kind::kCapsule: return shade_solid<Kind::kCapsule>(view, solid, lighting, buffers);
-    case Kind::kEllipsoid: return shade_solid<Kind::kEllipsoid>(view, solid, lighting, buffers);
-    case Kind::kMesh: return shade_solid<Kind::kMesh>(view, solid, lighting, buffers);
+void shade(const View& view, const Renderable& renderable, const Lighting& lighting, const Buffers& buffers) {
+  switch (renderable.kind) {
+    case ShapeKind::kPlane: return shade_shape<ShapeKind::kPlane>(view, renderable, lighting, buffers);
+    case ShapeKind::kBox: return shade_shape<ShapeKind::kBox>(view, renderable, lighting, buffers);
+    case ShapeKind::kSphere: return shade_shape<ShapeKind::kSphere>(view, renderable, lighting, buffers);
+    case ShapeKind::kCylinder: return shade_shape<ShapeKind::kCylinder>(view, renderable, lighting, buffers);
+    case ShapeKind::kCapsule: return shade_shape<ShapeKind::kCapsule>(view, renderable, lighting, buffers);
+    case ShapeKind::kEllipsoid: return shade_shape<ShapeKind::kEllipsoid>(view, renderable, lighting, buffers);
+    case ShapeKind::kMesh: return shade_shape<ShapeKind::kMesh>(view, renderable, lighting, buffers);
   }
 }
 
@@ -129,7 +131,7 @@ void shade(const View& view, const Solid& solid, const Lighting& lighting, const
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), see, settle, fill, shade, cast, develop,
-                       add_depth_noise, add_colour_noise, clip_depths, fill_cloud};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), rasterize,        update_hi_z, fill_sky,  shade, cast_rays, resolve,
+                       add_depth_noise,           add_colour_noise, clip_depths, fill_cloud};
 
 }  // namespace trundle::TRUNDLE_ISA

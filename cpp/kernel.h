@@ -1,56 +1,55 @@
-// What the kernels work on: plain numbers in the camera's frame, and one table of functions per instruction set.
+// Data of the render kernels: plain numbers in the camera frame, and one function table per instruction set.
 #pragma once
 
 #include <cstdint>
 
 namespace trundle {
 
-constexpr int kWidest = 16;  // lanes; rows of buffers are padded to it
-constexpr int kMostLevels = 15;
-constexpr int kTileWidth = kWidest, kTileHeight = 8;  // [px] of what is found to be hidden as a whole
+constexpr int kMaxLanes = 16;  // of the widest instruction set; buffer rows are padded to it
+constexpr int kMaxMipLevels = 15;
+constexpr int kTileWidth = kMaxLanes, kTileHeight = 8;  // [px] of a hierarchical-z tile
 
-enum class Kind : int32_t { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
+enum class ShapeKind : int32_t { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
 enum class LightKind : int32_t { kDirectional, kPoint, kSpot };
 enum class FogKind : int32_t { kNone, kLinear, kExponential, kSquared };
 
-// Pixels and the rays through them. The camera looks along its +x, with y to the left and z up. Rays of a parallel view
-// do not spread: it is what a light sees from far away, its focal length is in px/m, and it has no near plane.
+// Image plane of a camera that looks along +x, with y to the left and z up. An orthographic view is a directional
+// light's: its focal length is in px/m, and it has no near plane.
 struct View {
   int32_t width, height, stride;
-  float centre_u, centre_v;  // the pixel coordinates of the view axis
+  float centre_u, centre_v;  // principal point [px]
   float focal;               // [px]
   float near_, far_;         // [m]
-  bool parallel;
+  bool orthographic;
 
-  // Tiles from the start of a row of them to the next one's.
-  int32_t tile_stride() const { return (stride / kTileWidth + kWidest - 1) / kWidest * kWidest; }
+  // Tiles per row of tiles, padding included.
+  int32_t tile_stride() const { return (stride / kTileWidth + kMaxLanes - 1) / kMaxLanes * kMaxLanes; }
 };
 
-// Vertices and faces lie in rows of their own for each axis and corner, which are padded to kWidest: with faces that have
-// no area.
+// Triangle mesh, one array per axis and per corner, padded to kMaxLanes with zero-area faces.
 struct Triangles {
-  const float* places[3];     // x, y and z of the vertices [m]
-  const int32_t* corners[3];  // vertices of each face, counter-clockwise from outside
-  const float* normals;       // (face_count, 4), unit, outwards, and 0
-  const float* layout;        // (face_count, 8): u and v, each as gradient [1/m] and value at the origin; may be null
-  const float* bend;          // (face_count, 12): x, y and z of normals that run over edges, as the layout; may be null
+  const float* positions[3];  // x, y and z of the vertices [m]
+  const int32_t* corners[3];  // vertex indices of each face, counter-clockwise seen from outside
+  const float* normals;       // (face_count, 4): outward unit normal, 0
+  const float* uv_planes;     // (face_count, 8): u and v as planes, gradient [1/m] and value at the origin; may be null
+  const float* normal_planes;  // (face_count, 12): interpolated x, y and z of the normal as planes; may be null
   int32_t vertex_count, face_count;
 };
 
-constexpr int kMostWaiting = 1024;  // nodes that a walk through a tree may put off
+constexpr int kMaxStack = 1024;  // nodes on a traversal's stack
 
-constexpr int kLeaf = 8;             // triangles that rays are held against side by side
+constexpr int kLeafSize = 8;  // triangles of a leaf, tested side by side
 
-// Boxes, and below each either `count` leaves from `first` on, or, where count is 0, the node `first`. What is not used
-// is a box that holds nothing.
+// kMaxLanes child boxes; below each are `count` leaves from `first` on or, with count 0, the node `first`. Unused
+// children are empty boxes.
 struct BvhNode {
-  float low[3][kWidest], high[3][kWidest];
-  int32_t first[kWidest], count[kWidest];
+  float low[3][kMaxLanes], high[3][kMaxLanes];
+  int32_t first[kMaxLanes], count[kMaxLanes];
 };
 
-// Of each triangle a corner, the two edges from there, and what is at right angles to both. What is not used has no area.
+// Triangles as a corner, the two edges from it and their cross product. Unused ones have no area.
 struct BvhLeaf {
-  float corner[3][kLeaf], edges[2][3][kLeaf], normal[3][kLeaf];
+  float corner[3][kLeafSize], edges[2][3][kLeafSize], normal[3][kLeafSize];
 };
 
 struct BvhView {
@@ -58,77 +57,77 @@ struct BvhView {
   const BvhLeaf* leaves;
 };
 
-// An image and its halves, down to one pixel; it repeats: each has its first column and row again after its last ones.
+// Mipmapped image. It repeats: each level holds its first column and row again after the last ones.
 struct Texture {
-  const int32_t* texels;  // red | green << 8 | blue << 16, the lowest row first
+  const int32_t* texels;  // red | green << 8 | blue << 16, bottom row first
   int32_t level_count;
-  int32_t width[kMostLevels], height[kMostLevels], start[kMostLevels];
+  int32_t width[kMaxMipLevels], height[kMaxMipLevels], start[kMaxMipLevels];
 };
 
-// How a surface answers light: Blinn and Phong's model.
-struct Look {
+// Blinn-Phong material.
+struct Material {
   float ambient[3], diffuse[3], specular[3], emissive[3];
   float shininess;
   float opacity;
   const Texture* texture;  // multiplies ambient and diffuse; may be null
-  float repeat[2];         // how often it is there where it would be once, about its middle
+  float repeat[2];         // repetitions along u and v, about the centre
 };
 
-// A shape as one view sees it.
-struct Solid {
-  Kind kind;
-  float size[3];        // half lengths, radii; of a plane half lengths or 0 for endless
-  float axes[9];        // rows: the shape's axes in the camera frame
-  float eye[3];         // the camera in the shape's frame [m]
-  float centre[3];      // the shape's origin in the camera frame [m]
-  int32_t left, top, right, bottom;  // pixels that it may cover, the last ones excluded
-  float nearest;        // no point of it has more nearness
-  int32_t first_id;     // its visible pixels carry first_id + face
+// Shape transformed into one view.
+struct Renderable {
+  ShapeKind kind;
+  float size[3];                     // half lengths, radii; a plane's half lengths, 0 for infinite
+  float axes[9];                     // rows: the shape's axes in the camera frame
+  float eye[3];                      // the camera in the shape's frame [m]
+  float centre[3];                   // the shape's origin in the camera frame [m]
+  int32_t left, top, right, bottom;  // screen bounds, right and bottom excluded
+  float max_inverse_depth;           // no point of it is nearer
+  int32_t first_id;                  // visible pixels hold first_id + face
   int32_t id_count;
-  int32_t index;        // in the scene
+  int32_t index;  // in the scene
   const Triangles* mesh;
-  float off;            // how far the mesh may be from what casts shadows [m]
-  const Look* look;
+  float lod_error;  // distance by which this level of detail may differ from the shadow caster's [m]
+  const Material* material;
 };
 
-// A shape as rays from one place meet it: what is beside them is sorted out in single precision, what they meet, and
-// where, is found in double.
-struct Target {
-  Kind kind;
-  int32_t index;             // in the scene
-  double size[3];            // as a Solid's
-  double axes[9], eye[3];    // as a Solid's; of a sphere, whose axes are of no interest, in the frame that rays start from
-  float narrow_axes[9], narrow_eye[3];
-  float middle[3];           // of a ball around it, in the frame that rays start from [m]
-  float radius;              // of that ball [m]; less than 0: endless
-  float reach;               // the square of how far along a ray its middle is where the ray only touches it [m²]
-  float aside[3];            // the axis of an endless pipe around it, times a point of that [m]
-  float aside_length;        // [m]
-  float thickness;           // the square of that pipe's radius [m²]
+// Shape seen from the common origin of rays: culled in single precision, intersected in double.
+struct RayTarget {
+  ShapeKind kind;
+  int32_t index;           // in the scene
+  double size[3];          // as a Renderable's
+  double axes[9], eye[3];  // as a Renderable's; a sphere's eye in the rays' frame
+  float axes_f32[9], eye_f32[3];
+  float centre[3];                // of the bounding sphere, in the rays' frame [m]
+  float radius;                   // of the bounding sphere [m]; < 0: infinite
+  float tangent_squared;          // squared length of a tangent from the origin to that sphere [m²]
+  float moment[3];                // Plücker moment of the bounding cylinder's axis [m]
+  float moment_length;            // [m]
+  float cylinder_radius_squared;  // [m²]
   BvhView bvh;
 };
 
-// Balls and pipes around as many targets, as a Target has them.
-struct Around {
-  float middle[3][kWidest], radius[kWidest], aside[3][kWidest], aside_length[kWidest], thickness[kWidest];
+// Bounding spheres and infinite bounding cylinders of kMaxLanes targets, as RayTarget holds them.
+struct BoundingVolumes {
+  float centre[3][kMaxLanes], radius[kMaxLanes], moment[3][kMaxLanes], moment_length[kMaxLanes],
+      cylinder_radius_squared[kMaxLanes];
 };
 
-// What a light sees. Where something is nearer to it than a point, the point is in the shade.
+// Depth image from a light. A point is in shadow where the image holds something nearer.
 struct ShadowMap {
-  const float* nearness;  // (height, stride), as a view's
-  const float* nearest;   // of each tile: no texel of it, or next to it on the right or below, has more nearness
+  const float* inverse_depth;           // (height, stride), as Buffers'
+  const float* tile_max_inverse_depth;  // of each tile: the largest of its texels and their right and lower neighbours
   View view;
-  float turn[9], shift[3];  // from the camera's frame to the view's
-  float texel;              // [m] of a parallel view; of another one [m] at 1 m
+  float rotation[9], translation[3];  // view_from_camera
+  float texel;                        // width of a texel [m]; of a perspective view at 1 m
 };
 
 struct Light {
   LightKind kind;
-  float towards[3];  // unit, in the camera frame: against the direction in which the light goes
-  float place[3];    // in the camera frame; not of directional lights
+  float to_light[3];  // unit, in the camera frame; opposite to the light's direction
+  float position[3];  // in the camera frame; unused by directional lights
   float diffuse[3], specular[3];
-  float constant, linear, quadratic, range;  // of what does not come from afar
-  float cos_inner, cos_outer, falloff;       // of spots; angles from the axis
+  float constant, linear, quadratic, range;  // attenuation of point and spot lights
+  float cos_inner, cos_outer, falloff;       // of spot lights; half angles
   const ShadowMap* shadow;                   // may be null
 };
 
@@ -145,25 +144,25 @@ struct Lighting {
   Fog fog;
 };
 
-// What is seen where nothing is: one colour, or two that run into each other from the horizon up.
+// Background: one colour, or a gradient from the horizon up.
 struct Sky {
   float horizon[3], zenith[3];
-  float up[3];   // in the camera's frame
-  int32_t even;  // the horizon's, as Buffers::colour has it: all of the sky below it, or where both are one
+  float up[3];             // world's z axis in the camera frame
+  int32_t packed_horizon;  // the horizon's colour as in Buffers::colour, used below it and where both are equal
 };
 
-// Rows of `stride` numbers each.
+// Rows of `stride` numbers.
 struct Buffers {
-  float* nearness;    // 1 / depth [1/m]; of a parallel view -depth [m]; endless beside the picture
-  int32_t* id;        // what is seen; -1: nothing; null: of no interest
-  int32_t* colour;    // red | green << 8 | blue << 16
-  int32_t* segment;   // index of the shape, or -1; may be null
-  float* hidden;      // of each tile: what has less nearness is not seen there
-  float* projected;   // room for 6 rows of the vertices of the largest mesh
-  int32_t* large;     // room for the numbers of the faces of the largest mesh
+  float* inverse_depth;   // 1 / depth [1/m]; orthographic: -depth [m]; infinite in the padding
+  int32_t* id;            // of the visible face, -1 for none; null: not wanted
+  int32_t* colour;        // red | green << 8 | blue << 16
+  int32_t* segmentation;  // index of the shape, or -1; may be null
+  float* hi_z;            // of each tile: a fragment with less inverse depth is hidden
+  float* projected;       // scratch: 6 rows of the largest mesh's vertices
+  int32_t* large_faces;   // scratch: face indices of the largest mesh
 };
 
-// Gaussian, of the same numbers wherever it has the same key.
+// Gaussian noise, reproducible from its key.
 struct Noise {
   uint32_t key[2];
   float mean, stddev;
@@ -171,21 +170,21 @@ struct Noise {
 
 struct Kernel {
   const char* name;
-  // Of two at one place the one with the lower number is seen, in whatever order they come.
-  void (*see)(const View&, const Solid&, const Buffers&);
-  void (*settle)(const View&, const Solid&, const Buffers&);  // what is hidden by what is seen by now
-  void (*fill)(const View&, const Sky&, int32_t top, int32_t bottom, const Buffers&);  // where nothing is
-  void (*shade)(const View&, const Solid&, const Lighting&, const Buffers&);
-  // `near` has room for a number for each target.
-  void (*cast)(const Target*, const Around*, int32_t target_count, int32_t* near, const double* directions, int64_t count, double reach,
-               double* ranges, int32_t* shapes);
-  // Rows of buffers into the arrays of a picture; depth may be null.
-  void (*develop)(const View&, int32_t top, int32_t bottom, const Buffers&, uint8_t* rgb, float* depth);
+  // At equal depth the lower id wins, in whatever order shapes come.
+  void (*rasterize)(const View&, const Renderable&, const Buffers&);
+  void (*update_hi_z)(const View&, const Renderable&, const Buffers&);                     // after rasterize
+  void (*fill_sky)(const View&, const Sky&, int32_t top, int32_t bottom, const Buffers&);  // pixels without a shape
+  void (*shade)(const View&, const Renderable&, const Lighting&, const Buffers&);
+  // candidates: scratch, target_count indices.
+  void (*cast_rays)(const RayTarget*, const BoundingVolumes* volumes, int32_t target_count, int32_t* candidates,
+                    const double* directions, int64_t count, double max_range, double* ranges, int32_t* shapes);
+  // Buffer rows to image rows; depth may be null.
+  void (*resolve)(const View&, int32_t top, int32_t bottom, const Buffers&, uint8_t* rgb, float* depth);
   void (*add_depth_noise)(const Noise&, int64_t count, float* depths);
-  void (*add_colour_noise)(const Noise&, int64_t count, uint8_t* rgb);  // the same on each pixel's three colours
-  // What is not between the two, or endless, becomes not a number; both arrays may be one.
+  void (*add_colour_noise)(const Noise&, int64_t count, uint8_t* rgb);  // equal on all three channels of a pixel
+  // Depths outside [near, far] or infinite become NaN; both arrays may be the same.
   void (*clip_depths)(int64_t count, float near, float far, const float* depths, float* clipped);
-  // x, y and z of each pixel in the optical frame [m], and its colour as PCL packs it: 0x00rrggbb in a float's place.
+  // x, y, z in the optical frame [m] and the colour as PCL packs it, 0x00rrggbb in a float's bits.
   void (*fill_cloud)(int64_t count, const float* depth, const uint8_t* rgb, const float* right, const float* down,
                      float* points);
 };
@@ -202,6 +201,6 @@ extern const Kernel kernel;
 }
 #endif
 
-const Kernel& best_kernel();  // that this machine runs
+const Kernel& best_kernel();  // supported by this machine's processor
 
 }  // namespace trundle

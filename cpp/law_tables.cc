@@ -4,7 +4,7 @@ namespace trundle {
 
 namespace {
 
-constexpr double kMagic = 7.2751;  // no number that another model begins with
+constexpr double kMagic = 7.2751;  // marks models that have tables
 constexpr int kTables = 10;
 
 template <typename Row>

@@ -1,7 +1,7 @@
-// What a compiled model says of its contact laws: tables in its custom numbers, which physics/law_tables.py writes.
+// Contact law tables of a compiled model, in its custom numeric fields; physics/compile/law_tables.py writes them.
 //
-// They lie in mjModel, and what changes from step to step in mjData, so that copies of both, threads, saved states and
-// MuJoCo's own batches of simulations each have theirs.
+// Constants are in mjModel and state is in mjData, so copies, threads, saved states and MuJoCo's rollouts each have
+// their own.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace trundle {
 
-// A pair of geoms as one number; the smaller first.
+// Key of a pair of geoms, in either order.
 inline double pair_key(const mjModel* m, const int geom[2]) {
   const std::int64_t low = geom[0] < geom[1] ? geom[0] : geom[1], high = geom[0] < geom[1] ? geom[1] : geom[0];
   return static_cast<double>(low * m->ngeom + high);
@@ -19,48 +19,48 @@ inline double pair_key(const mjModel* m, const int geom[2]) {
 
 struct RestitutionRow {
   double pair, restitution;
-  double slowest;  // [m/s] what approaches slower, does not bounce
+  double min_speed;  // [m/s] slower approach does not bounce
 };
 
 struct FrictionRow {
   double pair;
   double geom, along[3];  // first friction direction in that geom's frame; -1: ODE's own
   double slip[3];         // [m/s/N] along it and across it, [rad/s/(N·m)] about the normal
-  double patch;           // [m²/N] (largest torque / load)² for each newton of load; 0: that ratio is the pair's own
-  double group;           // its two collisions' number; -1: nothing of it slips or grows
+  double patch;           // [m²/N] (largest torque / load)² per newton of load; 0: constant
+  double group;           // index of its pair of collisions; -1: no slip, constant torsional friction
 };
 
 struct DampingRow {
-  double body, linear, angular;  // parts of a velocity that one step takes away
+  double body, linear, angular;  // fraction of the velocity lost per step
 };
 
 struct DeadZoneRow {
-  double pair, depth;  // [m] up to which a contact holds and does not push
+  double pair, depth;  // [m] up to which a contact stops bodies without pushing them out
 };
 
 struct GeomRow {
-  double body;  // of its link: what stands may be a shape of the world's body
+  double body;  // of its link; a static link's geoms belong to the world body
 };
 
-struct MotionRow {  // of the body of the same number
-  double kind;           // MotionKind
-  double axis[3];        // world: first friction direction, or the axis that a track's belt turns about; body: a wheel's
-  double speed;          // [m/s] of the surface past its link
-  double slip[2];        // [m/s/N] along the first direction and across it; a wheel's: for each rad/s that it turns
-  double has_centre;     // a track's robot turns
-  double centre[3];      // about this point of the world [m]
+struct MotionRow {    // indexed by body
+  double kind;        // MotionKind
+  double axis[3];     // first friction direction or a track's axis in the world; a wheel's axis in the body
+  double speed;       // [m/s] of the surface relative to its link
+  double slip[2];     // [m/s/N] along and across the first direction; a wheel's: per rad/s of its spin
+  double has_centre;  // 1: the track's robot turns
+  double centre[3];   // turning centre in the world [m]
 };
 
-struct MotorRow {  // of the tendon of the same number
-  double actuator;   // whose ctrl is the speed to keep, or the position to hold
-  double rate;       // [1/s] at which it closes in on the position; 0: it keeps a speed; below: kinematically
+struct MotorRow {    // indexed by tendon
+  double actuator;   // its ctrl is the target speed or position
+  double rate;       // position gain [1/s]; 0: speed motor; < 0: kinematic
   double qpos, dof;  // of its joint
 
-  // Nothing feels that what it drives is moved, and its own weight is none of its effort.
+  // Moves its joint regardless of load; gravity and inertia do not count as its effort.
   bool is_kinematic() const { return rate < 0.0; }
 };
 
-struct ChainRow {  // links that hang from one another
+struct ChainRow {  // chain of links
   double tree;
 };
 
@@ -71,7 +71,9 @@ struct SpringRow {
 
 enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2, kWheel = 3 };
 
-inline MotionKind motion_kind(const MotionRow& motion) { return static_cast<MotionKind>(static_cast<int>(motion.kind)); }
+inline MotionKind motion_kind(const MotionRow& motion) {
+  return static_cast<MotionKind>(static_cast<int>(motion.kind));
+}
 
 struct LawTables {
   std::span<const RestitutionRow> restitution;
@@ -83,24 +85,24 @@ struct LawTables {
   std::span<const SpringRow> springs;
   std::span<const DeadZoneRow> dead_zones;
   std::span<const GeomRow> geoms;
-  // userdata: the speed that each motor wants [rad/s or m/s], then how contacts push in groups: those of each body with a
-  // motion, then those of two collisions
-  int pair_groups;  // how many there are of the latter
-  int motor_equality;  // whose spring and damper motors' constraints have
-  std::uintptr_t stepped;  // the data that an engine steps with this model, which it has for itself
-  double thin_speed;       // [m/s] from which on something may go through what is thin; 0: nothing may
-  bool on;     // contact laws act
-  bool evaluates;  // those of friction alone
-  bool moves;  // some row of motions is of a kind
+  // mjData.userdata: each motor's target speed [rad/s or m/s], then the contact groups: of bodies with a surface
+  // motion, of pairs of collisions
+  int pair_groups;         // number of the latter
+  int motor_equality;      // equality whose solref motors use
+  std::uintptr_t stepped;  // address of the mjData that the engine steps; others are evaluated
+  double thin_speed;       // [m/s] above which tunnelling is possible; 0: never
+  bool on;                 // all laws apply
+  bool evaluates;          // friction laws apply
+  bool moves;              // a row of `motions` is not kNone
 
-  // The body of the link that a geom is of.
+  // Body of a geom's link.
   int body_of(int geom) const { return static_cast<int>(geoms[static_cast<std::size_t>(geom)].body); }
 
-  // Those of a model; false: it has none.
+  // Read a model's tables; false: it has none.
   static bool find(const mjModel* m, LawTables& found);
 };
 
-// The row of a contact's pair; null: none. Rows are in order of their pairs.
+// Row of a pair by binary search; null: none. Rows are sorted by pair.
 template <typename Row>
 const Row* find_pair(std::span<const Row> rows, double pair) {
   std::size_t first = 0, last = rows.size();

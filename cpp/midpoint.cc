@@ -10,24 +10,23 @@ namespace trundle {
 
 namespace {
 
-constexpr double kSlowest = 1e-3;  // [rad/s or m/s] what is slower has no Coriolis forces to speak of
+constexpr double kMinSpeed = 1e-3;  // [rad/s or m/s] slower joints have negligible Coriolis forces
 
-bool moves(double speed) { return std::abs(speed) > kSlowest; }
+bool moves(double speed) { return std::abs(speed) > kMinSpeed; }
 
-// Whether joints of a tree move that hang from others that do: wheels on a body have no Coriolis forces worth their price.
+// Whether a moving joint has a moving ancestor: wheels on a body have negligible Coriolis forces.
 bool swings(const mjModel* m, const mjData* d, int tree) {
   const int first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
-  const int hung = m->jnt_type[m->dof_jntid[first]] == mjJNT_FREE ? first + 6 : first;
-  for (int i = hung; i < last; ++i) {
+  const int first_joint = m->jnt_type[m->dof_jntid[first]] == mjJNT_FREE ? first + 6 : first;
+  for (int i = first_joint; i < last; ++i) {
     if (!moves(d->qvel[i])) continue;
-    for (int above = m->dof_parentid[i]; above >= hung; above = m->dof_parentid[above]) {
+    for (int above = m->dof_parentid[i]; above >= first_joint; above = m->dof_parentid[above])
       if (moves(d->qvel[above])) return true;
-    }
   }
   return false;
 }
 
-// The trees whose chains of links move, which are to be centred; of those that touch something, the ones that swing.
+// Trees with moving chains; of those in contact, only the ones that swing.
 void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
   chains.clear();
   if (laws.chains.empty()) return;
@@ -47,20 +46,18 @@ void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::
   }
 }
 
-// Freedoms that kinematic motors move.
+// Degrees of freedom moved by kinematic motors.
 void find_driven(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& driven) {
   driven.clear();
   for (std::size_t i = 0; i < laws.motors.size(); ++i) {
     const int dof = static_cast<int>(laws.motors[i].dof);
-    if (laws.motors[i].is_kinematic() && m->tendon_frictionloss[i] > 0.0 && moves(d->qvel[dof])) {
-      driven.push_back(dof);
-    }
+    if (laws.motors[i].is_kinematic() && m->tendon_frictionloss[i] > 0.0 && moves(d->qvel[dof])) driven.push_back(dof);
   }
 }
 
 }  // namespace
 
-void center_bias(const LawTables& laws, const mjModel* m, mjData* d) {
+void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d) {
   thread_local std::vector<int> chains, driven;
   thread_local std::vector<double> speeds, velocities, axes, bias;
   find_chains(laws, m, d, chains);
@@ -70,11 +67,9 @@ void center_bias(const LawTables& laws, const mjModel* m, mjData* d) {
   velocities.assign(d->cvel, d->cvel + 6 * m->nbody);
   axes.assign(d->cdof_dot, d->cdof_dot + 6 * m->nv);
   bias.resize(m->nv);
-  for (const int tree : chains) {
-    for (int i = m->tree_dofadr[tree]; i < m->tree_dofadr[tree] + m->tree_dofnum[tree]; ++i) {
+  for (const int tree : chains)
+    for (int i = m->tree_dofadr[tree]; i < m->tree_dofadr[tree] + m->tree_dofnum[tree]; ++i)
       d->qvel[i] += 0.5 * m->opt.timestep * d->qacc_warmstart[i];
-    }
-  }
   for (const int dof : driven) {
     d->qvel[dof] = 0.0;
     const int tree = m->dof_treeid[dof];
@@ -93,9 +88,8 @@ void center_bias(const LawTables& laws, const mjModel* m, mjData* d) {
 
 void apply_springs(const LawTables& laws, const mjModel* m, mjData* d) {
   (void)m;
-  for (const SpringRow& row : laws.springs) {
+  for (const SpringRow& row : laws.springs)
     d->qfrc_passive[static_cast<int>(row.dof)] -= row.stiffness * (d->qpos[static_cast<int>(row.qpos)] - row.reference);
-  }
 }
 
 }  // namespace trundle

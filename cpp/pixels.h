@@ -1,35 +1,36 @@
-// What is done to each pixel of a finished picture. Included by kernel.cc alone.
+// Per-pixel passes over finished images. Included by kernel.cc alone.
 #pragma once
 
 #include "kernel.h"
-#include "lanes.h"
+#include "simd.h"
 
 namespace trundle::TRUNDLE_ISA {
 
 constexpr float kInfinity = __builtin_inff(), kNotANumber = __builtin_nanf("");
 
-// Red, green and blue of each lane, 3 * kLanes bytes.
+// 3 * kLanes bytes: red, green, blue per lane.
 inline void store_colours(uint8_t* to, I colours) {
 #if defined(__AVX512F__)
-  const __m512i together = _mm512_shuffle_epi8((__m512i)colours, _mm512_broadcast_i32x4(_mm_setr_epi8(
-      0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
+  const __m512i together = _mm512_shuffle_epi8(
+      (__m512i)colours, _mm512_broadcast_i32x4(_mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
   const __m512i order = _mm512_setr_epi32(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 0, 0, 0, 0);
   _mm512_mask_storeu_epi32(to, 0x0fff, _mm512_permutexvar_epi32(order, together));
 #elif defined(__AVX2__)
-  const __m256i together = _mm256_shuffle_epi8((__m256i)colours, _mm256_broadcastsi128_si256(_mm_setr_epi8(
-      0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
+  const __m256i together = _mm256_shuffle_epi8(
+      (__m256i)colours,
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
   const __m256i packed = _mm256_permutevar8x32_epi32(together, _mm256_setr_epi32(0, 1, 2, 4, 5, 6, 0, 0));
   _mm_storeu_si128((__m128i*)to, _mm256_castsi256_si128(packed));
   _mm_storel_epi64((__m128i*)(to + 16), _mm256_extracti128_si256(packed, 1));
 #else
   const auto a = (uint32_t)colours[0], b = (uint32_t)colours[1], c = (uint32_t)colours[2], d = (uint32_t)colours[3];
   const uint32_t packed[3] = {a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8};
-  for (int k = 0; k < 3; ++k) __builtin_memcpy(to + 4 * k, packed + k, 4);  // all at once would go by way of memory
+  for (int k = 0; k < 3; ++k) __builtin_memcpy(to + 4 * k, packed + k, 4);  // one copy would go through memory
 #endif
 }
 
-// Rows of a picture, from buffers whose rows are padded into arrays whose rows are not; `depth` may be null.
-void develop(const View& view, int32_t top, int32_t bottom, const Buffers& buffers, uint8_t* rgb, float* depth) {
+// Padded buffer rows to packed image rows; `depth` may be null.
+void resolve(const View& view, int32_t top, int32_t bottom, const Buffers& buffers, uint8_t* rgb, float* depth) {
   for (int row = top; row < bottom; ++row) {
     const int from = row * view.stride;
     const int64_t to = (int64_t)row * view.width;
@@ -37,12 +38,13 @@ void develop(const View& view, int32_t top, int32_t bottom, const Buffers& buffe
     for (; column + kLanes <= view.width; column += kLanes) {
       store_colours(rgb + 3 * (to + column), load(buffers.colour + from + column));
       if (!depth) continue;
-      const F away = 1.0f / load(buffers.nearness + from + column);
+      const F away = 1.0f / load(buffers.inverse_depth + from + column);
       store(depth + to + column, select(load(buffers.id + from + column) < 0, splat(kInfinity), away));
     }
     for (; column < view.width; ++column) {
       for (int i = 0; i < 3; ++i) rgb[3 * (to + column) + i] = (uint8_t)(buffers.colour[from + column] >> (8 * i));
-      if (depth) depth[to + column] = buffers.id[from + column] < 0 ? kInfinity : 1.0f / buffers.nearness[from + column];
+      if (depth)
+        depth[to + column] = buffers.id[from + column] < 0 ? kInfinity : 1.0f / buffers.inverse_depth[from + column];
     }
   }
 }
@@ -54,16 +56,17 @@ void clip_depths(int64_t count, float near, float far, const float* depths, floa
   }
 }
 
-// Of each lane four numbers side by side; as `gather_four`, the other way.
+// Transpose of gather_four: four consecutive numbers per lane.
 inline void store_four(float* to, F a, F b, F c, F d) {
 #if defined(__AVX512F__)
   const __m512d ab[2] = {_mm512_castps_pd(_mm512_unpacklo_ps((__m512)a, (__m512)b)),
                          _mm512_castps_pd(_mm512_unpackhi_ps((__m512)a, (__m512)b))};
   const __m512d cd[2] = {_mm512_castps_pd(_mm512_unpacklo_ps((__m512)c, (__m512)d)),
                          _mm512_castps_pd(_mm512_unpackhi_ps((__m512)c, (__m512)d))};
-  // Lane i of four in the k-th is of point 4 i + k.
-  const __m512 of[4] = {_mm512_castpd_ps(_mm512_unpacklo_pd(ab[0], cd[0])), _mm512_castpd_ps(_mm512_unpackhi_pd(ab[0], cd[0])),
-                        _mm512_castpd_ps(_mm512_unpacklo_pd(ab[1], cd[1])), _mm512_castpd_ps(_mm512_unpackhi_pd(ab[1], cd[1]))};
+  // Vector k holds point 4 i + k in its i-th 128 bits.
+  const __m512 of[4] = {
+      _mm512_castpd_ps(_mm512_unpacklo_pd(ab[0], cd[0])), _mm512_castpd_ps(_mm512_unpackhi_pd(ab[0], cd[0])),
+      _mm512_castpd_ps(_mm512_unpacklo_pd(ab[1], cd[1])), _mm512_castpd_ps(_mm512_unpackhi_pd(ab[1], cd[1]))};
   const __m512 low[2] = {_mm512_shuffle_f32x4(of[0], of[1], 0x44), _mm512_shuffle_f32x4(of[2], of[3], 0x44)};
   const __m512 high[2] = {_mm512_shuffle_f32x4(of[0], of[1], 0xee), _mm512_shuffle_f32x4(of[2], of[3], 0xee)};
   _mm512_storeu_ps(to, _mm512_shuffle_f32x4(low[0], low[1], 0x88));
@@ -75,13 +78,14 @@ inline void store_four(float* to, F a, F b, F c, F d) {
 #endif
 }
 
-// As PCL packs them, of as many pixels.
+// kLanes colours as PCL packs them.
 inline I load_packed(const uint8_t* rgb) {
 #if defined(__AVX512F__)
   const __m512i bytes = _mm512_maskz_loadu_epi32(0x0fff, rgb);
-  const __m512i four = _mm512_permutexvar_epi32(_mm512_setr_epi32(0, 1, 2, 0, 3, 4, 5, 0, 6, 7, 8, 0, 9, 10, 11, 0), bytes);
-  return (I)_mm512_shuffle_epi8(four, _mm512_broadcast_i32x4(_mm_setr_epi8(
-      2, 1, 0, -1, 5, 4, 3, -1, 8, 7, 6, -1, 11, 10, 9, -1)));
+  const __m512i four =
+      _mm512_permutexvar_epi32(_mm512_setr_epi32(0, 1, 2, 0, 3, 4, 5, 0, 6, 7, 8, 0, 9, 10, 11, 0), bytes);
+  return (I)_mm512_shuffle_epi8(
+      four, _mm512_broadcast_i32x4(_mm_setr_epi8(2, 1, 0, -1, 5, 4, 3, -1, 8, 7, 6, -1, 11, 10, 9, -1)));
 #else
   I packed;
   for (int i = 0; i < kLanes; ++i) packed[i] = rgb[3 * i] << 16 | rgb[3 * i + 1] << 8 | rgb[3 * i + 2];
@@ -89,7 +93,8 @@ inline I load_packed(const uint8_t* rgb) {
 #endif
 }
 
-void fill_cloud(int64_t count, const float* depth, const uint8_t* rgb, const float* right, const float* down, float* points) {
+void fill_cloud(int64_t count, const float* depth, const uint8_t* rgb, const float* right, const float* down,
+                float* points) {
   int64_t at = 0;
   for (; at + kLanes <= count; at += kLanes) {
     const F ahead = load(depth + at);

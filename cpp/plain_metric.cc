@@ -9,14 +9,14 @@ namespace {
 
 bool is_zero(double value) { return value == 0.0; }
 
-// Whether dampers, springs, tendons or a medium have a part in the metric; motors have none, for they have no gains.
+// Whether dampers, springs, tendons or a fluid contribute to the metric; motors have no gains, so they do not.
 bool has_terms(const mjModel* m, const mjData* d) {
   if (d->efm_active != 1 || d->nefmT > 0) return true;
   if (m->opt.density != 0.0 || m->opt.viscosity != 0.0) return true;
   return d->efm_diag && !std::all_of(d->efm_diag, d->efm_diag + m->nv, is_zero);
 }
 
-// Trees of bodies that touch something.
+// Trees in contact, one flag each.
 const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
   thread_local std::vector<char> touching;
   touching.assign(m->ntree, 0);
@@ -30,7 +30,7 @@ const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
   return touching;
 }
 
-// Whether gyroscopic forces can turn a free body: not one that is round, and whose centre is its origin.
+// Whether gyroscopic forces can turn a free body: not if it is inertially spherical about its origin.
 bool wobbles(const mjModel* m, int body) {
   const double* inertia = m->body_inertia + 3 * body;
   const double* centre = m->body_ipos + 3 * body;
@@ -38,8 +38,8 @@ bool wobbles(const mjModel* m, int body) {
   return !is_round || !std::all_of(centre, centre + 3, is_zero);
 }
 
-// Whether MuJoCo takes the gyroscopic forces of some body implicitly, which goes with the metric: of those that hang
-// from nothing, carry nothing and touch nothing.
+// Whether MuJoCo integrates some body's gyroscopic forces implicitly, in the metric: single free bodies without
+// contact.
 bool any_flies(const mjModel* m, const mjData* d) {
   const std::vector<char>& touching = find_touching(m, d);
   for (int joint = 0; joint < m->njnt; ++joint) {
@@ -53,10 +53,10 @@ bool any_flies(const mjModel* m, const mjData* d) {
 
 }  // namespace
 
-void take_plain_metric(const mjModel* m, mjData* d) {
+void use_plain_metric(const mjModel* m, mjData* d) {
   if (m->opt.integrator != mjINT_DISCRETE || has_terms(m, d) || any_flies(m, d)) return;
   d->efm_active = 0;
-  // MuJoCo writes the second after this callback, and not for a metric that is off; its solver would add what is there.
+  // MuJoCo does not update efm_sdiag while the metric is off, and its solver would add the stale values.
   d->efm_diag = d->efm_sdiag = nullptr;
 }
 

@@ -10,24 +10,24 @@ namespace trundle {
 
 namespace {
 
-constexpr double kUpright = 1e-7;  // [rad] at which rounding turns the lowest point by a billionth of a turn
-constexpr int kPoints = 3;
+constexpr double kMinTilt = 1e-7;  // [rad] below which the lowest point's direction is rounding noise
+constexpr int kContacts = 3;
 
 std::atomic<mjfCollision> original = nullptr;
 
-// Three points of the rim, which turn with the cylinder.
+// Three points of the rim, fixed to the cylinder.
 int collide(const mjModel* m, mjData* d, mjPreContact* contacts, int plane, int cylinder, mjtNum margin) {
   const double *from_plane = d->geom_xmat + 9 * plane, *from_cylinder = d->geom_xmat + 9 * cylinder;
   const double normal[3] = {from_plane[2], from_plane[5], from_plane[8]};
   const double axis[3] = {from_cylinder[2], from_cylinder[5], from_cylinder[8]};
   double across[3];
   cross(across, normal, axis);
-  if (dot(across, across) > kUpright * kUpright) return original.load()(m, d, contacts, plane, cylinder, margin);
+  if (dot(across, across) > kMinTilt * kMinTilt) return original.load()(m, d, contacts, plane, cylinder, margin);
   const double radius = m->geom_size[3 * cylinder];
   const double down = m->geom_size[3 * cylinder + 1] * (dot(normal, axis) > 0 ? -1 : 1);
   int count = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * mjPI * i / kPoints;
+  for (int i = 0; i < kContacts; ++i) {
+    const double angle = 2 * mjPI * i / kContacts;
     const double x = radius * std::cos(angle), y = radius * std::sin(angle);
     double point[3], from_centre[3];
     for (int j = 0; j < 3; ++j) {

@@ -1,14 +1,14 @@
-// Where a cylinder that stands upright touches a plane.
+// Collision of a plane and an upright cylinder.
 #pragma once
 
 #include <mujoco/mujoco.h>
 
 namespace trundle {
 
-// Have MuJoCo's table of collision functions hold ours for planes and cylinders, which calls the one that was there.
+// Replace the plane-cylinder entry of MuJoCo's collision table; tilted cylinders go to the original function.
 //
-// MuJoCo's own looks for the rim's lowest point by the part of the axis that lies in the plane. Where that is no more
-// than rounding, so is what it finds: a contact up to a radius too deep, or none at all.
+// The original finds the rim's lowest point from the axis's component in the plane. Where that is rounding noise,
+// contacts are up to a radius too deep, or missing.
 void install_plane_cylinder(mjfCollision table[mjNGEOMTYPES][mjNGEOMTYPES]);
 
 }  // namespace trundle

@@ -1,4 +1,4 @@
-// A scene, and pictures of it.
+// Renderer of a scene: camera images and ray casts.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "bvh.h"
-#include "coarse.h"
 #include "geometry.h"
 #include "kernel.h"
 #include "light.h"
-#include "place.h"
+#include "mesh_lod.h"
+#include "transform.h"
 
 namespace trundle {
 
-struct LookSpec {
+struct MaterialSpec {
   std::array<float, 3> ambient{}, diffuse{}, specular{}, emissive{};
   float shininess = 0, opacity = 1;
   int32_t texture = -1;  // index, or -1
@@ -22,12 +22,12 @@ struct LookSpec {
 };
 
 struct ShapeSpec {
-  Kind kind;
+  ShapeKind kind;
   int32_t body;
-  int32_t mesh;  // index, for Kind::kMesh
+  int32_t mesh;  // index, for ShapeKind::kMesh
   Vec3 size;
-  Frame body_from_shape;
-  LookSpec look;
+  Transform body_from_shape;
+  MaterialSpec material;
   bool casts_shadow = true;
 };
 
@@ -42,97 +42,100 @@ struct SceneSpec {
   Fog fog{};
 };
 
-// A picture to be drawn, and where to: (height, width, 3), (height, width), (height, width); depth and segment may be null.
-struct Shot {
-  Frame world_from_camera;
+// Camera and output arrays: (height, width, 3), (height, width), (height, width); the last two may be null.
+struct CameraTarget {
+  Transform world_from_camera;
   int32_t width, height;
   double focal, near_, far_;
   uint8_t* rgb;
   float* depth;
-  int32_t* segment;
+  int32_t* segmentation;
 };
 
-// Room that grows to what is asked for, in whole lines of the cache. What lies in it is of no meaning.
+// Cache-aligned buffer that only grows; its contents are not kept.
 template <typename Number>
 class Scratch {
  public:
-  void fit(size_t count) {
-    const size_t lines = (count + kWidest - 1) / kWidest;
+  void reserve(size_t count) {
+    const size_t lines = (count + kMaxLanes - 1) / kMaxLanes;
     if (lines > count_) lines_.reset(new Line[lines]), count_ = lines;
   }
   Number* data() { return lines_ ? lines_[0].numbers : nullptr; }
 
  private:
   struct alignas(64) Line {
-    Number numbers[kWidest];
+    Number numbers[kMaxLanes];
   };
   std::unique_ptr<Line[]> lines_;
   size_t count_ = 0;
 };
 
-constexpr int32_t kMostThreads = 64;
+constexpr int32_t kMaxThreads = 64;
 
 class Renderer {
  public:
-  // Throws std::invalid_argument where an index leads nowhere. Pictures are the same with any number of threads.
+  // Throws std::invalid_argument if an index is out of range. Images do not depend on the number of threads.
   explicit Renderer(SceneSpec scene, int32_t threads = 1);
   Renderer(const Renderer&) = delete;
 
-  void update(const double* poses);  // (bodies, 7)
-  void reshape(int32_t mesh, Mesh form);  // whatever shape bears that mesh changes
-  // All of one instant. Threads share the rows of all of them.
-  void render(const std::vector<Shot>& shots);
-  // How far rays from one place go before they meet a shape [m], and which; infinity and -1 where they meet none. Unit
-  // directions (count, 3) in the frame of that place; of the body `exclude`, nothing is met.
-  void cast(const Frame& world_from_place, const double* directions, size_t count, double reach, int32_t exclude,
-            double* ranges, int32_t* shapes);
+  void update(const double* poses);         // (bodies, 7)
+  void set_mesh(int32_t index, Mesh mesh);  // for all shapes that use it
+  // All targets in one pass; threads share their rows.
+  void render(const std::vector<CameraTarget>& targets);
+  // Ranges to the nearest shapes [m] and their indices; infinity and -1 without a hit. directions: (count, 3), unit, in
+  // the origin's frame. Shapes of the body `exclude` are ignored.
+  void cast_rays(const Transform& world_from_origin, const double* directions, size_t count, double max_range,
+                 int32_t exclude, double* ranges, int32_t* shapes);
   int32_t bodies() const { return scene_.bodies; }
 
  private:
-  struct Bounds {  // in the shape's frame [m]: a box, a ball around it, and an endless pipe along one of its axes
-    Vec3 low, high, middle;
-    double radius, thickness;
+  struct Bounds {  // in the shape's frame [m]: box, sphere, and infinite cylinder along one axis
+    Vec3 low, high, centre;
+    double radius, cylinder_radius;
     int32_t axis;
   };
-  void place_shapes();
+  void update_shape_poses();
   Bounds bounds_of(const ShapeSpec& shape) const;
-  bool is_endless(const ShapeSpec& shape) const;
-  std::optional<Frame> orient(const Frame& world_from_camera, size_t index, Solid& solid) const;
-  bool aim(const Frame& world_from_place, size_t index, double reach, Target& target) const;
-  enum class Detail { kAll, kSeen };  // of meshes: every triangle, or what makes no difference to a picture
-  bool place(const View& view, const Frame& world_from_camera, size_t index, Detail detail, Solid& solid);
-  const Triangles& mesh_for(int32_t mesh, double unseen);
-  void number_faces();
-  void draw_maps();
+  bool is_infinite(const ShapeSpec& shape) const;
+  std::optional<Transform> make_renderable(const Transform& world_from_camera, size_t index,
+                                           Renderable& renderable) const;
+  bool make_target(const Transform& world_from_origin, size_t index, double max_range, RayTarget& target) const;
+  enum class Detail { kFull, kLod };  // of meshes: all triangles, or fewer with no visible difference
+  bool project_shape(const View& view, const Transform& world_from_camera, size_t index, Detail detail,
+                     Renderable& renderable);
+  const Triangles& select_lod(int32_t mesh, double tolerance);
+  void assign_face_ids();
+  void render_shadow_maps();
   struct Band;
   template <typename Work>
-  void in_bands(const std::vector<View>& views, const Work& work);
-  void sort_by_nearness(std::vector<Solid>& solids) const;
-  void see_all(const View& view, const std::vector<Solid>& solids, const Band& band, Buffers buffers) const;
-  struct Sight;  // what a camera has before it
-  Sight sight_of(const Shot& shot, const View& view);
-  void draw(const Shot& shot, const View& view, const Sight& sight, const Band& band);
+  void for_each_band(const std::vector<View>& views, const Work& work);
+  void sort_front_to_back(std::vector<Renderable>& renderables) const;
+  void rasterize_all(const View& view, const std::vector<Renderable>& renderables, const Band& band,
+                     Buffers buffers) const;
+  struct VisibleSet;  // shapes and lights in a camera frame
+  VisibleSet find_visible(const CameraTarget& target, const View& view);
+  void draw(const CameraTarget& target, const View& view, const VisibleSet& visible, const Band& band);
 
   SceneSpec scene_;
   std::vector<Triangles> triangles_;
-  std::vector<Bvh> trees_;  // made when first a ray is cast
-  std::vector<std::optional<std::vector<Coarse>>> coarse_;  // of each mesh, made when first one is so small
-  std::vector<Look> looks_;
+  std::vector<Bvh> bvhs_;                                  // built at the first ray cast
+  std::vector<std::optional<std::vector<MeshLod>>> lods_;  // per mesh, built on first use
+  std::vector<Material> materials_;
   std::vector<int32_t> first_ids_;
   std::vector<Bounds> bounds_;
-  std::vector<std::optional<Frame>> body_poses_;  // nothing: nowhere, and not drawn
-  std::vector<std::optional<Frame>> shape_poses_;  // in the world
-  std::vector<Target> targets_;                    // that rays may meet
-  std::vector<Around> around_;                     // those
-  std::vector<int32_t> near_;                      // of those, that some may meet
-  std::vector<std::optional<LightMap>> maps_;     // of each light
-  bool maps_are_old_ = true;
-  struct Room {  // of each thread; of pictures each touches the rows that it draws
-    Scratch<float> projected, nearness, nearness_through, hidden, hidden_through;
-    Scratch<int32_t> large, id, id_through, colour, segment;
-    void fit(const Mesh& mesh);
+  std::vector<std::optional<Transform>> body_poses_;        // nothing: not drawn
+  std::vector<std::optional<Transform>> shape_poses_;       // in the world
+  std::vector<RayTarget> targets_;                          // of the last ray cast
+  std::vector<BoundingVolumes> volumes_;                    // of targets_
+  std::vector<int32_t> candidates_;                         // scratch
+  std::vector<std::optional<ShadowMapImage>> shadow_maps_;  // per light
+  bool shadow_maps_dirty_ = true;
+  struct Workspace {  // per thread
+    Scratch<float> projected, inverse_depth, inverse_depth_through, hi_z, hi_z_through;
+    Scratch<int32_t> large_faces, id, id_through, colour, segmentation;
+    void reserve(const Mesh& mesh);
   };
-  std::vector<Room> rooms_;
+  std::vector<Workspace> workspaces_;
 };
 
 }  // namespace trundle

@@ -1,4 +1,4 @@
-"""Names the script that an installer writes: where cpp/start.cc is the command, that one starts `_trundle`."""
+"""Name of the console script: `_trundle` where cpp/launcher.cc is the command `trundle` and starts it."""
 
 import sys
 

@@ -10,8 +10,8 @@ namespace trundle {
 
 namespace {
 
-// First friction direction of a track, across the way from the point that the robot turns about, and the belt's speed
-// along it; false: none.
+// First friction direction of a track, perpendicular to the arm from the turning centre, and the belt's speed along it;
+// false: none.
 bool track_direction(const MotionRow& motion, const mjContact& contact, double side, double along[3], double& speed) {
   const double normal[3] = {side * contact.frame[0], side * contact.frame[1], side * contact.frame[2]};
   double backwards[3];
@@ -45,8 +45,7 @@ bool first_direction(const mjData* d, const MotionRow& motion, int body, const m
   return true;
 }
 
-// ODE's first friction direction where a file gives none (dPlaneSpace), forwards or backwards: along y on a level floor,
-// level on a wall.
+// ODE's default first friction direction (dPlaneSpace), up to its sign: along y on a level floor, horizontal on a wall.
 void plane_direction(const double normal[3], double along[3]) {
   const bool level = normal[2] * normal[2] > 0.5;
   along[0] = level ? 0.0 : -normal[1];
@@ -95,12 +94,11 @@ void move_surfaces(const LawTables& laws, const mjModel* m, mjData* d) {
     mjContact& contact = d->contact[i];
     const auto [motion, second] = motion_at(laws, contact);
     if (!motion) continue;
-    const double side = 2.0 * second - 1.0;  // the normal points out of the first
+    const double side = 2.0 * second - 1.0;  // the normal points out of the first geom
     const int body = laws.body_of(contact.geom[second]);
     double along[3], speed;
-    if (!first_direction(d, *motion, body, contact, side, along, speed) || !align_tangents(m, d, contact, along)) {
+    if (!first_direction(d, *motion, body, contact, side, along, speed) || !align_tangents(m, d, contact, along))
       continue;
-    }
     contact.surfacevel[0] = side * speed;
     contact.surfacevel[1] = 0.0;
   }

@@ -1,6 +1,4 @@
-// Surfaces that have friction directions of their own, or run under a contact.
-//
-// ODE has fdir1 and motion1 for them. A moving surface is a number that MuJoCo's contacts have a place for.
+// Friction directions and moving surfaces: ODE's fdir1 and motion1. mjContact has a field for the surface velocity.
 #pragma once
 
 #include <utility>
@@ -9,16 +7,16 @@
 
 namespace trundle {
 
-// Lay the first tangents of contacts along the directions of their pairs.
+// Turn first tangents to the friction directions of their pairs.
 void align_friction(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Lay the first tangents of contacts along the motion of their surfaces.
+// Turn first tangents to the motion of moving surfaces, and set its speed.
 void move_surfaces(const LawTables& laws, const mjModel* m, mjData* d);
 
-// The motion of a contact with friction, and which of its two geoms has it; null: none.
+// Surface motion at a contact with friction, and which of its two geoms has it; null: none.
 std::pair<const MotionRow*, int> motion_at(const LawTables& laws, const mjContact& contact);
 
-// How fast a body with a wheel's motion turns about the wheel's axis [rad/s].
+// Angular velocity of a wheel about its axis [rad/s].
 double spin_of(const mjData* d, int body, const MotionRow& motion);
 
 }  // namespace trundle

@@ -6,14 +6,14 @@
 #include <unistd.h>
 #endif
 
-namespace trundle::wire {
+namespace trundle::messages {
 
 #ifdef __linux__
 
 namespace {
 
-// The first version of the kernel's struct sched_attr (include/uapi/linux/sched/types.h), as libraries before glibc 2.41
-// have no name for it.
+// The first version of the kernel's struct sched_attr (include/uapi/linux/sched/types.h), as libraries before
+// glibc 2.41 have no name for it.
 struct SchedAttr {
   uint32_t size, policy;
   uint64_t flags;
@@ -40,4 +40,4 @@ void request_time_slice(uint64_t) {}
 
 #endif
 
-}  // namespace trundle::wire
+}  // namespace trundle::messages

@@ -8,7 +8,7 @@ namespace trundle {
 
 namespace {
 
-constexpr double kSlowest = 0.01;  // [m/s or rad/s] ODE damps nothing that is slower
+constexpr double kMinSpeed = 0.01;  // [m/s or rad/s] ODE's threshold
 
 }  // namespace
 
@@ -16,16 +16,15 @@ void apply_damping(const LawTables& laws, const mjModel* m, mjData* d) {
   const double h = m->opt.timestep;
   for (const DampingRow& row : laws.damping) {
     const int body = static_cast<int>(row.body);
-    if (body == 0) continue;  // the world: of a link without freedom
-    double velocity[6];  // of the centre of mass, in world axes: rotation first
+    if (body == 0) continue;  // the world: a static link
+    double velocity[6];       // of the centre of mass, in world axes: angular first
     mujoco.mj_objectVelocity(m, d, mjOBJ_BODY, body, velocity, 0);
     const double *spin = velocity, *speed = velocity + 3, *axes = d->ximat + 9 * body;
     double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0};
-    if (std::sqrt(dot(speed, speed)) > kSlowest) {
+    if (std::sqrt(dot(speed, speed)) > kMinSpeed)
       for (int i = 0; i < 3; ++i) force[i] = -row.linear * m->body_mass[body] / h * speed[i];
-    }
-    if (std::sqrt(dot(spin, spin)) > kSlowest) {
-      for (int axis = 0; axis < 3; ++axis) {  // principal ones, the columns of ximat
+    if (std::sqrt(dot(spin, spin)) > kMinSpeed) {
+      for (int axis = 0; axis < 3; ++axis) {  // principal axes, the columns of ximat
         const double about = axes[axis] * spin[0] + axes[3 + axis] * spin[1] + axes[6 + axis] * spin[2];
         const double most = -row.angular / h * m->body_inertia[3 * body + axis] * about;
         for (int i = 0; i < 3; ++i) torque[i] += axes[3 * i + axis] * most;

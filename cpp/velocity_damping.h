@@ -1,11 +1,11 @@
-// Velocities that lose a part of themselves at every step, as by ODE's linear and angular damping.
+// ODE's linear and angular velocity damping: a fraction of the velocity is lost per step.
 #pragma once
 
 #include "law_tables.h"
 
 namespace trundle {
 
-// Add the forces that take the part away within this step.
+// Add the damping forces of this step.
 void apply_damping(const LawTables& laws, const mjModel* m, mjData* d);
 
 }  // namespace trundle

@@ -1,8 +1,8 @@
-// Motors that keep a speed with a force up to a limit, as ODE's joint motors.
+// Velocity motors with an effort limit, as ODE's joint motors.
 //
-// MuJoCo's friction in a tendon of one joint is such a constraint, for the speed 0. Its reference is worked out after
-// mjcb_control, by the kind of constraint that a row says it is: as one of an equality, which has a position error, it
-// wants whatever speed that error is chosen for, and is bounded still, for the solver tells friction by the row's place.
+// A MuJoCo tendon with friction loss is such a constraint, for speed 0. Its reference is computed after mjcb_control
+// from the row's constraint type: declared an equality with a chosen position error, it drives to any speed, and stays
+// bounded because the solver recognises friction rows by their index.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,19 @@
 
 namespace trundle {
 
-// A motor whose order is another than in the step before, and changes its speed by more than what may be held.
+// Motor whose command stepped since the previous step.
 struct Jump {
   int dof;
-  double acceleration;  // that takes it there within this step [rad/s² or m/s²]
-  double effort;        // up to which the motor goes [N·m or N]
+  double acceleration;  // that reaches the target within this step [rad/s² or m/s²]
+  double effort;        // limit [N·m or N]
 };
 
 void find_jumps(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<Jump>& jumps);
 
-// Have the rows of motors want the speeds that ctrl says.
+// Set the constraint rows of motors to the targets in ctrl.
 void drive_motors(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Write what motors exert to qfrc_actuator, which nothing else does, after a step.
+// Write the motors' efforts to qfrc_actuator after a step.
 void report_efforts(const LawTables& laws, const mjModel* m, mjData* d);
 
 }  // namespace trundle

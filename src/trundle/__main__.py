@@ -10,7 +10,7 @@ def main() -> int:
 
         before = signal.signal(signal.SIGINT, signal.SIG_DFL)
         if hasattr(signal, "pthread_sigmask"):
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # blocked by cpp/start.cc
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # blocked by cpp/launcher.cc
     except KeyboardInterrupt:
         return 130
     from trundle.cli import main as command

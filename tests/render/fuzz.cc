@@ -1,5 +1,5 @@
-// Draws and casts rays on scenes that nobody means: sizes of nothing and of infinity, broken meshes, cameras anywhere.
-// Built with sanitizers by test_sanitized.py; what matters is that it ends, and writes nowhere but where it may.
+// Renders and ray casts random scenes with sizes of zero, infinity and NaN, broken meshes and cameras anywhere. Built
+// with sanitizers by test_sanitized.py, which find every access out of bounds.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -33,15 +33,15 @@ double sane() { return whole(-3000, 3000) / 1000.0; }
 
 std::array<float, 3> triple() { return {(float)number(), (float)number(), (float)number()}; }
 
-// Of something there are so many of; now and then one that does not exist.
+// A random index; one in a hundred is out of range.
 int32_t index(size_t count, int32_t least = 0) { return whole(least, (int32_t)count - (whole(0, 99) != 0)); }
 
-Frame frame() {
+Transform transform() {
   for (;;) {
     const bool wild = whole(0, 9) == 0;
     double pose[7];
     for (double& value : pose) value = wild ? number() : sane();
-    if (const auto made = Frame::of(pose)) return *made;
+    if (const auto made = Transform::from_pose(pose)) return *made;
   }
 }
 
@@ -59,7 +59,7 @@ Mesh mesh() {
   return make_mesh(vertices, faces, uv, normals);
 }
 
-// Many triangles, each a little one; coarser meshes are made of them.
+// Many small triangles, enough for levels of detail.
 Mesh heavy() {
   const int32_t side = 150;
   std::vector<float> vertices;
@@ -87,10 +87,21 @@ SceneSpec scene() {
   for (int32_t i = whole(1, 3); i > 0; --i) spec.meshes.push_back(whole(0, 19) ? mesh() : heavy());
   for (int32_t i = whole(0, 2); i > 0; --i) spec.textures.push_back(image());
   for (int32_t i = whole(0, 12); i > 0; --i) {
-    LookSpec look{triple(), triple(), triple(), triple(), (float)number(), whole(0, 2) ? 1.0f : (float)number(),
-                  index(spec.textures.size(), -1), {(float)number(), (float)number()}};
-    spec.shapes.push_back({(Kind)whole(0, 6), index((size_t)spec.bodies), index(spec.meshes.size()),
-                           {number(), number(), number()}, frame(), look, whole(0, 1) == 1});
+    MaterialSpec material{triple(),
+                          triple(),
+                          triple(),
+                          triple(),
+                          (float)number(),
+                          whole(0, 2) ? 1.0f : (float)number(),
+                          index(spec.textures.size(), -1),
+                          {(float)number(), (float)number()}};
+    spec.shapes.push_back({(ShapeKind)whole(0, 6),
+                           index((size_t)spec.bodies),
+                           index(spec.meshes.size()),
+                           {number(), number(), number()},
+                           transform(),
+                           material,
+                           whole(0, 1) == 1});
   }
   for (int32_t i = whole(0, 3); i > 0; --i) {
     LightSpec light;
@@ -111,30 +122,30 @@ SceneSpec scene() {
   return spec;
 }
 
-void look_at(Renderer& renderer) {
+void draw(Renderer& renderer) {
   std::vector<double> poses;
   for (int32_t i = 0; i < 7 * renderer.bodies(); ++i) poses.push_back(whole(0, 40) ? sane() : number());
   renderer.update(poses.data());
   const int32_t count = whole(0, 4);
   std::vector<std::vector<uint8_t>> rgb(count);
   std::vector<std::vector<float>> depth(count);
-  std::vector<std::vector<int32_t>> segment(count);
-  std::vector<Shot> shots;
+  std::vector<std::vector<int32_t>> segmentation(count);
+  std::vector<CameraTarget> targets;
   for (int32_t i = 0; i < count; ++i) {
     const int32_t width = whole(1, 70), height = whole(1, 50);
     const double near_ = std::ldexp(1.0, whole(-20, 4)), far_ = near_ * std::ldexp(1.5, whole(0, 40));
     const auto area = (size_t)(width * height);
-    rgb[i].resize(3 * area), depth[i].resize(area), segment[i].resize(area);
-    shots.push_back({frame(), width, height, std::ldexp(1.0, whole(-10, 20)), near_, far_, rgb[i].data(),
-                     whole(0, 1) ? depth[i].data() : nullptr, whole(0, 1) ? segment[i].data() : nullptr});
+    rgb[i].resize(3 * area), depth[i].resize(area), segmentation[i].resize(area);
+    targets.push_back({transform(), width, height, std::ldexp(1.0, whole(-10, 20)), near_, far_, rgb[i].data(),
+                       whole(0, 1) ? depth[i].data() : nullptr, whole(0, 1) ? segmentation[i].data() : nullptr});
   }
-  renderer.render(shots);
+  renderer.render(targets);
   const int32_t rays = whole(0, 100);
   std::vector<double> directions, ranges((size_t)rays);
   std::vector<int32_t> shapes((size_t)rays);
   for (int32_t i = 0; i < 3 * rays; ++i) directions.push_back(whole(0, 30) ? sane() : number());
-  renderer.cast(frame(), directions.data(), (size_t)rays, std::fabs(number()), whole(-1, 4), ranges.data(),
-                shapes.data());
+  renderer.cast_rays(transform(), directions.data(), (size_t)rays, std::fabs(number()), whole(-1, 4), ranges.data(),
+                     shapes.data());
 }
 
 }  // namespace
@@ -146,11 +157,11 @@ int main(int, char** words) {
     source.seed((uint32_t)seed);
     try {
       Renderer renderer(scene(), whole(1, 3));
-      look_at(renderer);
-      if (whole(0, 3) == 0) renderer.reshape(index(1), mesh());
-      look_at(renderer);
+      draw(renderer);
+      if (whole(0, 3) == 0) renderer.set_mesh(index(1), mesh());
+      draw(renderer);
       ++drawn;
-    } catch (const std::invalid_argument&) {  // an index that leads nowhere
+    } catch (const std::invalid_argument&) {  // an index out of range
     }
   }
   std::printf("%d drawn\n", drawn);

@@ -98,7 +98,7 @@ def scan() -> bytes:
     made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
     ways = np.random.default_rng(1).normal(size=(20_001, 3))
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    ranges, shapes = made.cast(EYE, ways, reach_m=100.0)
+    ranges, shapes = made.cast(EYE, ways, max_range_m=100.0)
     return ranges.tobytes() + shapes.tobytes()
 
 

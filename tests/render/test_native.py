@@ -292,10 +292,10 @@ def test_a_camera_that_cannot_be_is_refused_in_one_sentence(wrong: dict[str, Any
 def test_a_camera_or_a_fan_of_rays_that_is_nowhere_is_refused() -> None:
     made = renderer(shape(Sphere(0.5)))
     nowhere = Pose((math.nan, 0.0, 0.0))
-    with pytest.raises(ValueError, match="the pose of a camera is not of finite numbers"):
+    with pytest.raises(ValueError, match="the pose of a camera is not finite"):
         drawn(made, nowhere, WIDE)
-    with pytest.raises(ValueError, match="the place that rays start from is not of finite numbers"):
-        made.cast(nowhere, np.array([[1.0, 0.0, 0.0]], dtype=np.float32), reach_m=1.0)
+    with pytest.raises(ValueError, match="the origin of rays is not finite"):
+        made.cast(nowhere, np.array([[1.0, 0.0, 0.0]], dtype=np.float32), max_range_m=1.0)
 
 
 def test_a_million_triangles_without_area_are_not_seen() -> None:
@@ -304,7 +304,7 @@ def test_a_million_triangles_without_area_are_not_seen() -> None:
     vertices = np.random.default_rng(0).random((1000, 3)).astype(np.float32)
     made = renderer(shape(Mesh(vertices, faces)))
     assert (drawn(made, Pose((-3.0, 0.0, 0.0)), WIDE).rgb == (51, 102, 153)).all()
-    assert np.isinf(made.cast(Pose((-3.0, 0.0, 0.0)), np.eye(3, dtype=np.float32), reach_m=9.0)[0]).all()
+    assert np.isinf(made.cast(Pose((-3.0, 0.0, 0.0)), np.eye(3, dtype=np.float32), max_range_m=9.0)[0]).all()
 
 
 def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:
@@ -332,7 +332,7 @@ def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
     ahead /= np.linalg.norm(ahead)
 
     assert not is_red(drawn(made, Pose(), WIDE).rgb).any()
-    assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [-1]
+    assert made.cast(Pose(), ahead, max_range_m=50)[1].tolist() == [-1]
     made.set_vertices(0, square)
     picture = drawn(made, Pose(), WIDE, segmentation=True)
 
@@ -340,7 +340,7 @@ def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
     side = 2 * WIDE.focal_px / 4
     assert (picture.segmentation == 0).sum() + (picture.segmentation == 1).sum() == pytest.approx(side**2, rel=0.03)
     assert (picture.rgb[picture.segmentation == 1][:, 1] > 0).all()
-    assert made.cast(Pose(), ahead, reach_m=50)[1].tolist() == [0]
+    assert made.cast(Pose(), ahead, max_range_m=50)[1].tolist() == [0]
     made.set_vertices(0, square * np.float32([1, 0.5, 0.5]))
     assert is_red(drawn(made, Pose(), WIDE).rgb).sum() < side**2 / 3
 

@@ -8,7 +8,9 @@ import pytest
 
 HERE = Path(__file__).parent
 CPP = HERE.parents[1] / "cpp"
-RENDERER = ("bvh", "choose", "coarse", "draw", "geometry", "kernel", "light", "place", "rays", "renderer")
+RENDERER = (
+    "bvh", "cpu_dispatch", "draw", "geometry", "kernel", "light", "mesh_lod", "ray_targets", "renderer", "transform"
+)  # fmt: skip
 COMPILER = next((found for name in ("g++", "clang++") if (found := shutil.which(name))), None)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Generator
 import pytest
 
 from trundle.ros import Messages
-from trundle.ros._wire import receive
+from trundle.ros._message_codec import receive
 
 ONE = b"\5\0\0\0\1\0\0\0x"
 """A std_msgs/String as a frame."""

@@ -4,14 +4,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-class Kind:
-    PLANE: ClassVar[Kind]
-    BOX: ClassVar[Kind]
-    SPHERE: ClassVar[Kind]
-    CYLINDER: ClassVar[Kind]
-    CAPSULE: ClassVar[Kind]
-    ELLIPSOID: ClassVar[Kind]
-    MESH: ClassVar[Kind]
+class ShapeKind:
+    PLANE: ClassVar[ShapeKind]
+    BOX: ClassVar[ShapeKind]
+    SPHERE: ClassVar[ShapeKind]
+    CYLINDER: ClassVar[ShapeKind]
+    CAPSULE: ClassVar[ShapeKind]
+    ELLIPSOID: ClassVar[ShapeKind]
+    MESH: ClassVar[ShapeKind]
 
 class LightKind:
     DIRECTIONAL: ClassVar[LightKind]
@@ -37,7 +37,7 @@ class Mesh:
 class Texture:
     def __init__(self, rgb: NDArray[np.uint8]) -> None: ...
 
-class Look:
+class Material:
     def __init__(
         self,
         *,
@@ -54,13 +54,13 @@ class Look:
 class Shape:
     def __init__(
         self,
-        kind: Kind,
+        kind: ShapeKind,
         *,
         body: int,
         mesh: int = -1,
         size: Sequence[float],
         body_from_shape: Sequence[float],
-        look: Look,
+        material: Material,
         casts_shadow: bool = True,
     ) -> None: ...
 
@@ -101,7 +101,7 @@ class Renderer:
         threads: int = 1,
     ) -> None: ...
     def update(self, poses: NDArray[np.float64]) -> None: ...
-    def reshape(self, mesh: int, form: Mesh) -> None: ...
+    def set_mesh(self, index: int, mesh: Mesh) -> None: ...
     def render(
         self,
         world_from_cameras: Sequence[Sequence[float]],
@@ -111,11 +111,11 @@ class Renderer:
         depth: NDArray[np.float32] | None = None,
         segmentation: NDArray[np.int32] | None = None,
     ) -> None: ...
-    def cast(
+    def cast_rays(
         self,
-        world_from_place: Sequence[float],
+        world_from_origin: Sequence[float],
         directions: NDArray[np.float64],
-        reach: float,
+        max_range: float,
         exclude: int,
         ranges: NDArray[np.float64],
         shapes: NDArray[np.int32],

@@ -65,12 +65,12 @@ class NativeRenderer:
         meshes = _Registry[int, _native.Mesh]()
         textures = _Registry[Texture, _native.Texture]()
 
-        def material_of(shape: Shape) -> _native.Look:
+        def material_of(shape: Shape) -> _native.Material:
             image = None if shape.texture is None else load_texture(shape.texture)
             texture = -1
             if image is not None and shape.texture is not None:
                 texture = textures.number(shape.texture, lambda: _native.Texture(image))
-            return _native.Look(
+            return _native.Material(
                 ambient=(shape.ambient or shape.rgba)[:3],
                 diffuse=shape.rgba[:3],
                 specular=shape.specular[:3],
@@ -115,7 +115,7 @@ class NativeRenderer:
     def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
         """See `Renderer.set_vertices`."""
         number, mesh = self._meshes[shape]
-        self._renderer.reshape(number, _native_mesh(mesh.with_vertices(vertices)))
+        self._renderer.set_mesh(number, _native_mesh(mesh.with_vertices(vertices)))
 
     def render(
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
@@ -139,14 +139,19 @@ class NativeRenderer:
         ]
 
     def cast(
-        self, world_from_place: Pose, directions: NDArray[np.float64], *, reach_m: float, exclude: int | None = None
+        self,
+        world_from_origin: Pose,
+        directions: NDArray[np.float64],
+        *,
+        max_range_m: float,
+        exclude: int | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Cast rays from one origin.
 
         Args:
-            world_from_place: frame of the origin.
+            world_from_origin: frame of the origin.
             directions: (N, 3) unit vectors in that frame.
-            reach_m: largest distance.
+            max_range_m: largest distance.
             exclude: body that rays ignore.
 
         Returns:
@@ -155,10 +160,10 @@ class NativeRenderer:
         """
         count = len(directions)
         ranges, shapes = np.empty(count), np.empty(count, _INDEX)
-        self._renderer.cast(
-            (*world_from_place.position, *world_from_place.quaternion),
+        self._renderer.cast_rays(
+            (*world_from_origin.position, *world_from_origin.quaternion),
             directions,
-            reach_m,
+            max_range_m,
             -1 if exclude is None else exclude,
             ranges,
             shapes,
@@ -167,7 +172,7 @@ class NativeRenderer:
 
 
 def _no_mesh() -> _native.Mesh:
-    raise AssertionError("every mesh of the scene has its number")
+    raise AssertionError("every mesh of the scene is registered")
 
 
 def _native_mesh(mesh: Mesh) -> _native.Mesh:
@@ -206,32 +211,32 @@ def _native_fog(fog: Fog) -> _native.Fog | None:
     return _native.Fog(kind, colour=fog.colour[:3], start=fog.start_m, end=fog.end_m, density=fog.density)
 
 
-def _native_shape(shape: Shape, mesh: int, look: _native.Look) -> _native.Shape:
+def _native_shape(shape: Shape, mesh: int, material: _native.Material) -> _native.Shape:
     pose = shape.body_from_shape
     size = (0.0, 0.0, 0.0)
     match shape.geometry:
         case Box((x, y, z)):
-            kind, size = _native.Kind.BOX, (_at_least_thin(x) / 2, _at_least_thin(y) / 2, _at_least_thin(z) / 2)
+            kind, size = _native.ShapeKind.BOX, (_at_least_thin(x) / 2, _at_least_thin(y) / 2, _at_least_thin(z) / 2)
         case Cylinder(radius, length):
-            kind, size = _native.Kind.CYLINDER, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
+            kind, size = _native.ShapeKind.CYLINDER, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
         case Capsule(radius, length):
-            kind, size = _native.Kind.CAPSULE, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
+            kind, size = _native.ShapeKind.CAPSULE, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
         case Sphere(radius):
-            kind, size = _native.Kind.SPHERE, (_at_least_thin(radius), 0.0, 0.0)
+            kind, size = _native.ShapeKind.SPHERE, (_at_least_thin(radius), 0.0, 0.0)
         case Ellipsoid((x, y, z)):
-            kind, size = _native.Kind.ELLIPSOID, (_at_least_thin(x), _at_least_thin(y), _at_least_thin(z))
+            kind, size = _native.ShapeKind.ELLIPSOID, (_at_least_thin(x), _at_least_thin(y), _at_least_thin(z))
         case Plane(normal, (width, height)):
-            kind, size = _native.Kind.PLANE, (width / 2, height / 2, 0.0)
+            kind, size = _native.ShapeKind.PLANE, (width / 2, height / 2, 0.0)
             pose = pose @ Pose(quaternion=rotation_from_z(normal))
         case Mesh():
-            kind = _native.Kind.MESH
+            kind = _native.ShapeKind.MESH
     return _native.Shape(
         kind,
         body=shape.body,
         mesh=mesh,
         size=size,
         body_from_shape=(*pose.position, *pose.quaternion),
-        look=look,
+        material=material,
         casts_shadow=shape.casts_shadow,
     )
 

@@ -63,7 +63,7 @@ class RayCaster:
 
     def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> RayHits:
         """See `Rays`."""
-        distances, shapes = self._renderer.cast(Pose(origin), directions, reach_m=reach, exclude=exclude)
+        distances, shapes = self._renderer.cast(Pose(origin), directions, max_range_m=reach, exclude=exclude)
         return RayHits(distances, self._retros[shapes], self._bodies[shapes])
 
     def cast_through(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> RayHits:

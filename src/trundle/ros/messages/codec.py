@@ -31,12 +31,12 @@ class Codec:
         from .layouts import compile_type  # lazy: imports the C++ module
 
         self.type = key.replace("/msg/", "/", 1)
-        self._program = compile_type(store, key)
-        self.exact_frame = self._program.frame
+        self._native = compile_type(store, key)
+        self.exact_frame = self._native.frame
         """`frame` without the conversion: raises one of `ENCODING_ERRORS` instead."""
-        self.receive = self._program.receive
-        """Called with a socket's `recv_into` and a buffer; returns (message, bytes received), with None unless the
-        bytes are one whole frame.
+        self.receive = self._native.receive
+        """Called with a socket's `recv_into` and a buffer; returns (message or None, bytes received); the message is
+        None unless exactly one frame arrived.
         """
         self._mend = mend
 
@@ -47,9 +47,9 @@ class Codec:
             MessageError: a field's value does not fit its type; the text names the field.
         """
         try:
-            return self._program.write(message)
+            return self._native.write(message)
         except ENCODING_ERRORS:
-            return self._mended(message, self._program.write)
+            return self._mended(message, self._native.write)
 
     def frame(self, message: Any) -> Pieces:
         """Serialize a message with its length prefix: one `bytes`, plus the buffers of long arrays.
@@ -60,9 +60,9 @@ class Codec:
             MessageError: a field's value does not fit its type; the text names the field.
         """
         try:
-            return self._program.frame(message)
+            return self._native.frame(message)
         except ENCODING_ERRORS:
-            return self._mended(message, self._program.frame)
+            return self._mended(message, self._native.frame)
 
     def read(self, data: bytes | bytearray | memoryview) -> Any:
         """Deserialize a message; its arrays are views of the data, read-only if the data is.
@@ -71,7 +71,7 @@ class Codec:
             MessageError: the bytes are not a message of this type.
         """
         try:
-            return self._program.read(data)
+            return self._native.read(data)
         except (BufferError, ValueError) as error:
             raise MessageError(f"{len(data)} bytes are not a {self.type}: {error}") from None
 

@@ -11,7 +11,7 @@ from typing import Any, Self, TypeVar
 
 from trundle.diagnostics import DescriptionError, UsageError
 
-from .. import _wire
+from .. import _message_codec
 from ..messages.messages import Messages
 from ..transport.closing_loop import ClosingLoop
 from ..transport.fast_selector import FastSelector
@@ -225,7 +225,7 @@ class GraphLoop:
             await asyncio.wait(farewells, timeout=timeout_s)
 
     def _run(self) -> None:
-        _wire.request_time_slice(_SLICE_NS)
+        _message_codec.request_time_slice(_SLICE_NS)
         asyncio.set_event_loop(self._loop)
         try:
             self._loop.run_forever()

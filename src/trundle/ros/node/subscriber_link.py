@@ -5,7 +5,7 @@ import contextlib
 from collections.abc import Mapping
 from typing import Protocol
 
-from .. import _wire
+from .. import _message_codec
 from ..errors import MessageError, WireError
 from ..messages.codec import Codec
 from ..messages.messages import ANY_TYPE, Message
@@ -53,7 +53,7 @@ class SubscriberLink(FrameProtocol):
         self._subscription = subscription
         self._request = request
         self._loop_selector = selector
-        self._receive = _wire.receive if codec is None else codec.receive
+        self._receive = _message_codec.receive if codec is None else codec.receive
         self._shared_ring: SharedRingReader | None = None
 
     def connected(self) -> None:

@@ -1,15 +1,15 @@
-// Gaussian noise of pictures. Each number follows from the key and its own place, so that neither the width of the
-// instruction set nor the number of threads shows in it. Included by kernel.cc alone.
+// Gaussian image noise. Counter-based: each number depends on the key and its index alone, so that neither the vector
+// width nor the number of threads changes it. Included by kernel.cc alone.
 #pragma once
 
 #include "kernel.h"
-#include "lanes.h"
+#include "simd.h"
 
 namespace trundle::TRUNDLE_ISA {
 
 typedef uint32_t U __attribute__((vector_size(kLanes * 4)));
 
-// Wellons' "lowbias32": every bit of the input changes each bit of the output in half of all cases.
+// Wellons' "lowbias32" integer hash.
 inline U hash(U x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -18,20 +18,20 @@ inline U hash(U x) {
   return x ^ (x >> 16);
 }
 
-// Taylor series on [-pi/4, pi/4]: within 1e-6.
+// Taylor series on [-pi/4, pi/4], error 1e-6.
 inline void sine_cosine(F a, F& sine, F& cosine) {
   const F z = a * a;
   sine = a + a * z * (-1.0f / 6 + z * (1.0f / 120 - z * (1.0f / 5040)));
   cosine = 1.0f + z * (-0.5f + z * (1.0f / 24 + z * (-1.0f / 720 + z * (1.0f / 40320))));
 }
 
-// Box and Muller's transform of the numbers from `first` on, at two places.
+// Box-Muller transform of the counters from `first` on.
 inline void normal_pair(const uint32_t key[2], uint32_t first, F& one, F& other) {
-  const U place = (U)counting_whole() + first;
+  const U place = (U)lane_numbers() + first;
   const U a = hash(place ^ key[0]), b = hash(hash(place + key[1]) ^ key[0]);
   const F chance = (to_float((I)(a >> 8)) + 1.0f) * (1.0f / (1 << 24));  // (0, 1]
   const F length = sqrt(max(-2.0f * 0.69314718f * log2(chance), F{}));
-  const F angle = to_float((I)(b << 2) >> 8) * (0.78539816f / (1 << 23));  // [-pi/4, pi/4) of one quarter
+  const F angle = to_float((I)(b << 2) >> 8) * (0.78539816f / (1 << 23));  // [-pi/4, pi/4) within a quadrant
   const I quarter = (I)(b >> 30);
   F sine, cosine;
   sine_cosine(angle, sine, cosine);
@@ -40,15 +40,15 @@ inline void normal_pair(const uint32_t key[2], uint32_t first, F& one, F& other)
   other = select((quarter & 2) != 0, -y, y) * length;
 }
 
-constexpr int kNoiseBlock = 2 * kWidest;
+constexpr int kNoiseBlock = 2 * kMaxLanes;
 
-// kNoiseBlock numbers of a standard normal distribution.
+// kNoiseBlock standard normal numbers.
 inline void normal_block(const uint32_t key[2], uint32_t block, float* numbers) {
-  for (int i = 0; i < kWidest; i += kLanes) {
+  for (int i = 0; i < kMaxLanes; i += kLanes) {
     F one, other;
-    normal_pair(key, block * kWidest + (uint32_t)i, one, other);
+    normal_pair(key, block * kMaxLanes + (uint32_t)i, one, other);
     store(numbers + i, one);
-    store(numbers + kWidest + i, other);
+    store(numbers + kMaxLanes + i, other);
   }
 }
 

@@ -1,9 +1,10 @@
-// The command `trundle` on Linux and macOS: starts Python with Ctrl-C held back.
+// The command `trundle` on Linux and macOS: starts Python with SIGINT blocked.
 //
 // Python answers SIGINT with a traceback from its own first milliseconds to the first line of a program's own. This one
 // holds the signal and becomes `_trundle` beside it, the script that the installer wrote for its Python;
 // trundle.__main__ lets the signal through as soon as it can be answered (decision 0010).
 
+#include <unistd.h>
 #include <cerrno>
 #include <climits>
 #include <csignal>
@@ -11,14 +12,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <unistd.h>
 #ifdef __APPLE__
 #include <mach-o/dyld.h>
 #endif
 
 namespace {
 
-// Where this program lies, without symbolic links.
+// Path of this program, symbolic links resolved.
 bool own_path(char (&path)[PATH_MAX]) {
 #ifdef __APPLE__
   char link[PATH_MAX];
@@ -47,7 +47,7 @@ int main(int, char** arguments) {
     std::fprintf(stderr, "trundle: the path of this program is too long: %s\n", script);
     return 1;
   }
-  std::strcpy(end, name);
+  std::memcpy(end, name, std::strlen(name) + 1);
   execv(script, arguments);
   std::fprintf(stderr, "%s: %s; install Trundle again\n", script, std::strerror(errno));
   return 1;

@@ -1,5 +1,5 @@
-// As many numbers at a time as the instruction set holds. Every operation is exact per lane (IEEE), so that the
-// width never shows in a picture. Included by kernel.cc alone, inside the namespace of one instruction set.
+// Vector types of the instruction set's width. Every operation is exact per lane (IEEE), so that images do not depend
+// on the width. Included by kernel.cc alone, inside the namespace of one instruction set.
 #pragma once
 
 #include <cstdint>
@@ -21,21 +21,21 @@ constexpr int kLanes = 4;
 typedef float F __attribute__((vector_size(kLanes * 4)));
 typedef int32_t I __attribute__((vector_size(kLanes * 4)));  // also masks: 0 or -1
 
-constexpr int kHalf = kLanes / 2;
-typedef double D __attribute__((vector_size(kHalf * 8)));
+constexpr int kDoubleLanes = kLanes / 2;
+typedef double D __attribute__((vector_size(kDoubleLanes * 8)));
 typedef decltype(D{} < D{}) L;
 
 template <typename N>
 using Mask = decltype(N{} < N{});
 
 template <typename N>
-struct Three {
+struct Vector3 {
   N x, y, z;
 };
-using F3 = Three<F>;
-using D3 = Three<D>;
+using F3 = Vector3<F>;
+using D3 = Vector3<D>;
 
-inline F splat(float value) { return value - F{}; }  // which is no work, as a sum with zero would be
+inline F splat(float value) { return value - F{}; }  // folded away, unlike a sum with zero
 inline D splat(double value) { return value - D{}; }
 inline I splat(int32_t value) { return I{} + value; }
 template <typename N>
@@ -43,13 +43,13 @@ inline N select(Mask<N> mask, N yes, N no) {
   return mask ? yes : no;
 }
 #if defined(__AVX512F__)
-inline D select(L mask, D yes, D no) {  // g++ would take some masks of doubles apart, bit by bit
+inline D select(L mask, D yes, D no) {  // g++ would unpack some masks of doubles bit by bit
   return (D)_mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)mask), (__m512d)no, (__m512d)yes);
 }
 #endif
 inline I min_of(I a, int32_t b) { return select(a < b, a, splat(b)); }
 
-// Where one is no number, the second one.
+// With a NaN, the second operand.
 #if defined(__AVX512F__)
 inline F max(F a, F b) { return (F)_mm512_max_ps((__m512)a, (__m512)b); }
 inline F min(F a, F b) { return (F)_mm512_min_ps((__m512)a, (__m512)b); }
@@ -85,7 +85,7 @@ inline F sqrt(F a) {
 }
 inline D sqrt(D a) {
   D root;
-  for (int i = 0; i < kHalf; ++i) root[i] = __builtin_sqrt(a[i]);
+  for (int i = 0; i < kDoubleLanes; ++i) root[i] = __builtin_sqrt(a[i]);
   return root;
 }
 
@@ -103,7 +103,7 @@ inline bool any(I mask) {
 #endif
 }
 
-// A bit for each lane, the first one lowest.
+// One bit per lane, lane 0 lowest.
 inline uint32_t bits(I mask) {
 #if defined(__AVX512F__)
   return _mm512_movepi32_mask((__m512i)mask);
@@ -118,8 +118,8 @@ inline uint32_t bits(I mask) {
 #endif
 }
 
-// The largest and the least of all lanes.
-inline float largest(F a) {
+// Maximum and minimum over all lanes.
+inline float reduce_max(F a) {
 #if defined(__AVX512F__)
   return _mm512_reduce_max_ps((__m512)a);
 #elif defined(__SSE2__)
@@ -136,9 +136,9 @@ inline float largest(F a) {
   return most;
 #endif
 }
-inline float least(F a) { return -largest(-a); }
+inline float reduce_min(F a) { return -reduce_max(-a); }
 
-inline F counting() {
+inline F lane_indices() {
   F numbers;
   for (int i = 0; i < kLanes; ++i) numbers[i] = (float)i;
   return numbers;
@@ -152,16 +152,18 @@ inline F floor(F a) {
   return near_zero - select(near_zero > a, splat(1.0f), F{});
 }
 
-// 2^a to 2e-7 of its value; a from -126 to 126.
+// 2^a, relative error 2e-7, for a in [-126, 126].
 inline F exp2(F a) {
   a = max(min(a, splat(126.0f)), splat(-126.0f));
   const F whole = floor(a), f = a - whole;
-  const F power = 1.0f + f * (0.693147182f + f * (0.240226462f + f * (0.0555032939f + f * (0.00961834215f +
-                         f * (0.00133987482f + f * 0.000154353f)))));
+  const F power =
+      1.0f +
+      f * (0.693147182f +
+           f * (0.240226462f + f * (0.0555032939f + f * (0.00961834215f + f * (0.00133987482f + f * 0.000154353f)))));
   return power * (F)((to_int(whole) + 127) << 23);
 }
 
-// The binary logarithm of a positive normal number, to 1e-6: 2 artanh((m - 1) / (m + 1)) / ln 2 of its mantissa m.
+// Binary logarithm of a positive normal number, error 1e-6: 2 artanh((m - 1) / (m + 1)) / ln 2 of its mantissa m.
 inline F log2(F a) {
   const I bits = (I)a;
   const F exponent = to_float((bits >> 23) - 127), mantissa = (F)((bits & 0x007fffff) | 0x3f800000);
@@ -169,7 +171,7 @@ inline F log2(F a) {
   return exponent + s * (2.88539008f + q * (0.961796694f + q * (0.577078016f + q * (0.412198583f + q * 0.320598898f))));
 }
 
-// Of a whole exponent, which most highlights have, the product.
+// By repeated squaring for integer exponents, which most highlights have.
 inline F pow(F a, float exponent) {
   const I some = a > 1e-30f;
   const int whole = exponent >= 0.0f && exponent <= 256.0f ? (int)exponent : -1;
@@ -184,7 +186,7 @@ inline F load(const float* at) {
   __builtin_memcpy(&value, at, sizeof value);
   return value;
 }
-inline I counting_whole() { return __builtin_convertvector(counting(), I); }
+inline I lane_numbers() { return __builtin_convertvector(lane_indices(), I); }
 inline I load(const int32_t* at) {
   I value;
   __builtin_memcpy(&value, at, sizeof value);
@@ -203,8 +205,7 @@ inline F gather(const float* from, I at) {
 }
 inline I gather(const int32_t* from, I at) { return (I)gather((const float*)from, at); }
 
-// Of each lane four numbers that lie side by side, from `at` on: they are loaded together and then turned, which costs
-// as much as to gather one of them.
+// Four consecutive numbers per lane, from `at` on: loaded as rows and transposed, for the cost of one gather.
 inline void gather_four(const float* from, I at, F four[4]) {
 #if defined(__AVX2__)
   const auto row = [&](int lane) { return _mm_loadu_ps(from + (uint32_t)at[lane]); };
@@ -229,7 +230,7 @@ inline void gather_four(const float* from, I at, F four[4]) {
 #endif
 }
 
-// Of each lane two neighbours.
+// Two consecutive numbers per lane.
 inline void gather_two(const int32_t* from, I at, I& first, I& second) {
 #if defined(__AVX512F__)
   first = gather(from, at), second = gather(from + 1, at);
@@ -257,27 +258,27 @@ inline void store(float* at, F value) { __builtin_memcpy(at, &value, sizeof valu
 inline void store(int32_t* at, I value) { __builtin_memcpy(at, &value, sizeof value); }
 
 template <typename N>
-inline N dot(const Three<N>& a, const Three<N>& b) {
+inline N dot(const Vector3<N>& a, const Vector3<N>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <typename N>
-inline Three<N> operator+(const Three<N>& a, const Three<N>& b) {
+inline Vector3<N> operator+(const Vector3<N>& a, const Vector3<N>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <typename N>
-inline Three<N> operator*(const Three<N>& a, N s) {
+inline Vector3<N> operator*(const Vector3<N>& a, N s) {
   return {a.x * s, a.y * s, a.z * s};
 }
 inline F3 splat(const float* v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
 inline D3 splat(const double* v) { return {splat(v[0]), splat(v[1]), splat(v[2])}; }
 
-// A row-by-row matrix times a vector, and its transpose times it.
+// Row-major rotation matrix times a vector, and its inverse times a vector.
 template <typename Number, typename N>
-inline Three<N> turn(const Number* m, const Three<N>& v) {
+inline Vector3<N> rotate(const Number* m, const Vector3<N>& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
           m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
-inline F3 turn_back(const float* m, const F3& v) {
+inline F3 inverse_rotate(const float* m, const F3& v) {
   return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
           m[2] * v.x + m[5] * v.y + m[8] * v.z};
 }

@@ -1,4 +1,4 @@
-// The widest kernel that this machine runs.
+// Run-time choice of the widest kernel that the processor supports.
 #include <cstdlib>
 #include <string_view>
 #ifdef TRUNDLE_X86
@@ -15,16 +15,17 @@ namespace {
 struct Processor {
   bool avx2 = false, avx512 = false;
 
-  // Not every compiler's library tells; and what the processor has, the system must keep when it changes tasks.
+  // CPUID directly: not every compiler's runtime has __builtin_cpu_supports. XGETBV: the system must save the
+  // registers.
   Processor() {
     unsigned a, b, c, d;
     if (!__get_cpuid(1, &a, &b, &c, &d) || (c & (1u << 27)) == 0) return;
-    unsigned kept, high;
-    asm volatile("xgetbv" : "=a"(kept), "=d"(high) : "c"(0));
+    unsigned saved, high;
+    asm volatile("xgetbv" : "=a"(saved), "=d"(high) : "c"(0));
     if (!__get_cpuid_count(7, 0, &a, &b, &c, &d)) return;
-    constexpr unsigned kF = 1u << 16, kDq = 1u << 17, kBw = 1u << 30, kVl = 1u << 31, kAll = kF | kDq | kBw | kVl;
-    avx2 = (kept & 0x06) == 0x06 && (b & (1u << 5)) != 0;
-    avx512 = avx2 && (kept & 0xe6) == 0xe6 && (b & kAll) == kAll;
+    constexpr unsigned kF = 1u << 16, kDq = 1u << 17, kBw = 1u << 30, kVl = 1u << 31, kFull = kF | kDq | kBw | kVl;
+    avx2 = (saved & 0x06) == 0x06 && (b & (1u << 5)) != 0;
+    avx512 = avx2 && (saved & 0xe6) == 0xe6 && (b & kFull) == kFull;
   }
 };
 
@@ -34,7 +35,7 @@ struct Processor {
 const Kernel& best_kernel() {
   static const Kernel& chosen = []() -> const Kernel& {
 #ifdef TRUNDLE_X86
-    const char* wish = std::getenv("TRUNDLE_RENDER_ISA");  // to compare their bytes
+    const char* wish = std::getenv("TRUNDLE_RENDER_ISA");  // to compare their images
     const std::string_view most = wish ? wish : "avx512";
     const Processor processor;
     if (most == "avx512" && processor.avx512) return avx512::kernel;

@@ -1,4 +1,4 @@
-#include "look_ahead.h"
+#include "tunnelling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace {
 
 double length(const double v[3]) { return std::sqrt(dot(v, v)); }
 
-// At most how fast any point of a body's shapes is [m/s].
+// Upper bound of the speed of any point of a body's shapes [m/s].
 double fastest_point(const mjModel* m, const mjData* d, int body) {
-  const double* spin = d->cvel + 6 * body;  // velocities are at the tree's centre of mass: rotation, translation
+  const double* spin = d->cvel + 6 * body;  // of the tree's centre of mass: angular, linear
   const double* centre = d->subtree_com + 3 * m->body_rootid[body];
   const double* at = d->xipos + 3 * body;
   const double arm[3] = {at[0] - centre[0], at[1] - centre[1], at[2] - centre[2]};
@@ -33,7 +33,7 @@ double fastest_point(const mjModel* m, const mjData* d, int body) {
 
 }  // namespace
 
-void look_ahead(const LawTables& laws, const mjModel* m, const mjData* d) {
+void update_ccd(const LawTables& laws, const mjModel* m, const mjData* d) {
   if (laws.stepped != reinterpret_cast<std::uintptr_t>(d) || !(laws.thin_speed > 0.0)) return;
   bool fast = false;
   for (int body = 1; body < m->nbody && !fast; ++body) {

@@ -79,7 +79,7 @@ def test_rays_meet_what_mujocos_meet() -> None:
         placed.append((name, SOLIDS[name], Pose.from_rpy(away * math.cos(yaw), away * math.sin(yaw), up, *rpy)))
     made = renderer(*(Shape(name=n, body=0, geometry=g, body_from_shape=p) for n, g, p in placed))
     directions = around(1800, 16)
-    ranges, shapes = made.cast(Pose(), directions, reach_m=30.0)
+    ranges, shapes = made.cast(Pose(), directions, max_range_m=30.0)
 
     model, data = engine(placed)
     count = len(directions)
@@ -96,7 +96,7 @@ def test_a_fan_on_a_wall_reads_what_the_wall_is_to_a_hundredth_of_a_millimetre()
     wall = Shape(name="wall", body=0, geometry=Box((1.0, 400.0, 40.0)), body_from_shape=Pose((20.5, 0.0, 0.0)))
     angles = np.linspace(-1.2, 1.2, 720)
     fan = np.stack([np.cos(angles), np.sin(angles), np.zeros(720)], axis=-1)
-    ranges, shapes = renderer(wall).cast(Pose(), fan, reach_m=100.0)
+    ranges, shapes = renderer(wall).cast(Pose(), fan, max_range_m=100.0)
     assert (shapes == 0).all()
     assert np.abs(ranges - 20.0 / fan[:, 0]).max() < 1e-5
 
@@ -146,7 +146,7 @@ def test_a_range_is_exact_at_any_distance(name: str, origin: float) -> None:
             start = point - distance * way
             eye = pose @ Pose((start[0], start[1], start[2]))
             made = renderer(Shape(name=name, body=0, geometry=SOLIDS[name], body_from_shape=pose))
-            ranges, shapes = made.cast(eye, way[None], reach_m=2000.0)
+            ranges, shapes = made.cast(eye, way[None], max_range_m=2000.0)
             assert shapes[0] == 0
             assert ranges[0] == pytest.approx(distance, abs=1e-6)
 
@@ -162,7 +162,7 @@ def test_a_floor_is_met_exactly_where_a_ray_comes_down_to_it_at_last(distance: f
     for geometry, pose in floors:
         made = renderer(Shape(name="floor", body=0, geometry=geometry, body_from_shape=pose))
         way = np.array([[math.sqrt(1.0 - 0.25 / distance**2), 0.0, -0.5 / distance]])
-        ranges, _ = made.cast(Pose((0.3, 0.2, 0.5)), way, reach_m=200.0)
+        ranges, _ = made.cast(Pose((0.3, 0.2, 0.5)), way, max_range_m=200.0)
         assert ranges[0] == pytest.approx(distance, abs=1e-5)
 
 
@@ -171,9 +171,9 @@ def test_rays_start_where_they_are_told_to_and_end_at_their_reach() -> None:
     made = renderer(ball)
     place = Pose.from_rpy(1.0, 1.0, 2.0, 0.0, 0.0, math.pi / 2)
     ahead = np.array([[1.0, 0.0, 0.0]])
-    ranges, shapes = made.cast(place, ahead, reach_m=10.0)
+    ranges, shapes = made.cast(place, ahead, max_range_m=10.0)
     assert (ranges[0], shapes[0]) == (pytest.approx(2.5, abs=1e-6), 0)
-    ranges, shapes = made.cast(place, ahead, reach_m=2.4)
+    ranges, shapes = made.cast(place, ahead, max_range_m=2.4)
     assert (ranges[0], shapes[0]) == (math.inf, -1)
 
 
@@ -182,20 +182,20 @@ def test_meshes_are_met_from_outside_and_inside(level: int) -> None:
     mesh = Shape(name="m", body=0, geometry=ico(level), body_from_shape=Pose.from_rpy(2.0, 0.1, 0.0, 0.4, 0.3, 0.2))
     made = renderer(mesh)
     directions = around(720, 8)
-    ranges, shapes = made.cast(Pose(), directions, reach_m=10.0)
+    ranges, shapes = made.cast(Pose(), directions, max_range_m=10.0)
     # Triangles lie a little below the ball that they make.
     slack = {0: 0.16, 2: 0.02, 4: 0.002}[level]
     exact, _ = renderer(Shape(name="b", body=0, geometry=Sphere(0.7), body_from_shape=mesh.body_from_shape)).cast(
-        Pose(), directions, reach_m=10.0
+        Pose(), directions, max_range_m=10.0
     )
     core = renderer(Shape(name="c", body=0, geometry=Sphere(0.7 - slack), body_from_shape=mesh.body_from_shape))
-    inner, _ = core.cast(Pose(), directions, reach_m=10.0)
+    inner, _ = core.cast(Pose(), directions, max_range_m=10.0)
     assert (shapes[np.isfinite(inner)] == 0).all()
     assert (shapes[np.isinf(exact)] == -1).all()
     hit = np.isfinite(inner)
     assert (ranges[hit] >= exact[hit] - 1e-5).all()
     assert (ranges[hit] <= inner[hit] + 1e-5).all()
-    within, shapes = made.cast(Pose((2.0, 0.1, 0.0)), directions, reach_m=10.0)
+    within, shapes = made.cast(Pose((2.0, 0.1, 0.0)), directions, max_range_m=10.0)
     assert (shapes == 0).all()
     assert within.min() > 0.7 - slack
     assert within.max() < 0.7 + 1e-5
@@ -213,7 +213,7 @@ def test_every_triangle_of_a_large_mesh_is_found() -> None:
     eye = np.array([0.1, 0.2, 3.0])
     ways = vertices[faces].mean(axis=1) - eye
     away = np.linalg.norm(ways, axis=1)
-    ranges, _ = made.cast(Pose((0.1, 0.2, 3.0)), ways / away[:, None], reach_m=10.0)
+    ranges, _ = made.cast(Pose((0.1, 0.2, 3.0)), ways / away[:, None], max_range_m=10.0)
     assert (ranges <= away + 1e-5).all()
     assert (np.abs(ranges - away) < 1e-5).mean() > 0.99  # a few are hidden behind a crest
 
@@ -223,13 +223,13 @@ def test_a_ray_meets_the_same_whichever_rays_are_cast_beside_it() -> None:
     places = ((2.0, 0.1, 0.0), (-1.0, 0.9, 0.2), (0.2, -1.1, 0.1))
     made = renderer(*(Shape(name="m", body=0, geometry=ico(3), body_from_shape=Pose(place)) for place in places))
     ways = around(720, 8)
-    ranges, shapes = made.cast(Pose(), ways, reach_m=10.0)
+    ranges, shapes = made.cast(Pose(), ways, max_range_m=10.0)
     assert len(set(shapes.tolist())) == 4
     shuffled = np.random.default_rng(1).permutation(len(ways))
-    again, others = made.cast(Pose(), ways[shuffled], reach_m=10.0)
+    again, others = made.cast(Pose(), ways[shuffled], max_range_m=10.0)
     assert again.tobytes() == ranges[shuffled].tobytes()
     assert (others == shapes[shuffled]).all()
-    alone = [made.cast(Pose(), way[None], reach_m=10.0)[0][0] for way in ways[::97]]
+    alone = [made.cast(Pose(), way[None], max_range_m=10.0)[0][0] for way in ways[::97]]
     assert alone == ranges[::97].tolist()
 
 
@@ -251,7 +251,7 @@ def test_of_two_walls_at_one_place_the_first_is_met_whichever_is_come_to_first()
     ahead = np.array([[1.0, 0.0, 0.0]])
     for meshes in ((wide, small), (small, wide)):
         made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=wall) for mesh in meshes))
-        ranges, shapes = made.cast(Pose(), ahead, reach_m=10.0)
+        ranges, shapes = made.cast(Pose(), ahead, max_range_m=10.0)
         assert (ranges[0], shapes[0]) == (2.0, 0)
 
 
@@ -263,7 +263,7 @@ def test_a_mesh_behind_another_is_seen_beside_it() -> None:
     slopes = np.linspace(-1.0, 1.0, 201)
     ways = np.stack([np.ones(201), slopes, np.zeros(201)], axis=-1)
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    _, shapes = made.cast(Pose(), ways, reach_m=20.0)
+    _, shapes = made.cast(Pose(), ways, max_range_m=20.0)
     behind_near = (slopes > 0.255) & (slopes < 0.745)
     assert (shapes[behind_near] == 1).all()
     assert (shapes[(slopes < 0.245) | (slopes > 0.755)] == 0).all()
@@ -272,12 +272,12 @@ def test_a_mesh_behind_another_is_seen_beside_it() -> None:
 def test_a_ray_that_goes_nowhere_disturbs_no_other() -> None:
     made = renderer(Shape(name="m", body=0, geometry=ico(2), body_from_shape=Pose((2.0, 0.0, 0.0))))
     ways = around(720, 3)[720:1440]
-    kept, _ = made.cast(Pose(), ways, reach_m=10.0)
+    kept, _ = made.cast(Pose(), ways, max_range_m=10.0)
     lost = np.zeros(720, dtype=bool)
     lost[::7] = True
     ways[lost] = np.nan
     ways[14] = 0.0
-    ranges, shapes = made.cast(Pose(), ways, reach_m=10.0)
+    ranges, shapes = made.cast(Pose(), ways, max_range_m=10.0)
     assert np.isinf(ranges[lost]).all()
     assert (shapes[lost] == -1).all()
     assert ranges[~lost].tobytes() == kept[~lost].tobytes()
@@ -292,17 +292,17 @@ def test_a_body_can_be_looked_through_and_one_that_is_nowhere_is_not_met() -> No
     ways = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, -0.8]])
     eye = Pose((0.0, 0.0, 2.0))
     made.update(np.array([[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0]] * 2 + [HERE]))
-    ranges, shapes = made.cast(eye, ways, reach_m=9.0)
+    ranges, shapes = made.cast(eye, ways, max_range_m=9.0)
     assert shapes.tolist() == [0, 2]
     assert ranges == pytest.approx([0.8, 2.5], abs=1e-5)
-    assert made.cast(eye, ways, reach_m=9.0, exclude=0)[1].tolist() == [1, 2]
+    assert made.cast(eye, ways, max_range_m=9.0, exclude=0)[1].tolist() == [1, 2]
     made.update(np.array([[math.nan] * 7, [0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0], HERE]))
-    assert made.cast(eye, ways, reach_m=9.0)[1].tolist() == [1, 2]
+    assert made.cast(eye, ways, max_range_m=9.0)[1].tolist() == [1, 2]
 
 
 def test_no_rays_and_no_shapes_are_no_trouble() -> None:
     made = renderer()
-    ranges, shapes = made.cast(Pose(), around(5), reach_m=9.0)
+    ranges, shapes = made.cast(Pose(), around(5), max_range_m=9.0)
     assert np.isinf(ranges).all()
     assert (shapes == -1).all()
-    assert len(made.cast(Pose(), np.empty((0, 3)), reach_m=9.0)[0]) == 0
+    assert len(made.cast(Pose(), np.empty((0, 3)), max_range_m=9.0)[0]) == 0

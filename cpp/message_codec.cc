@@ -1,0 +1,68 @@
+// The Python module `_message_codec`; the only file of it that includes nanobind.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "message_layout.h"
+#include "time_slice.h"
+
+namespace nb = nanobind;
+using namespace trundle::messages;
+
+namespace {
+
+using FieldTuple = std::tuple<nb::str, std::string, int64_t, size_t>;
+using LayoutTuple = std::tuple<nb::object, std::vector<FieldTuple>>;
+
+// A call's result; null with the error indicator set, which nanobind raises.
+template <typename Call>
+nb::object returned(Call call) {
+  try {
+    return nb::steal(call().release());
+  } catch (const PythonError&) {
+    return nb::object();
+  }
+}
+
+void add_layouts(MessageCodec& program, const std::vector<LayoutTuple>& layouts) {
+  if (layouts.empty()) throw std::invalid_argument("a message has a type");
+  try {
+    for (const auto& [type, fields] : layouts) {
+      std::vector<FieldSpec> specs;
+      for (const auto& [name, kind, count, message] : fields)
+        specs.push_back({borrow(name.ptr()), kind, count, message});
+      program.add(borrow(type.ptr()), std::move(specs));
+    }
+  } catch (const PythonError&) {
+    nb::raise_python_error();
+  }
+}
+
+}  // namespace
+
+NB_MODULE(_message_codec, module) {
+  nb::set_leak_warnings(false);  // message types alive at exit are freed with the process
+  module.attr("SCALAR") = kScalar;
+  module.attr("VARIABLE") = kVariable;
+  nb::class_<MessageCodec>(module, "MessageCodec")
+      .def("__init__",
+           [](MessageCodec* self, const std::vector<LayoutTuple>& layouts) {
+             MessageCodec program;
+             add_layouts(program, layouts);
+             new (self) MessageCodec(std::move(program));
+           })
+      .def("write", [](const MessageCodec& self,
+                       nb::handle message) { return returned([&] { return self.write(message.ptr()); }); })
+      .def("frame", [](const MessageCodec& self,
+                       nb::handle message) { return returned([&] { return self.frame(message.ptr()); }); })
+      .def("read",
+           [](const MessageCodec& self, nb::handle data) { return returned([&] { return self.read(data.ptr()); }); })
+      .def("receive", [](const MessageCodec& self, nb::handle recv_into, nb::handle buffer) {
+        return returned([&] { return self.receive(recv_into.ptr(), buffer.ptr()); });
+      });
+  module.def("receive", [](nb::handle recv_into, nb::handle buffer) {
+    return returned([&] { return receive(recv_into.ptr(), buffer.ptr()); });
+  });
+  module.def("request_time_slice", &request_time_slice);
+}

@@ -1,0 +1,93 @@
+// Layout of a message type, compiled for reading and writing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "py_object.h"
+
+namespace trundle::messages {
+
+// Numbers first; kNumbers counts them.
+enum class Kind : uint8_t {
+  kBool,
+  kInt8,
+  kUInt8,
+  kInt16,
+  kUInt16,
+  kInt32,
+  kUInt32,
+  kInt64,
+  kUInt64,
+  kFloat32,
+  kFloat64,
+  kString,
+  kMessage,
+  kPlaceholder,
+};
+constexpr size_t kNumbers = 11;
+constexpr uint8_t kNumberBytes[kNumbers] = {1, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+
+constexpr bool is_number(Kind kind) { return static_cast<size_t>(kind) < kNumbers; }
+constexpr bool is_real(Kind kind) { return kind == Kind::kFloat32 || kind == Kind::kFloat64; }
+constexpr size_t bytes_of(Kind number) { return kNumberBytes[static_cast<size_t>(number)]; }
+
+constexpr int64_t kScalar = -1, kVariable = -2;
+
+// Field as Python declares it: `count` is an array's length, kScalar or kVariable; `message` is the index of an earlier
+// type.
+struct FieldSpec {
+  Object name;
+  std::string type;
+  int64_t count;
+  size_t message;
+};
+
+struct Layout;
+
+struct Field {
+  Object name;  // interned
+  Kind kind;
+  int64_t count;
+  const Layout* message;  // if kMessage
+  uint64_t min_size;      // smallest size of an element [bytes]
+};
+
+struct Layout {
+  Object type;
+  std::vector<Field> fields;
+  uint64_t min_size = 0;        // smallest size of a message [bytes]
+  uint64_t empty_messages = 1;  // messages without bytes in one message, itself included
+};
+
+// Limit of messages without bytes in an array: their number is not limited by the data's size.
+constexpr uint64_t kMaxEmpty = 1024;
+
+// Reads and writes one message type.
+class MessageCodec {
+ public:
+  MessageCodec() = default;
+  MessageCodec(MessageCodec&&) = default;
+
+  // A type comes after those that it refers to, so none contains itself; the last one is the message's own.
+  void add(Object type, std::vector<FieldSpec> fields);
+
+  // Returns `bytes`.
+  Object write(PyObject* message) const;
+  // Returns a tuple of `bytes`, the frame's length first; the first long array is a memoryview between them, not
+  // copied.
+  Object frame(PyObject* message) const;
+  Object read(PyObject* data) const;
+  // As the function `receive`, with the message in place of its bytes; None also for a frame that is no such message.
+  Object receive(PyObject* recv_into, PyObject* room) const;
+
+ private:
+  std::vector<std::unique_ptr<Layout>> layouts_;
+};
+
+// Call `recv_into(buffer)`; return (content, count): the content of a frame if exactly one arrived, which is the usual
+// case, else None; and the number of bytes received.
+Object receive(PyObject* recv_into, PyObject* room);
+
+}  // namespace trundle::messages

@@ -1,0 +1,169 @@
+// Bytes to messages. The bytes are untrusted: every length is checked against what is left.
+#include <array>
+#include <cstring>
+
+#include "message_layout.h"
+
+namespace trundle::messages {
+
+namespace {
+
+constexpr const char* kDtypes[kNumbers] = {"?", "i1", "u1", "<i2", "<u2", "<i4", "<u4", "<i8", "<u8", "<f4", "<f8"};
+
+// numpy's frombuffer and dtypes; imported when the first array is read.
+struct Numpy {
+  Object frombuffer;
+  std::array<Object, kNumbers> dtypes;
+
+  Numpy() {
+    const Object numpy = steal(PyImport_ImportModule("numpy"));
+    frombuffer = steal(PyObject_GetAttrString(numpy.get(), "frombuffer"));
+    for (size_t i = 0; i < kNumbers; ++i) dtypes[i] = steal(PyObject_CallMethod(numpy.get(), "dtype", "s", kDtypes[i]));
+  }
+
+  // A static local's lock would deadlock: threads wait for it with the GIL held, which the import needs.
+  static const Numpy& get() {
+    static const Numpy* instance = nullptr;
+    if (!instance) {
+      auto created = std::make_unique<const Numpy>();
+      if (!instance) instance = created.release();
+    }
+    return *instance;
+  }
+};
+
+class Reader {
+ public:
+  explicit Reader(PyObject* data) : data_(data), view_(data, PyBUF_SIMPLE), no_arguments_(steal(PyTuple_New(0))) {}
+
+  Object read_all(const Layout& layout) {
+    Object message = read(layout);
+    if (at_ != view_.len) raise_error(PyExc_ValueError, "it ends after %zd", at_);
+    return message;
+  }
+
+ private:
+  Object read(const Layout& layout) {
+    auto* const type = reinterpret_cast<PyTypeObject*>(layout.type.get());
+    Object message = steal(type->tp_new(type, no_arguments_.get(), nullptr));
+    for (const Field& field : layout.fields) {
+      const Object value = field.count == kScalar ? read_one(field) : read_some(field);
+      if (PyObject_GenericSetAttr(message.get(), field.name.get(), value.get()) != 0) throw PythonError{};
+    }
+    return message;
+  }
+
+  Object read_some(const Field& field) {
+    const uint64_t count = field.count == kVariable ? number<uint32_t>(field) : static_cast<uint64_t>(field.count);
+    if (count * field.min_size > left()) truncated(field);
+    if (is_number(field.kind)) return read_numbers(field, count);
+    if (field.min_size == 0 && field.count == kVariable && count * field.message->empty_messages > kMaxEmpty)
+      raise_error(PyExc_ValueError, "'%U' holds too many messages without bytes", field.name.get());
+    Object list = steal(PyList_New(static_cast<Py_ssize_t>(count)));
+    for (uint64_t i = 0; i < count; ++i)
+      PyList_SET_ITEM(list.get(), static_cast<Py_ssize_t>(i), read_one(field).release());
+    return list;
+  }
+
+  Object read_one(const Field& field) {
+    switch (field.kind) {
+      case Kind::kBool: return steal(PyBool_FromLong(number<uint8_t>(field)));
+      case Kind::kInt8: return steal(PyLong_FromLong(number<int8_t>(field)));
+      case Kind::kUInt8: return steal(PyLong_FromLong(number<uint8_t>(field)));
+      case Kind::kInt16: return steal(PyLong_FromLong(number<int16_t>(field)));
+      case Kind::kUInt16: return steal(PyLong_FromLong(number<uint16_t>(field)));
+      case Kind::kInt32: return steal(PyLong_FromLong(number<int32_t>(field)));
+      case Kind::kUInt32: return steal(PyLong_FromUnsignedLong(number<uint32_t>(field)));
+      case Kind::kInt64: return steal(PyLong_FromLongLong(number<int64_t>(field)));
+      case Kind::kUInt64: return steal(PyLong_FromUnsignedLongLong(number<uint64_t>(field)));
+      case Kind::kFloat32: return steal(PyFloat_FromDouble(number<float>(field)));
+      case Kind::kFloat64: return steal(PyFloat_FromDouble(number<double>(field)));
+      case Kind::kString: return read_text(field);
+      case Kind::kMessage: return read(*field.message);
+      case Kind::kPlaceholder: break;
+    }
+    return steal(PyLong_FromLong(0));
+  }
+
+  Object read_text(const Field& field) {
+    const uint32_t size = number<uint32_t>(field);
+    return steal(PyUnicode_DecodeUTF8(consume(field, size), static_cast<Py_ssize_t>(size), nullptr));
+  }
+
+  // Returns a view of the bytes.
+  Object read_numbers(const Field& field, uint64_t count) {
+    const Numpy& numpy = Numpy::get();
+    const Object length = steal(PyLong_FromUnsignedLongLong(count)), offset = steal(PyLong_FromSsize_t(at_));
+    PyObject* const dtype = numpy.dtypes[static_cast<size_t>(field.kind)].get();
+    PyObject* const arguments[] = {data_, dtype, length.get(), offset.get()};
+    consume(field, count * field.min_size);
+    return steal(PyObject_Vectorcall(numpy.frombuffer.get(), arguments, std::size(arguments), nullptr));
+  }
+
+  template <typename Number>
+  Number number(const Field& field) {
+    Number number;
+    std::memcpy(&number, consume(field, sizeof number), sizeof number);
+    return number;
+  }
+
+  const char* consume(const Field& field, uint64_t count) {
+    if (count > left()) truncated(field);
+    const char* const here = static_cast<const char*>(view_.buf) + at_;
+    at_ += static_cast<Py_ssize_t>(count);
+    return here;
+  }
+
+  uint64_t left() const { return static_cast<uint64_t>(view_.len - at_); }
+
+  [[noreturn]] static void truncated(const Field& field) {
+    raise_error(PyExc_ValueError, "they end within '%U'", field.name.get());
+  }
+
+  PyObject* const data_;
+  const View view_;
+  const Object no_arguments_;
+  Py_ssize_t at_ = 0;
+};
+
+struct ReceivedFrame {
+  Object content, count;
+
+  ReceivedFrame(PyObject* recv_into, PyObject* buffer) : count(steal(PyObject_CallOneArg(recv_into, buffer))) {
+    const Py_ssize_t received = PyLong_AsSsize_t(count.get());
+    if (received < 0 && PyErr_Occurred()) throw PythonError{};
+    const View view(buffer, PyBUF_SIMPLE);
+    uint32_t size = 0;
+    constexpr Py_ssize_t kBegin = sizeof size;
+    if (received < kBegin || received > view.len) return;
+    std::memcpy(&size, view.buf, sizeof size);
+    if (size == received - kBegin)
+      content = steal(PyBytes_FromStringAndSize(static_cast<const char*>(view.buf) + kBegin, received - kBegin));
+  }
+
+  Object with(const Object& first) const { return steal(PyTuple_Pack(2, first ? first.get() : Py_None, count.get())); }
+};
+
+}  // namespace
+
+Object MessageCodec::read(PyObject* data) const { return Reader(data).read_all(*layouts_.back()); }
+
+Object MessageCodec::receive(PyObject* recv_into, PyObject* buffer) const {
+  const ReceivedFrame frame(recv_into, buffer);
+  Object message;
+  if (frame.content) {
+    try {
+      message = read(frame.content.get());
+    } catch (const PythonError&) {
+      PyErr_Clear();  // raised again by the caller, who reads the frame from the buffer
+    }
+  }
+  return frame.with(message);
+}
+
+Object receive(PyObject* recv_into, PyObject* buffer) {
+  const ReceivedFrame frame(recv_into, buffer);
+  return frame.with(frame.content);
+}
+
+}  // namespace trundle::messages

@@ -1,0 +1,13 @@
+// Continuous collision detection (MuJoCo's speculative contacts) against tunnelling through thin shapes. In every step
+// it would cost a furnished house a quarter of its speed, so it is on only while something moves fast enough.
+#pragma once
+
+#include "law_tables.h"
+
+namespace trundle {
+
+// Switch it for the next step, if this is the mjData that the engine steps. It stays on for others that share the
+// model.
+void update_ccd(const LawTables& laws, const mjModel* m, const mjData* d);
+
+}  // namespace trundle
