@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Generator
 from contextlib import contextmanager
+from importlib.util import find_spec
 
 from trundle.ros import Node
 
@@ -23,7 +24,7 @@ class Keyboard:
     @property
     def is_available(self) -> bool:
         """True if stdin is a terminal that no other node reads."""
-        return os.name == "posix" and sys.stdin.isatty() and not Keyboard._taken
+        return find_spec("termios") is not None and sys.stdin.isatty() and not Keyboard._taken
 
     @contextmanager
     def cbreak(self) -> Generator[None]:

@@ -126,9 +126,13 @@ def _keys() -> Generator[Callable[[], str]]:
     if not sys.stdin.isatty():
         yield lambda: ""
         return
-    import termios
-    import tty
-
+    try:
+        import termios
+        import tty
+    except ImportError:  # Windows
+        print("this Python cannot read single keys (it has no termios): no pause, no step", file=sys.stderr)
+        yield lambda: ""
+        return
     terminal = sys.stdin.fileno()
     before = termios.tcgetattr(terminal)
     tty.setcbreak(terminal)

@@ -1,0 +1,81 @@
+"""Every module can be imported, and nothing ends with a traceback, where Python has no POSIX modules, as on Windows."""
+
+import subprocess
+import sys
+
+import pytest
+
+from trundle.cli.bag import play
+from trundle.nodes.keyboard import Keyboard
+
+MODULES_OF_POSIX = (
+    "crypt",
+    "curses",
+    "fcntl",
+    "grp",
+    "nis",
+    "pty",
+    "pwd",
+    "readline",
+    "resource",
+    "syslog",
+    "termios",
+    "tty",
+)
+
+IMPORT_ALL = """
+import importlib, pkgutil, sys
+
+class Absent:
+    def find_spec(self, name, path=None, target=None):
+        if name in HIDDEN:
+            raise ModuleNotFoundError(f"No module named '{name}'", name=name)
+
+for name in HIDDEN:
+    sys.modules.pop(name, None)
+sys.meta_path.insert(0, Absent())
+
+import trundle
+found = [module.name for module in pkgutil.walk_packages(trundle.__path__, "trundle.")]
+for name in found:
+    importlib.import_module(name)
+print(len(found))
+"""
+
+
+def without(modules: tuple[str, ...], code: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", f"HIDDEN = {modules!r}\n{code}"]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+
+
+def test_every_module_imports_without_the_modules_of_posix() -> None:
+    imported = without(MODULES_OF_POSIX, IMPORT_ALL)
+
+    assert imported.returncode == 0, imported.stderr
+    assert int(imported.stdout) > 500
+
+
+@pytest.mark.parametrize("name", ["fcntl", "termios"])
+def test_the_modules_are_hidden(name: str) -> None:
+    hidden = without(MODULES_OF_POSIX, IMPORT_ALL + f"import {name}")
+
+    assert f"No module named '{name}'" in hidden.stderr
+
+
+@pytest.fixture
+def terminal_without_termios(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "termios", None)
+    monkeypatch.setattr(sys.stdin, "isatty", lambda: True, raising=False)
+
+
+@pytest.mark.usefixtures("terminal_without_termios")
+def test_a_bag_plays_without_keys_where_there_is_no_termios(capsys: pytest.CaptureFixture[str]) -> None:
+    with play._keys() as pressed:
+        assert pressed() == ""
+
+    assert "no pause, no step" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("terminal_without_termios")
+def test_no_node_reads_keys_where_there_is_no_termios() -> None:
+    assert not Keyboard(object()).is_available
