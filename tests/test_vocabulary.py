@@ -1,12 +1,14 @@
 """Names are terms of the field: a list of words that were in use here and are not."""
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import trundle
 
 SOURCE = Path(trundle.__file__).parent
+CPP = SOURCE.parents[1] / "cpp"
 REPLACED_NEXT = SOURCE / "viewer"
 
 MODULES = {
@@ -18,6 +20,10 @@ CLASSES = {
     "Beat", "Between", "Errands", "Feeling", "Grip", "Hold", "Instant", "Looker", "Makers", "Misfit", "Noted",
     "Notices", "Outcome", "Outgoing", "Patience", "Puppet", "Pushes", "Runaway", "Scenery", "Shelf", "Showing",
     "Sight", "Site", "Spot", "Stage", "Surroundings", "ToldTime", "Touch", "Touching",
+}  # fmt: skip
+CPP_TYPES = {
+    "Around", "Bundle", "Coarse", "Fan", "Frame", "LetGo", "Look", "Meeting", "Pipe", "Raised", "Room", "Shot", "Sight",
+    "Solid", "Waiting",
 }  # fmt: skip
 VERBS = {"attend", "feel", "gather", "give", "heed", "hear", "lay", "look", "obey", "strike", "take", "tell", "told"}
 """First words of functions; what a sensor does is `measure`, what a topic does is `publish`."""
@@ -51,3 +57,12 @@ def test_functions_begin_with_verbs_of_the_field() -> None:
     found = _definitions((ast.FunctionDef, ast.AsyncFunctionDef))
 
     assert [(where, name) for where, name in found if name.split("_")[0] in VERBS and name not in TERMS] == []
+
+
+def test_types_in_cpp_are_named_by_the_field() -> None:
+    sources = [file for file in sorted(CPP.glob("*")) if file.suffix in (".cc", ".h")]
+    types = [
+        (file.name, name) for file in sources for name in re.findall(r"\b(?:struct|class) (\w+)", file.read_text())
+    ]
+
+    assert [(where, name) for where, name in types if name in CPP_TYPES] == []

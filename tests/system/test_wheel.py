@@ -1,0 +1,131 @@
+"""The wheel that `make dist` built, in an environment of its own outside the checkout: it is whole, and runs."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SEEDS = ROOT.parent / "shared/seeds"
+WHEELS = sorted((ROOT / "dist").glob("trundle-*.whl"))
+TIMEOUT_S = 120.0
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not WHEELS, reason="there is no wheel in dist/; `make dist` builds one"),
+]
+
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="module")
+def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the commands of an environment with the wheel; its dependencies are the test's, its trundle is not."""
+    folder = tmp_path_factory.mktemp("installed") / "venv"
+    subprocess.run([sys.executable, "-m", "venv", folder], check=True, timeout=TIMEOUT_S)
+    python = next(folder.glob("bin/python")) if os.name == "posix" else folder / "Scripts/python.exe"
+    install = [python, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", WHEELS[-1]]
+    subprocess.run(install, check=True, timeout=TIMEOUT_S)
+    packages = next(folder.rglob("trundle-*.dist-info")).parent
+    # Plain paths of a .pth file come after the environment's own packages, and their .pth files are not read.
+    (packages / "dependencies.pth").write_text(sysconfig.get_paths()["purelib"])
+    return python.parent
+
+
+@pytest.fixture
+def run(commands: Path, tmp_path: Path) -> Run:
+    """Run a command of that environment in an empty folder, as a user without any setting does."""
+
+    def call(name: str, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
+        kept = {key: os.environ[key] for key in ("SYSTEMROOT", "TEMP", "TMPDIR") if key in os.environ}
+        environment = {**kept, "HOME": str(tmp_path), "PATH": f"{commands}{os.pathsep}{os.defpath}", **variables}
+        command = [str(commands / name), *arguments]
+        return subprocess.run(
+            command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
+        )
+
+    return call
+
+
+def result(done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_every_file_of_the_package_is_in_the_wheel() -> None:
+    """Stubs too: the lazy front doors read theirs at run time, and py.typed tells type checkers of them."""
+    package = ROOT / "src"
+    sources = {str(file.relative_to(package).as_posix()) for file in package.rglob("*") if file.is_file()}
+    with zipfile.ZipFile(WHEELS[-1]) as wheel:
+        missing = {name for name in sources - set(wheel.namelist()) if not name.endswith((".pyc", ".so"))}
+
+    assert missing == set()
+    assert {"trundle/py.typed", "trundle/ros/__init__.pyi", "trundle/render/_native.pyi"} <= sources
+
+
+def test_the_installed_trundle_is_the_wheel_s(run: Run, commands: Path) -> None:
+    done = run("python", "-c", "import trundle; print(trundle.__file__)")
+
+    assert Path(done.stdout).is_relative_to(commands.parent)
+
+
+def test_every_module_of_the_wheel_imports(run: Run) -> None:
+    code = """
+import importlib, pkgutil, trundle
+for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
+    importlib.import_module(module.name)
+"""
+    done = run("python", "-W", "ignore", "-c", code)
+
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_gazebo_tutorial_runs(run: Run) -> None:
+    """Its model where it is here, else the one that comes in the wheel."""
+    variables = {"GAZEBO_MODEL_PATH": str(SEEDS)} if SEEDS.is_dir() else {}
+
+    final = result(
+        run("trundle", "run", "model://rp2w", "--headless", "--no-ros", "--duration", "2", "--json", **variables)
+    )
+
+    (robot,) = [model for model in final["models"] if not model.get("added")]
+    assert final["time"] == pytest.approx(2.0)
+    assert robot["pose"][2] == pytest.approx(0.0, abs=0.05)
+    assert final["images"] == 0
+
+
+def test_the_ros_tutorial_launches(run: Run) -> None:
+    """Its package where it is here, else the one that comes in the wheel."""
+    words = ("smartcar_description", "smartcar_display.rviz.launch") if SEEDS.is_dir() else ("smartcar", "drive.launch")
+    variables = {"ROS_PACKAGE_PATH": str(SEEDS)} if SEEDS.is_dir() else {}
+
+    done = run("trundle", "launch", *words, "--headless", "--duration", "3", "--port", "0", **variables)
+
+    assert done.returncode == 0, done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_the_wheel_renders(run: Run, tmp_path: Path) -> None:
+    done = run("trundle", "render", "rp2w_at_home.world", "-o", "home.png")
+
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "home.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.skipif(shutil.which("uvx") is None, reason="uvx is not installed")
+def test_uvx_runs_the_wheel(tmp_path: Path) -> None:
+    command = ["uvx", "--python", sys.executable, "--from", str(WHEELS[-1]), "trundle", "--version"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=600, check=False)
+    if "fetch" in done.stderr.lower():
+        pytest.skip("uvx reaches no package index from here")
+
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip().endswith("0.1.0")
