@@ -5,7 +5,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: demo test test-all check tidy format bench load dist system clean help
+.PHONY: demo test test-all check tidy format docs bench load dist system clean help
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
@@ -41,7 +41,9 @@ format: $(READY)  ## rewrite the code in house style
 	$(BIN)/python cpp/lint.py format
 	$(BIN)/ruff check --fix src tests bench examples docs
 	$(BIN)/ruff format src tests bench examples docs
-	$(BIN)/python docs/what_runs.py
+
+docs: $(READY)  ## the site, in out/site
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
 
 bench: $(READY)  ## figures, as ratios against a peer in the same run
 	$(BIN)/python -m bench
@@ -78,4 +80,4 @@ system:  ## what the fullest tests use, from Debian's packages and npm's
 	  echo "npm brought no rosnodejs and @foxglove/ros1: make test-all skips the clients in JavaScript"
 
 clean:  ## remove what make made
-	rm -rf $(VENV) .npm dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf $(VENV) .npm dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis out

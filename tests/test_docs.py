@@ -1,16 +1,60 @@
-"""Examples of the documentation work as documented."""
+"""What the documentation shows does what it says, and what it names is there."""
 
-import doctest
+import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
+from tests.docs_blocks import ROOT, is_slow, read_blocks, run_page
 
-ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").rglob("*.md"))]
+REASONS = Counter(
+    {
+        "a terminal": 1,
+        "docker": 2,
+        "minutes, to set everything up": 1,
+        "the net": 3,
+        "the tutorial's files": 1,  # tests/system/test_smartcar.py has them
+    }
+)
+"""Why blocks are not run, and how many."""
+_FILE = re.compile(r"`((?:src|cpp|docs|tests|examples|bench|typings)/[\w./]+|[\w/]+\.(?:py|cc|h))(?::\w+)?`")
 
 
-def test_what_python_md_shows_is_what_happens(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
-    options = doctest.ELLIPSIS
-    failed, tried = doctest.testfile(str(ROOT / "docs/python.md"), module_relative=False, optionflags=options)
-    assert tried > 30
-    assert failed == 0
+def _parameters() -> list[object]:
+    pages = [page for page in PAGES if read_blocks(page) or ">>>" in page.read_text()]
+    marks = {True: [pytest.mark.slow], False: []}
+    return [pytest.param(page, id=str(page.relative_to(ROOT)), marks=marks[is_slow(page)]) for page in pages]
+
+
+@pytest.mark.parametrize("page", _parameters())
+def test_every_block_does_what_it_says(page: Path, tmp_path: Path) -> None:
+    run_page(page, tmp_path)
+
+
+def test_the_readme_holds_for_the_tutorial_s_own_model(shared: Path, tmp_path: Path) -> None:
+    """It goes before the one that comes with Trundle, and its model is called my_robot."""
+    (tmp_path / ".gazebo/models").mkdir(parents=True)
+    (tmp_path / ".gazebo/models/rp2w").symlink_to(shared / "seeds/rp2w")
+    run_page(ROOT / "README.md", tmp_path)
+
+
+def test_the_blocks_that_are_not_run_are_counted() -> None:
+    marks = [block.mark for page in PAGES for block in read_blocks(page)]
+    assert Counter(mark.partition("needs ")[2] for mark in marks if mark.startswith("not run:")) == REASONS
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_file_that_a_page_names_is_there(page: Path) -> None:
+    if "decisions" in page.parts:
+        pytest.skip("decisions name the files of their day")
+    text = "".join(part for i, part in enumerate(page.read_text().split("```")) if i % 2 == 0)
+    made = {Path(block.title).name for block in read_blocks(page) if block.title}
+    named = {name for name in _FILE.findall(text) if name not in made}
+    assert {name for name in named if not any((base / name).exists() for base in (ROOT, ROOT / "src/trundle"))} == set()
+
+
+def test_every_room_has_its_line_in_the_architecture() -> None:
+    plan = (ROOT / "ARCHITECTURE.md").read_text()
+    rooms = [path.name for path in (ROOT / "src/trundle").iterdir() if (path / "__init__.py").is_file()]
+    assert [room for room in rooms if f"`{room}`" not in plan] == []

@@ -99,7 +99,7 @@ def _main(arguments: list[str]) -> int:
     if name not in COMMANDS:
         print(f"trundle: no command {name!r}; commands: {', '.join(COMMANDS)}", file=sys.stderr)
         return EXIT_USAGE
-    parser = _parser(name)
+    parser = make_parser(name)
     try:
         words = parse_arguments(arguments[1:]) if name in REMAPPED else Arguments(rest=tuple(arguments[1:]))
         _apply_remap_arguments(words)
@@ -165,7 +165,7 @@ def _command(name: str) -> CommandModule:
         return cast(CommandModule, importlib.import_module(f"trundle.cli.{name}"))
 
 
-def _parser(name: str, parser: argparse.ArgumentParser | None = None) -> argparse.ArgumentParser:
+def make_parser(name: str, parser: argparse.ArgumentParser | None = None) -> argparse.ArgumentParser:
     command = _command(name)
     summary = (command.__doc__ or "").partition("\n")[0]
     parser = parser or argparse.ArgumentParser(prog=f"trundle {name}", formatter_class=_Formatter)
@@ -205,5 +205,5 @@ def _complete() -> None:
     for name, summary in COMMANDS.items():
         subparser = subparsers.add_parser(name, help=summary, formatter_class=_Formatter)
         if name in typed:
-            complete(_parser(name, subparser), name)
+            complete(make_parser(name, subparser), name)
     argcomplete.autocomplete(parser)

@@ -1,0 +1,40 @@
+"""The reference of the Python API: which names of which rooms are for users; mkdocstrings reads their docstrings."""
+
+PUBLIC: dict[str, tuple[str, ...]] = {
+    "trundle": ("load",),
+    "trundle.simulation": (
+        "Simulation",
+        "ModelHandle",
+        "LinkHandle",
+        "JointHandle",
+        "Snapshot",
+        "BeforeStep",
+        "AfterStep",
+        "SavedSimulation",
+        "StateLog",
+        "read_state_log",
+    ),
+    "trundle.spatial": ("Pose", "Twist", "Wrench"),
+    "trundle.diagnostics": ("TrundleError", "UsageError", "DescriptionError", "Diagnostics", "Diagnostic", "Source"),
+    "trundle.plugins": ("Plugin", "WorldPlugin", "VisualPlugin", "Hooks"),
+    "trundle.model": ("World", "Model", "Link", "Joint", "JointAxis", "Inertial", "Surface", "Sensor"),
+    "trundle.physics": ("Contact", "SimulationUnstableError"),
+    "trundle.ros": ("Node", "Publisher", "Subscription", "Transform", "TransformBroadcaster"),
+}
+"""Room → names."""
+
+_INTRO = """# Python API
+
+[From Python](../python.md) shows how these are used.
+Lengths are in metres, angles in radians, quaternions are w x y z;
+`a_from_b` turns coordinates in b into coordinates in a.
+"""
+
+
+def page() -> str:
+    """A heading for each room, and the docstrings of its public names."""
+    parts = [_INTRO]
+    for room, names in PUBLIC.items():
+        parts.append(f"## {room} {{ #{room.replace('.', '-')} }}\n")
+        parts += [f"::: {room}.{name}\n    options:\n      heading_level: 3\n" for name in names]
+    return "\n".join(parts)

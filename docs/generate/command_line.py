@@ -1,0 +1,73 @@
+"""The reference of the command line, from the parsers."""
+
+import argparse
+
+from trundle.cli.main import COMMANDS, make_parser
+
+from .markdown import cell, code
+
+_INTRO = """# Command line
+
+Every command has `--help`, with examples first.
+With `--json`, a command prints one JSON object on standard output and nothing else there; what it has to say goes to
+standard error.
+
+| exit code | meaning |
+|---|---|
+| 0 | success; for ROS's tools also Ctrl-C |
+| 1 | the input is at fault; one sentence says where and what |
+| 2 | wrong usage |
+| 130 | Ctrl-C, after a clean stop |
+
+Tab completion: `eval "$(register-python-argcomplete trundle)"`.
+"""
+
+
+def page() -> str:
+    """Every command with its examples, arguments and subcommands."""
+    return "\n".join([_INTRO, *(_command(make_parser(name), level=2) for name in COMMANDS)])
+
+
+def _command(parser: argparse.ArgumentParser, *, level: int) -> str:
+    examples, _, summary = (parser.description or "").partition("\n\n")
+    if not summary:
+        examples, summary = "", examples
+    parts = [f"{'#' * level} {parser.prog}", summary]
+    if examples:
+        lines = examples.removeprefix("examples:").strip("\n")
+        parts.append(f"```text\n{lines}\n```")
+    subparsers = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
+    if not subparsers:
+        parts += [f"```text\n{parser.format_usage().strip()}\n```", _arguments(parser)]
+    for action in subparsers:
+        help_of = {choice.dest: choice.help or "" for choice in action._choices_actions}
+        seen: set[int] = set()
+        for name, subparser in action.choices.items():
+            if id(subparser) not in seen:  # a second name of the same
+                seen.add(id(subparser))
+                subparser.description = subparser.description or help_of.get(name, "")
+                parts.append(_command(subparser, level=level + 1))
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _arguments(parser: argparse.ArgumentParser) -> str:
+    rows = [
+        f"| {_spelling(action)} | {_help(parser, action)} |"
+        for action in parser._actions
+        if action.help != argparse.SUPPRESS and not isinstance(action, argparse._HelpAction)
+    ]
+    return "\n".join(["| argument | meaning |", "|---|---|", *rows]) if rows else ""
+
+
+def _spelling(action: argparse.Action) -> str:
+    choices = "{" + ",".join(map(str, action.choices)) + "}" if action.choices else None
+    value = action.metavar or choices or (action.dest.upper() if action.option_strings else action.dest)
+    value = " ".join(value) if isinstance(value, tuple) else value
+    takes_value = action.nargs != 0
+    names = [f"{name} {value}" if takes_value else name for name in action.option_strings] or [value]
+    return ", ".join(map(code, names))
+
+
+def _help(parser: argparse.ArgumentParser, action: argparse.Action) -> str:
+    text = (action.help or "") % {"prog": parser.prog, "default": action.default} if action.help else ""
+    return cell(text)

@@ -1,0 +1,86 @@
+"""The reference of diagnostics: every sentence about a file, from the calls that say it."""
+
+import ast
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import trundle
+
+from .markdown import cell
+
+_SOURCE = Path(trundle.__file__).parent
+_SEVERITY = {"warn": "warning", "info": "info", "DescriptionError": "error"}
+_ROOMS = ("xmlnode", "description", "robot", "launch", "lint", "physics", "sensors", "plugins", "nodes")
+_INTRO = """# Diagnostics
+
+A diagnostic says where, what, and what is done instead:
+
+```text
+cart.sdf:42: warning: <cast_shadow> in <light> is not supported; it is ignored
+```
+
+- An **error** ends the reading: nothing sensible can be made of the file. The command exits with 1.
+- A **warning** names something wrong or not supported; the reading goes on as the sentence says. `--strict` makes every
+  warning an error.
+- An **info** names a rule that a reader of the file may not expect. `trundle check` prints it; `trundle run` does not.
+
+`trundle check FILE` lists them all, worst first; `trundle check FILE --json` prints them as
+`{"severity", "file", "line", "message"}`. From Python they are in `sim.report.findings`.
+
+Below is every sentence there is, by the file that says it; `…` stands for what differs.
+"""
+
+
+def page() -> str:
+    """Every sentence, by room and file."""
+    parts = [_INTRO]
+    for room in _ROOMS:
+        tables = [table for path in sorted((_SOURCE / room).rglob("*.py")) if (table := _table(path))]
+        if tables:
+            parts += [f"## {room}\n", *tables]
+    return "\n".join(parts)
+
+
+def _table(path: Path) -> str:
+    rows = sorted({(line, severity, text) for line, severity, text in _sentences(ast.parse(path.read_text()))})
+    if not rows:
+        return ""
+    head = f"`{path.relative_to(_SOURCE)}`\n\n| | |\n|---|---|\n"
+    return head + "".join(f"| {severity} | {cell(text)} |\n" for _, severity, text in rows)
+
+
+def _sentences(tree: ast.AST) -> Iterator[tuple[int, str, str]]:
+    for function in ast.walk(tree):
+        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+            assigned = _assigned(function)
+            for call in ast.walk(function):
+                if isinstance(call, ast.Call) and len(call.args) >= 2:
+                    name = getattr(call.func, "attr", getattr(call.func, "id", ""))
+                    what = call.args[1]
+                    values = assigned.get(what.id, []) if isinstance(what, ast.Name) else [what]
+                    texts = [_text(value, assigned) for value in values if name in _SEVERITY]
+                    yield from ((call.lineno, _SEVERITY[name], text) for text in texts if _says_something(text))
+
+
+def _assigned(function: ast.AST) -> dict[str, list[ast.expr]]:
+    """What each name of a function is set to."""
+    found: dict[str, list[ast.expr]] = {}
+    for node in ast.walk(function):
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            found.setdefault(node.targets[0].id, []).append(node.value)
+    return found
+
+
+def _says_something(text: str) -> bool:
+    return len(text.strip("…")) > 1 and not text.startswith("…;")
+
+
+def _text(node: ast.expr, assigned: Mapping[str, list[ast.expr]]) -> str:
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    if isinstance(node, ast.JoinedStr):
+        return "".join(_text(value, assigned) for value in node.values)
+    if isinstance(node, ast.FormattedValue) and isinstance(node.value, ast.Name):
+        before = [value for value in assigned.get(node.value.id, []) if value.lineno < node.lineno]
+        return _text(before[-1], {}) if before else "…"
+    return "…"

@@ -1,0 +1,57 @@
+"""What MkDocs calls while it builds the site."""
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "docs"))  # MkDocs loads this file by its path
+
+from generate import api, catalogs, command_line, diagnostics, elements, pictures  # noqa: E402
+
+PAGES: dict[str, Callable[[], str]] = {
+    "architecture.md": lambda: _root_page("ARCHITECTURE.md"),
+    "contributing.md": lambda: _root_page("CONTRIBUTING.md"),
+    "decisions/index.md": lambda: _decisions(),
+    "reference/cli.md": command_line.page,
+    "reference/diagnostics.md": diagnostics.page,
+    "reference/nodes.md": catalogs.nodes_page,
+    "reference/plugins.md": catalogs.plugins_page,
+    "reference/python.md": api.page,
+    "reference/sdf.md": lambda: elements.page("sdf"),
+    "reference/urdf.md": lambda: elements.page("urdf"),
+}
+"""Pages that are in no file below docs/."""
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages, the pictures and the examples that pages link to."""
+    for path, text in PAGES.items():
+        files.append(File.generated(config, path, content=text()))
+    for path in sorted((ROOT / "examples").rglob("*")):
+        if path.is_file() and path.suffix != ".pyc":
+            files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
+    for name, picture in pictures.draw_all(ROOT / "out/pictures").items():
+        files.append(File.generated(config, f"pictures/{name}", abs_src_path=str(picture)))
+    return files
+
+
+def on_page_markdown(markdown: str, **_: object) -> str:
+    """Let links to the examples, which lie beside docs/, lead to their copies in the site."""
+    return re.sub(r"\]\(\.\./((?:\.\./)*examples/)", r"](\1", markdown)
+
+
+def _root_page(name: str) -> str:
+    text = (ROOT / name).read_text().replace("](docs/decisions)", "](decisions/index.md)").replace("](docs/", "](")
+    return re.sub(r"\]\(([A-Z]+\.md)", lambda link: f"]({link[1].lower()}", text)
+
+
+def _decisions() -> str:
+    pages = sorted((ROOT / "docs/decisions").glob("*.md"))
+    titles = [page.read_text().partition("\n")[0].removeprefix("# ") for page in pages]
+    links = [f"- [{title}]({page.name})" for title, page in zip(titles, pages, strict=True)]
+    return "\n".join(["# Decisions", "", "What was decided that is hard to undo, and why.", "", *links, ""])

@@ -1,0 +1,80 @@
+"""The site of the documentation: it builds without a warning, and asks nobody else for anything."""
+
+import http.server
+import re
+import subprocess
+import sys
+import threading
+from functools import partial
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from tests.docs_blocks import ROOT
+
+_LOADED = re.compile(
+    r"<(?:script|img|video|source|iframe|embed|audio)\b[^>]*?\ssrc=[\"']?([^\"'\s>]+)"
+    r"|<link\b(?=[^>]*?rel=[\"']?(?:stylesheet|icon|preload|preconnect|prefetch|manifest))[^>]*?\shref=[\"']?([^\"'\s>]+)"
+    r"|url\(\s*[\"']?([^\"')\s]+)|@import\s+[\"']([^\"']+)"
+)
+"""What a browser asks for without being told to."""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The site, built as `make docs` does."""
+    pytest.importorskip("material", reason="Material for MkDocs is not installed")
+    built = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-W", "ignore", "-m", "mkdocs", "build", "--strict", "--site-dir", str(built)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return built
+
+
+def test_it_is_whole_and_asks_nobody_else_for_anything(site: Path) -> None:
+    pages = {file: file.read_text() for kind in ("html", "css") for file in site.rglob(f"*.{kind}")}
+    loaded = [(page, next(filter(None, found))) for page, text in pages.items() for found in _LOADED.findall(text)]
+    assert len(pages) > 40
+    assert len(loaded) > 100
+
+    foreign = {url for _, url in loaded if urlsplit(url).netloc}
+    assert foreign == set()
+    local = [(page, urlsplit(url).path) for page, url in loaded if not url.startswith(("data:", "#"))]
+    missing = [(page.name, url) for page, url in local if not (page.parent / unquote(url).lstrip("/")).exists()]
+    assert missing == []
+
+
+def test_its_references_name_what_there_is(site: Path) -> None:
+    def page(name: str) -> str:
+        return (site / f"reference/{name}.html").read_text()
+
+    assert "libgazebo_ros_diff_drive.so" in page("plugins")
+    assert "topic_tools/throttle" in page("nodes")
+    assert "trundle topic echo" in page("cli")
+    assert re.search(r"mu2.*description/sdf/surface\.py", page("sdf"))
+    assert "leaves no freedom; rigid" in page("diagnostics")
+    assert 'id="trundle.simulation.Simulation.run"' in page("python")
+
+
+@pytest.mark.slow
+@pytest.mark.browser
+def test_a_browser_asks_nobody_else_for_anything(site: Path, chromium: Any) -> None:
+    handler = partial(http.server.SimpleHTTPRequestHandler, directory=str(site))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        origin = f"http://127.0.0.1:{server.server_port}"
+        page = chromium.new_page()
+        asked: list[str] = []
+        failed: list[str] = []
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("response", lambda response: failed.append(response.url) if response.status >= 400 else None)
+        for name in ("index", "start", "reference/sdf", "howto/see"):
+            page.goto(f"{origin}/{name}.html", wait_until="networkidle")
+        assert len(asked) > 10
+        assert [url for url in asked if not url.startswith((origin, "data:", "blob:"))] == []
+        assert failed == []
+    finally:
+        server.shutdown()
+        server.server_close()
