@@ -56,5 +56,5 @@ class Pose(Struct, frozen=True):
         return rpy_from_quaternion(self.quaternion)
 
     def as_list(self) -> list[float]:
-        """[x, y, z, roll, pitch, yaw] [m, rad], as SDF and `--json` write a pose."""
+        """x, y, z [m], roll, pitch, yaw [rad], as SDF and `--json` write a pose."""
         return [*self.position, *self.rpy]
