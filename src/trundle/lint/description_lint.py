@@ -1,11 +1,10 @@
-"""Lint of inertias, overlaps, undriven joints and ROS names; changes nothing."""
+"""Lint of inertias, overlaps and undriven joints; changes nothing."""
 
 import math
 import re
-from collections.abc import Iterator
 
 from trundle.description import LoadedDescription
-from trundle.diagnostics import Diagnostics, Source
+from trundle.diagnostics import Diagnostics
 from trundle.model import (
     Box,
     Capsule,
@@ -19,7 +18,6 @@ from trundle.model import (
     Sphere,
     flattened,
 )
-from trundle.names import is_legal_base_name, ros_name
 from trundle.spatial import Pose
 
 from .overlaps import report_overlaps
@@ -35,9 +33,7 @@ _TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
 
 
 def lint_description(loaded: LoadedDescription, report: Diagnostics) -> None:
-    """Report inertias that do not fit their link, overlapping bodies, undriven joints, and names that ROS does not
-    allow.
-    """
+    """Report inertias that do not fit their link, overlapping bodies and undriven joints."""
     driven = " ".join(_TRANSMISSION.findall(loaded.urdf or ""))
     models = flattened(loaded.world).models
     report_overlaps(models, report)
@@ -47,7 +43,6 @@ def lint_description(loaded: LoadedDescription, report: Diagnostics) -> None:
         for link in model.links:
             _lint_inertia(link, report)
         _lint_joints(model, driven, report)
-        _lint_names(model, report)
 
 
 def _lint_inertia(link: Link, report: Diagnostics) -> None:
@@ -109,15 +104,3 @@ def _lint_joints(model: Model, driven: str, report: Diagnostics) -> None:
     if idle:
         names = ", ".join(map(repr, idle[:8])) + (f" and {len(idle) - 8} more" if len(idle) > 8 else "")
         report.info(model.at, f"model {model.name!r}: no plugin or transmission here names {names}; they move freely")
-
-
-def _lint_names(model: Model, report: Diagnostics) -> None:
-    for name, at in _names(model):
-        if not is_legal_base_name(name.replace("::", "_")):
-            report.info(at, f"{name!r} is not a legal ROS name; on the graph and in tf it is {ros_name(name)!r}")
-
-
-def _names(model: Model) -> Iterator[tuple[str, Source]]:
-    yield model.name, model.at
-    for each in (*model.links, *model.joints):
-        yield each.name, each.at

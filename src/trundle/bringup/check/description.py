@@ -14,6 +14,7 @@ from trundle.packages import Packages
 from trundle.physics import report_wheels
 
 from ..load_input import Piped, load_input
+from .ros_names import report_ros_names
 
 if TYPE_CHECKING:
     from trundle.drawing.tree import TreeNode
@@ -77,6 +78,7 @@ def check_description(
     loaded = load_input(file, report, packages=packages, start=start, piped=piped)
     flat = flattened(loaded.world)
     lint_description(loaded, report)
+    report_ros_names(flat, report)
     _report_silent_sensors(flat, report)
     _report_physics(flat, report, collisions=collisions)
     return DescriptionFindings(loaded, flat)
