@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from trundle.nodes.arbotix.gripper_controller import read_gripper
-from trundle.ros import NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
 
 SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2
 ARBOTIX: dict[str, Any] = {
@@ -138,16 +138,16 @@ def test_an_opening_becomes_servo_angles(
     settings: dict[str, Any], opening_m: float, commands: dict[str, float]
 ) -> None:
     """A finger of length l opens 2·l·sin(angle) beyond its pads."""
-    assert read_gripper(NodeParams(settings, "/g")).commands(opening_m) == pytest.approx(commands)
+    assert read_gripper(RosParameters(settings, "/g")).commands(opening_m) == pytest.approx(commands)
 
 
 def test_openings_and_models_that_cannot_be_are_refused() -> None:
     with pytest.raises(ValueError, match="exceeds the opening limits"):
-        read_gripper(NodeParams({"model": "dualservo"}, "/g")).commands(0.5)
+        read_gripper(RosParameters({"model": "dualservo"}, "/g")).commands(0.5)
     with pytest.raises(ValueError, match="cannot open"):
-        read_gripper(NodeParams({"model": "dualservo", "finger_length": 0.001}, "/g")).commands(0.05)
+        read_gripper(RosParameters({"model": "dualservo", "finger_length": 0.001}, "/g")).commands(0.05)
     with pytest.raises(ParamError, match="no gripper model 'tentacle'"):
-        read_gripper(NodeParams({"model": "tentacle"}, "/g"))
+        read_gripper(RosParameters({"model": "tentacle"}, "/g"))
 
 
 def test_a_gripper_opens_as_its_servo_does(stage) -> None:

@@ -12,7 +12,7 @@ from trundle.nodes import NodeHost
 from trundle.nodes.arbotix import ArbotixDriver
 from trundle.nodes.arbotix.diff_controller import Unicycle
 from trundle.nodes.arbotix.servo_controller import HobbyServo
-from trundle.ros import NodeParams
+from trundle.parameters import RosParameters
 
 S = 1_000_000_000
 SMARTCAR: dict[str, Any] = {
@@ -151,7 +151,7 @@ def test_it_says_what_the_original_says() -> None:
     ("params", "message"),
     [
         ({}, "no ArbotiX board can be driven through /dev/ttyUSB0: set /n/sim to true"),
-        ({"sim": True, "rate": 0}, "parameter /n/rate: a rate is > 0 Hz, got 0"),
+        ({"sim": True, "rate": 0}, "parameter /n/rate must be > 0, got 0"),
         ({"sim": True, "rate": "fast"}, "parameter /n/rate: 'fast' is not a number"),
         ({"sim": "yes"}, "parameter /n/sim: 'yes' is neither true nor false"),
         ({"sim": True, "joints": {"a": {}}}, "parameter /n/joints/a/id is not set"),
@@ -197,7 +197,7 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
 
 def test_a_servo_that_a_controller_moves_does_not_obey_its_topic() -> None:
     node = FakeNode(FakeClock(end_ns=S), {})
-    servo = HobbyServo(node, "arm", NodeParams({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
+    servo = HobbyServo(node, "arm", RosParameters({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
     servo.is_controlled = lambda: True
     node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
     servo.interpolate(1.0)

@@ -7,7 +7,8 @@ from tests.nodes.conftest import PATIENCE_S
 
 from trundle.nodes import NodeHost
 from trundle.nodes.twist_mux import TopicHandle, find_active_topic, read_topic_handles
-from trundle.ros import Node, ParamError
+from trundle.parameters import ParamError
+from trundle.ros import Node
 
 TWIST = "geometry_msgs/Twist"
 S = 1_000_000_000

@@ -10,7 +10,8 @@ from tests.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import NodeHost, Slider
 from trundle.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
-from trundle.ros import NOETIC, NodeParams
+from trundle.parameters import RosParameters
+from trundle.ros import NOETIC
 from trundle.xmlnode import parse_xml
 
 S = 1_000_000_000
@@ -56,7 +57,7 @@ def test_parameters_of_the_namespace_count_where_the_node_has_none() -> None:
 
 
 def test_other_publishers_move_free_joints() -> None:
-    joints = JointSet(NodeParams({}, "/n"), NOETIC)
+    joints = JointSet(RosParameters({}, "/n"), NOETIC)
     joints.read(parse_xml(ROBOT, name="r.urdf"), Diagnostics())
     state = {"name": ["wheel", "nobody"], "position": [0.75, 9.0]}
     joints.update(MESSAGES.new("sensor_msgs/JointState", state))
@@ -116,7 +117,7 @@ def test_a_joint_without_limits_is_named_and_left_out() -> None:
         ({"/robot_description": None}, "parameter /n/robot_description is not set"),
         ({"/robot_description": "<sdf/>"}, "a URDF starts with <robot>, not <sdf>"),
         ({"/robot_description": "<robot"}, "not well-formed XML"),
-        ({"rate": 0}, "a rate is > 0 Hz"),
+        ({"rate": 0}, "rate must be > 0"),
         ({"dependent_joints": {"wheel": {"parent": "tip"}}}, "Found an infinite recursive mimic chain"),
         ({"dependent_joints": {"tip2": {}}}, "/dependent_joints/tip2/parent is not set"),
     ],

@@ -6,12 +6,12 @@ from typing import Any
 
 import yaml
 
+from trundle.parameters import RosParameters
 from trundle.ros import (
     ActionOutcome,
     ActionServer,
     Message,
     Node,
-    NodeParams,
     Transform,
     TransformBuffer,
     TransformError,
@@ -42,7 +42,7 @@ class BufferServer:
         """Serve until cancelled."""
         node = self._node
         namespace = node.resolve("")
-        settings = NodeParams(await node.params.get(namespace, {}), namespace)
+        settings = RosParameters(await node.params.get(namespace, {}), namespace)
         buffer = TransformBuffer(settings.number("buffer_size", 120.0))
         self._buffer = TransformListener(node, buffer).buffer
         action = node.name if settings.flag("use_node_namespace", default=False) else _ACTION

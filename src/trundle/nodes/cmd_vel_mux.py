@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import yaml
 
 from trundle.files import read_file
-from trundle.ros import Message, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message, Node
 from trundle.yaml_loader import load_yaml
 
 from .host import NodeHost
@@ -87,13 +88,11 @@ def _read(path: str) -> tuple[list[CmdVelSubscriber], str]:
         tree = load_yaml(read_file(path).decode())
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise ParamError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
-    settings = NodeParams(tree, path)
-    sources: list[CmdVelSubscriber] = []
-    for number, item in enumerate(settings.items("subscribers") or []):
-        each = NodeParams(item, f"{path}/subscribers[{number}]")
-        sources.append(
-            CmdVelSubscriber(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority"))
-        )
+    settings = RosParameters(tree, path)
+    sources = [
+        CmdVelSubscriber(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority"))
+        for each in settings.sections("subscribers")
+    ]
     if not sources:
         raise ParamError(f"{path}: no subscribers")
     return sources, settings.text("publisher", "output")

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, NodeParams, Option, Options, ReconfigureServer
+from trundle.ros import Message, Node, Option, Options, ReconfigureServer
 
 from .host import NodeHost
+from .private_parameters import private_parameters
 
 _ENCODINGS: dict[str, tuple[type[np.generic], float]] = {
     "32FC1": (np.float32, 1.0),
@@ -71,8 +72,8 @@ class DepthImageToLaserScan:
     async def run(self) -> int:
         """Convert until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
-        self._rows = int(settings.number("scan_height", 1.0))
+        settings = await private_parameters(node)
+        self._rows = settings.integer("scan_height", 1)
         self._scan_time_s = settings.number("scan_time", 1.0 / 30.0)
         self._nearest_m, self._farthest_m = settings.number("range_min", 0.45), settings.number("range_max", 10.0)
         self._frame = settings.text("output_frame_id", settings.text("output_frame", "camera_depth_frame"))

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.ros import Distro, Message, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Distro, Message, Node
 from trundle.xmlnode import XmlNode, parse_numbers, parse_xml
 
 from .host import NodeHost, Slider
@@ -68,7 +69,7 @@ class DependentJoint:
 class JointSet:
     """Joints selected from a URDF as by the original."""
 
-    def __init__(self, options: NodeParams, profile: Distro) -> None:
+    def __init__(self, options: RosParameters, profile: Distro) -> None:
         self.names: list[str] = []
         """Joint names in file order."""
         self.free: dict[str, FreeJoint] = {}
@@ -177,7 +178,7 @@ class JointStatePublisher:
         """Read the robot, then publish."""
         node = self._node
         try:
-            options = NodeParams(await self._options(), node.name)
+            options = RosParameters(await self._options(), node.name)
             joints = JointSet(options, node.profile)
             report = Diagnostics()
             joints.read(self._robot(options), report)
@@ -187,7 +188,7 @@ class JointStatePublisher:
             if self._always_sliders or options.flag("use_gui", default=False):
                 self._offer_sliders(joints)
             delta = options.number("delta", 0.0)
-            rate = Rate(node, options.rate_hz("rate", 10.0))
+            rate = Rate(node, options.number("rate", 10.0, above=0.0))
             joints.message()
         except TrundleError as error:
             node.log.error(str(error))
@@ -229,7 +230,7 @@ class JointStatePublisher:
 
         self._display.offer_sliders(sliders, move)
 
-    def _robot(self, options: NodeParams) -> XmlNode:
+    def _robot(self, options: RosParameters) -> XmlNode:
         name = f"{self._node.name}/robot_description"
         robot = parse_xml(options.text("robot_description"), name=name)
         if robot.tag != "robot":
@@ -245,7 +246,7 @@ class JointStatePublisherGui(JointStatePublisher):
         self._always_sliders = True
 
 
-def _dependent(settings: NodeParams) -> dict[str, DependentJoint]:
+def _dependent(settings: RosParameters) -> dict[str, DependentJoint]:
     return {
         name: DependentJoint(
             parent=settings.section(name).text("parent"),

@@ -4,9 +4,10 @@ import math
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from trundle.ros import Message, Node, NodeParams
+from trundle.ros import Message, Node
 
 from .host import NodeHost
+from .private_parameters import private_parameters
 from .rate import Rate
 
 _AXES, _BUTTONS = 8, 11
@@ -30,7 +31,7 @@ class JoyNode:
     async def run(self) -> int:
         """Publish until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         repeat_hz = settings.number("autorepeat_rate", 0.0)
         self._dead_zone = min(max(settings.number("deadzone", 0.05), 0.0), _WIDEST)
         self._sticky = settings.flag("sticky_buttons", default=False)

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, NodeParams, Subscription, TransformError, TransformListener, to_nsec
+from trundle.ros import Message, Node, Subscription, TransformError, TransformListener, to_nsec
 from trundle.spatial import Pose
 
 from .host import NodeHost
+from .private_parameters import private_parameters
 from .rate import LogThrottle
 
 _HUGE, _LEAST = sys.float_info.max, sys.float_info.min
@@ -64,7 +65,7 @@ class PointCloudToLaserScan:
     async def run(self) -> int:
         """Convert until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         farthest = settings.number("range_max", _HUGE)
         endless = settings.flag("use_inf", default=True)
         self._slice = Slice(
@@ -72,7 +73,7 @@ class PointCloudToLaserScan:
             max_height_m=settings.number("max_height", _HUGE),
             angle_min=settings.number("angle_min", -math.pi),
             angle_max=settings.number("angle_max", math.pi),
-            angle_increment=settings.rate_hz("angle_increment", math.pi / 180.0),
+            angle_increment=settings.number("angle_increment", math.pi / 180.0, above=0.0),
             range_min_m=settings.number("range_min", 0.0),
             range_max_m=farthest,
             nothing_m=math.inf if endless else farthest + settings.number("inf_epsilon", 1.0),

@@ -3,12 +3,14 @@
 from dataclasses import dataclass
 
 from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.parameters import RosParameters
 from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
-from trundle.ros import Message, Node, NodeParams, StaticTransformBroadcaster, Transform, TransformBroadcaster, to_nsec
+from trundle.ros import Message, Node, StaticTransformBroadcaster, Transform, TransformBroadcaster, to_nsec
 from trundle.spatial import NS_PER_S
 from trundle.xmlnode import parse_xml
 
 from .host import NodeHost
+from .private_parameters import private_parameters
 from .rate import LogThrottle, period_ns
 
 _OLD_NS = 30 * NS_PER_S
@@ -80,7 +82,7 @@ class RobotStatePublisher:
         """Read the robot once, then publish until cancelled."""
         node = self._node
         try:
-            settings = NodeParams(await node.params.get("~", {}), node.name)
+            settings = await private_parameters(node)
             # The original's minimum is 1 Hz.
             self._interval_ns = period_ns(max(settings.number("publish_frequency", 50.0), 1.0))
             self._ignores_stamps = settings.flag("ignore_timestamp", default=False)
@@ -111,7 +113,7 @@ class RobotStatePublisher:
         """Read robot_description from the nearest namespace upwards."""
         node = self._node
         name = await node.params.search("robot_description") or "robot_description"
-        text = NodeParams({name: await node.params.get(name, None)}, "").text(name)
+        text = RosParameters({name: await node.params.get(name, None)}, "").text(name)
         report = Diagnostics()
         robot = read_robot(parse_xml(text, name=node.resolve(name)), report)
         for finding in report.findings:

@@ -1,9 +1,10 @@
 """Graphical tools: image_view and rqt; the page replaces all of them."""
 
 from trundle.diagnostics import TrundleError
-from trundle.ros import Message, Node, NodeParams
+from trundle.ros import Message, Node
 
 from .host import Display, NodeHost
+from .private_parameters import private_parameters
 
 
 class Window:
@@ -64,7 +65,7 @@ class RqtRobotSteering(Window):
         """Show until the page is closed."""
         node = self._node
         try:
-            self._topic = NodeParams(await node.params.get("~", {}), node.name).text("default_topic", "/cmd_vel")
+            self._topic = (await private_parameters(node)).text("default_topic", "/cmd_vel")
         except TrundleError as error:
             node.log.error(str(error))
             return 1

@@ -1,8 +1,10 @@
 """teleop_twist_joy/teleop_node: joystick axes to velocity commands while a button is held."""
 
-from trundle.ros import Message, Node, NodeParams
+from trundle.parameters import RosParameters
+from trundle.ros import Message, Node
 
 from .host import NodeHost
+from .private_parameters import private_parameters
 
 _MOVES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
 _TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}
@@ -19,9 +21,9 @@ class TeleopTwistJoy:
     async def run(self) -> int:
         """Drive until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
-        self._enable = int(settings.number("enable_button", 0.0))
-        self._turbo = int(settings.number("enable_turbo_button", -1.0))
+        settings = await private_parameters(node)
+        self._enable = settings.integer("enable_button", 0)
+        self._turbo = settings.integer("enable_turbo_button", -1)
         self._moves = [
             *_axes(settings, "linear", _MOVES, single=("x", 1)),
             *_axes(settings, "angular", _TURNS, single=("yaw", 0)),
@@ -53,21 +55,21 @@ _Move = tuple[tuple[str, str], int, float, float]
 
 
 def _axes(
-    settings: NodeParams, part: str, names: dict[str, tuple[str, str]], *, single: tuple[str, int]
+    settings: RosParameters, part: str, names: dict[str, tuple[str, str]], *, single: tuple[str, int]
 ) -> list[_Move]:
     """Read axis_… and scale_…: maps by axis name, or in the old form a number for a single axis."""
     axes, scales = settings.section(f"axis_{part}"), settings.section(f"scale_{part}")
     turbos = settings.section(f"scale_{part}_turbo")
     if axes.names():
         return [
-            (names[name], int(axes.number(name)), scales.number(name, 0.0), turbos.number(name, 0.0))
+            (names[name], axes.integer(name), scales.number(name, 0.0), turbos.number(name, 0.0))
             for name in axes.names()
             if name in names
         ]
     name, default = single
     scale = settings.number(f"scale_{part}", 0.5)
     turbo = settings.number(f"scale_{part}_turbo", 1.0 if part == "linear" else scale)
-    return [(names[name], int(settings.number(f"axis_{part}", float(default))), scale, turbo)]
+    return [(names[name], settings.integer(f"axis_{part}", default), scale, turbo)]
 
 
 def _pressed(joy: Message, button: int) -> bool:

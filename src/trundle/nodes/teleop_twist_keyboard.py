@@ -3,10 +3,11 @@
 import asyncio
 import math
 
-from trundle.ros import Node, NodeParams
+from trundle.ros import Node
 
 from .host import NodeHost
 from .keyboard import Keyboard
+from .private_parameters import private_parameters
 
 _HELP = """
 Reading from the keyboard  and Publishing to Twist!
@@ -75,7 +76,7 @@ class TeleopTwistKeyboard:
     async def run(self) -> int:
         """Read keys until cancelled, then publish a stop."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         speed, turn = settings.number("speed", self.speed), settings.number("turn", self.turn)
         repeat_hz, timeout_s = settings.number("repeat_rate", 0.0), settings.number("key_timeout", 0.5)
         stamped = settings.flag("stamped", default=False)

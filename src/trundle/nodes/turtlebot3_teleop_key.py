@@ -3,10 +3,11 @@
 import os
 
 from trundle.control import step_towards
-from trundle.ros import Node, NodeParams
+from trundle.ros import Node
 
 from .host import NodeHost
 from .keyboard import Keyboard
+from .private_parameters import private_parameters
 
 _HELP = """
 Control Your TurtleBot3!
@@ -41,7 +42,7 @@ class Turtlebot3TeleopKey:
     async def run(self) -> int:
         """Read keys until cancelled, then publish a stop."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
         fastest = _FASTEST.get(model, _OTHERS)
         commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from trundle.ros import Message, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message, Node
 
 from .host import NodeHost
 
@@ -46,13 +47,13 @@ def read_topic_handles(value: object, what: str) -> list[TopicHandle]:
         raise ParamError(f"parameter {what} is not a list of topics")
     sources: list[TopicHandle] = []
     for number, item in enumerate(value):
-        section = NodeParams(item, f"{what}[{number}]")
+        section = RosParameters(item, f"{what}[{number}]")
         sources.append(
             TopicHandle(
                 section.text("name"),
                 section.text("topic"),
                 section.number("timeout", 0.0),
-                min(max(int(section.number("priority")), 0), _HIGHEST),
+                min(max(section.integer("priority"), 0), _HIGHEST),
             )
         )
     return sources

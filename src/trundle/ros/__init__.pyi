@@ -80,8 +80,6 @@ from .node.endpoint_recorder import Endpoint as Endpoint
 from .node.loggers import Loggers as Loggers
 from .node.loop import GraphLoop as GraphLoop
 from .node.node import Node as Node
-from .node.params import NodeParams as NodeParams
-from .node.params import ParamError as ParamError
 from .node.publisher import Publisher as Publisher
 from .node.service import Service as Service
 from .node.service_client import probe_service as probe_service

@@ -3,7 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from trundle.ros import Message, Node, NodeParams, Transform, TransformBroadcaster
+from trundle.parameters import RosParameters
+from trundle.ros import Message, Node, Transform, TransformBroadcaster
 
 from ..rate import RateDivider
 from .controller import DiagnosticStatus, JointReading
@@ -38,13 +39,13 @@ class Unicycle:
 class DiffController:
     """Drives the base and publishes odom and its transform."""
 
-    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
+    def __init__(self, node: Node, name: str, settings: RosParameters) -> None:
         """Create from `~controllers/<name>`.
 
         Raises:
             ParamError: the geometry is missing, or a parameter is invalid.
         """
-        rate_hz = settings.rate_hz("rate", 10.0)
+        rate_hz = settings.number("rate", 10.0, above=0.0)
         ticks_meter = settings.number("ticks_meter")
         base_width = settings.number("base_width")
         self._node = node

@@ -1,8 +1,10 @@
 """arbotix_python/arbotix_driver in its simulation mode: kinematic, without serial port or physics."""
 
-from trundle.ros import Message, MessageError, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message, MessageError, Node
 
 from ..host import NodeHost
+from ..private_parameters import private_parameters
 from ..rate import Rate, RateDivider
 from .controller import ArbotixController, ArbotixJoint, JointReading
 from .diff_controller import DiffController
@@ -24,7 +26,7 @@ class ArbotixDriver:
         """Read the parameters, then loop at `~rate`."""
         node = self._node
         try:
-            settings = NodeParams(await node.params.get("~", {}), node.name)
+            settings = await private_parameters(node)
             if not settings.flag("sim", default=False):
                 port = settings.text("port", "/dev/ttyUSB0")
                 node.log.error(f"no ArbotiX board can be driven through {port}: set {node.name}/sim to true")
@@ -34,12 +36,12 @@ class ArbotixDriver:
             node.log.error(str(error))
             return 1
 
-    async def _loop(self, settings: NodeParams) -> int:
+    async def _loop(self, settings: RosParameters) -> int:
         node = self._node
-        rate_hz = settings.rate_hz("rate", 100.0)
-        diagnostics = RateDivider(node.clock.now_ns, settings.rate_hz("diagnostic_rate", 1.0))
+        rate_hz = settings.number("rate", 100.0, above=0.0)
+        diagnostics = RateDivider(node.clock.now_ns, settings.number("diagnostic_rate", 1.0, above=0.0))
         self._diagnostics = node.advertise("diagnostics", "diagnostic_msgs/DiagnosticArray", queue_size=5)
-        joint_states = RateDivider(node.clock.now_ns, settings.rate_hz("read_rate", 10.0))
+        joint_states = RateDivider(node.clock.now_ns, settings.number("read_rate", 10.0, above=0.0))
         self._joint_states = node.advertise("joint_states", "sensor_msgs/JointState", queue_size=5)
         node.log.info("ArbotiX being simulated.")
         self._add_joints(settings.section("joints"))
@@ -57,7 +59,7 @@ class ArbotixDriver:
                 self._publish_diagnostics()
             await rate.sleep()
 
-    def _add_joints(self, settings: NodeParams) -> None:
+    def _add_joints(self, settings: RosParameters) -> None:
         for name in settings.names():
             section = settings.section(name)
             match kind := section.text("type", "dynamixel"):
@@ -70,7 +72,7 @@ class ArbotixDriver:
                 case _:
                     self._node.log.warn(f"joint {name}: no type {kind!r}; it is left out")
 
-    def _add_controllers(self, settings: NodeParams) -> None:
+    def _add_controllers(self, settings: RosParameters) -> None:
         """Add the valid controllers; like the original, continue without invalid ones."""
         for name in settings.names():
             section = settings.section(name)

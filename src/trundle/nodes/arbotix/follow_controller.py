@@ -3,7 +3,8 @@
 import asyncio
 from collections.abc import Callable
 
-from trundle.ros import ActionOutcome, ActionServer, Message, Node, NodeParams, ParamError, to_nsec
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import ActionOutcome, ActionServer, Message, Node, to_nsec
 
 from ..rate import Rate
 from .controller import ArbotixJoint, DiagnosticStatus, JointReading
@@ -17,7 +18,7 @@ _NEAR_RAD = 0.001
 class FollowController:
     """Commands its servos in every cycle, interpolating linearly to the next point."""
 
-    def __init__(self, node: Node, name: str, settings: NodeParams, joints: dict[str, ArbotixJoint]) -> None:
+    def __init__(self, node: Node, name: str, settings: RosParameters, joints: dict[str, ArbotixJoint]) -> None:
         """Create from `~controllers/<name>`.
 
         Raises:
@@ -26,7 +27,7 @@ class FollowController:
         self.readings: list[JointReading] = []
         self._node = node
         self._name = name
-        self._rate_hz = settings.rate_hz("rate", 50.0)
+        self._rate_hz = settings.number("rate", 50.0, above=0.0)
         self._joints = settings.texts("joints")
         if not self._joints:
             raise ParamError("joints is not set; it names the servos to move")

@@ -5,9 +5,11 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from trundle.ros import ActionOutcome, ActionServer, Message, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import ActionOutcome, ActionServer, Message, Node
 
 from ..host import NodeHost
+from ..private_parameters import private_parameters
 
 _NEAR_RAD = 0.02
 """Tolerance of a reached command; servos count in ticks of 0.3 degrees."""
@@ -54,7 +56,7 @@ class Gripper:
         return {jaw.joint: jaw.sign * math.asin(sine) + jaw.center for jaw in self.jaws}
 
 
-def read_gripper(settings: NodeParams) -> Gripper:
+def read_gripper(settings: RosParameters) -> Gripper:
     """Create from the node's parameters.
 
     Raises:
@@ -83,7 +85,7 @@ def read_gripper(settings: NodeParams) -> Gripper:
     )
 
 
-def _jaw(settings: NodeParams, joint: str, default: str, center: str, invert: str, *, sign: float) -> Jaw:
+def _jaw(settings: RosParameters, joint: str, default: str, center: str, invert: str, *, sign: float) -> Jaw:
     turned = -sign if settings.flag(invert, default=False) else sign
     return Jaw(joint=settings.text(joint, default), center=settings.number(center, 0.0), sign=turned)
 
@@ -99,7 +101,7 @@ class GripperController:
     async def run(self) -> int:
         """Serve until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         try:
             self._gripper = read_gripper(settings)
             self._stalled_s = settings.number("stalled_time", 0.2)

@@ -1,6 +1,7 @@
 """arbotix_python's linear joints and controllers, simulated: joints jump to their commands."""
 
-from trundle.ros import Message, Node, NodeParams
+from trundle.parameters import RosParameters
+from trundle.ros import Message, Node
 
 from .controller import DiagnosticStatus, JointReading
 
@@ -8,7 +9,7 @@ from .controller import DiagnosticStatus, JointReading
 class LinearJoint:
     """A joint that jumps to its command; like the original's simulation, without limits."""
 
-    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
+    def __init__(self, node: Node, name: str, settings: RosParameters) -> None:
         for limit, default in (("min_position", 0.0), ("max_position", 0.5), ("max_speed", 0.0508)):
             settings.number(limit, default)
         self.reading = JointReading(name=name)
@@ -28,14 +29,14 @@ class LinearJoint:
 class LinearController:
     """linear_controller and linear_controller_i; the latter can be zeroed."""
 
-    def __init__(self, node: Node, name: str, settings: NodeParams, *, incremental: bool = False) -> None:
+    def __init__(self, node: Node, name: str, settings: RosParameters, *, incremental: bool = False) -> None:
         """Create from `~controllers/<name>`.
 
         Raises:
             ParamError: no joint, or an invalid parameter.
         """
         settings.text("joint")
-        settings.rate_hz("rate", 10.0)
+        settings.number("rate", 10.0, above=0.0)
         self.readings: list[JointReading] = []
         self._name = name
         if incremental:

@@ -3,7 +3,8 @@
 import math
 from collections.abc import Callable
 
-from trundle.ros import Message, Node, NodeParams
+from trundle.parameters import RosParameters
+from trundle.ros import Message, Node
 
 from ..rate import RateDivider
 from .controller import ArbotixJoint, DiagnosticStatus, JointReading
@@ -16,7 +17,7 @@ class Servo:
         self,
         node: Node,
         name: str,
-        settings: NodeParams,
+        settings: RosParameters,
         *,
         ticks: float,
         neutral: float | None,
@@ -79,7 +80,7 @@ class Servo:
 class HobbyServo(Servo):
     """A servo without feedback."""
 
-    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
+    def __init__(self, node: Node, name: str, settings: RosParameters) -> None:
         super().__init__(node, name, settings, ticks=2000, neutral=1500, range_deg=180.0, max_speed_deg=90.0)
         node.subscribe(f"{name}/command", "std_msgs/Float64", self.on_command)
 
@@ -87,7 +88,7 @@ class HobbyServo(Servo):
 class DynamixelServo(Servo):
     """A servo with velocity feedback that can be relaxed and disabled."""
 
-    def __init__(self, node: Node, name: str, settings: NodeParams) -> None:
+    def __init__(self, node: Node, name: str, settings: RosParameters) -> None:
         super().__init__(node, name, settings, ticks=1024, neutral=None, range_deg=None, max_speed_deg=684.0)
         self._enabled = True
         self._active = False
@@ -140,10 +141,10 @@ class DynamixelServo(Servo):
 class ServoController:
     """The driver's built-in controller "servos": moves all servos at `~write_rate`."""
 
-    def __init__(self, node: Node, joints: dict[str, ArbotixJoint], settings: NodeParams) -> None:
+    def __init__(self, node: Node, joints: dict[str, ArbotixJoint], settings: RosParameters) -> None:
         self.readings: list[JointReading] = []
         self._servos = [joint for joint in joints.values() if isinstance(joint, Servo)]
-        self._write_rate_hz = settings.rate_hz("write_rate", 10.0)
+        self._write_rate_hz = settings.number("write_rate", 10.0, above=0.0)
         self._divider = RateDivider(node.clock.now_ns, self._write_rate_hz)
         node.advertise_service("servos/relax_all", "arbotix_msgs/Relax", self._relax_all)
         node.advertise_service("servos/enable_all", "arbotix_msgs/Enable", self._enable_all)

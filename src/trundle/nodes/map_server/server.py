@@ -9,9 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from trundle.diagnostics import UsageError
-from trundle.ros import Message, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message, Node
 
 from ..host import NodeHost
+from ..private_parameters import private_parameters
 from .occupancy_grid import OccupancyGrid, positive, read_cells, read_map
 
 _USAGE = "usage: map_server MAP.yaml"
@@ -29,7 +31,7 @@ class MapServer:
     async def run(self) -> int:
         """Serve until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         self._frame = settings.text("frame_id", "map")
         if len(self._arguments) not in (1, 2):
             node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
@@ -73,7 +75,7 @@ class MapServer:
         return {"map": self._fields, "result": _SUCCESS}
 
 
-def _read_picture(picture: Path, resolution: str, settings: NodeParams) -> OccupancyGrid:
+def _read_picture(picture: Path, resolution: str, settings: RosParameters) -> OccupancyGrid:
     """Read an image of the deprecated command line, with thresholds from parameters; origin: lower left corner."""
     try:
         resolution_m = positive(float(resolution), picture)

@@ -2,9 +2,10 @@
 
 from typing import Any
 
-from trundle.ros import Message, Node, NodeParams, RawMessage, ServiceError
+from trundle.ros import Message, Node, RawMessage, ServiceError
 
 from ..host import NodeHost
+from ..private_parameters import private_parameters
 from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
 
 _NONE = "__none"
@@ -27,7 +28,7 @@ class Mux:
         if len(words) < 2:
             node.log.error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
             return 1
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         self._output = RawPublisher(node, words[0], latch=settings.flag("latch", default=False))
         self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
         for topic in words[1:]:

@@ -2,9 +2,10 @@
 
 import asyncio
 
-from trundle.ros import Node, NodeParams, RawMessage
+from trundle.ros import Node, RawMessage
 
 from ..host import NodeHost
+from ..private_parameters import private_parameters
 from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
 
 _USAGE = "usage: relay IN_TOPIC [OUT_TOPIC]"
@@ -25,7 +26,7 @@ class Relay:
             node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         source, target = (*self._arguments, f"{self._arguments[0]}_relay")[:2]
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         is_stealthy = settings.flag("stealth", default=False)
         output = RawPublisher(node, target)
 

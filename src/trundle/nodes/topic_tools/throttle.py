@@ -4,10 +4,11 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-from trundle.ros import Node, NodeParams, RawMessage
+from trundle.ros import Node, RawMessage
 from trundle.spatial import NS_PER_S
 
 from ..host import NodeHost
+from ..private_parameters import private_parameters
 from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
 
 _USAGE = (
@@ -69,10 +70,10 @@ class Throttle:
     async def run(self) -> int:
         """Throttle until cancelled."""
         node = self._node
-        settings = NodeParams(await node.params.get("~", {}), node.name)
+        settings = await private_parameters(node)
         # The program reads the first; its manual, and so launch files, name the second.
         wall = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
-        latch = settings.flag("force_latch", default=False) if "force_latch" in settings.names() else None
+        latch = settings.flag("force_latch", default=False) if "force_latch" in settings else None
         now_ns = time.time_ns if wall else lambda: node.clock.now_ns()
         try:
             gate, source, target = self._read(now_ns)

@@ -1,6 +1,7 @@
 """turtlesim/turtle_teleop_key: drives turtle1 with the arrow keys."""
 
-from trundle.ros import Node, NodeParams
+from trundle.parameters import RosParameters
+from trundle.ros import Node
 
 from ..host import NodeHost
 from ..keyboard import Keyboard
@@ -21,7 +22,7 @@ class TurtleTeleopKey:
         node = self._node
         # Not private: launch files set them outside <node>.
         scales = {name: await node.params.get(name, 2.0) for name in ("scale_linear", "scale_angular")}
-        settings = NodeParams(scales, node.resolve("scale_linear").rpartition("/")[0])
+        settings = RosParameters(scales, node.resolve("scale_linear").rpartition("/")[0])
         linear, angular = settings.number("scale_linear"), settings.number("scale_angular")
         commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
         if self._display is not None:

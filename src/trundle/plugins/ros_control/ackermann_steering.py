@@ -44,7 +44,7 @@ class AckermannSteering:
         self._allow_multiple_publishers = settings.flag("allow_multiple_cmd_vel_publishers", default=True)
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
-        self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
+        self._window = max(1, settings.integer("velocity_rolling_window_size", 10))
         self._endpoints = Endpoints()
         self._odometry = BaseOdometry(context, self._endpoints, frame=settings.text("odom_frame_id", "odom"))
         self._commands = context.node.subscribe(

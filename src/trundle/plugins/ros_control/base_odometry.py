@@ -25,7 +25,7 @@ class BaseOdometry:
         settings = context.settings
         self._frame, self.base = frame, settings.text("base_frame_id", "base_link")
         self._covariances = tuple(covariance(settings, f"{what}_covariance_diagonal") for what in ("pose", "twist"))
-        self._timer = PublishTimer(settings.rate_hz("publish_rate", 50.0))
+        self._timer = PublishTimer(settings.number("publish_rate", 50.0, above=0.0))
         self._topic = context.node.advertise(f"{context.name}/odom", "nav_msgs/Odometry", queue_size=100)
         ends.add(self._topic)
         has_tf = settings.flag("enable_odom_tf", default=True)

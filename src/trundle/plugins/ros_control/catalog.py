@@ -2,7 +2,7 @@
 
 import importlib
 
-from trundle.ros import ParamError
+from trundle.parameters import ParamError
 
 from .controller import Controller
 

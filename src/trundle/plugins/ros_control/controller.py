@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Protocol, Self
 
-from trundle.ros import Message, Node, NodeParams, ParamError, Publisher, ReconfigureServer, Service, Subscription
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message, Node, Publisher, ReconfigureServer, Service, Subscription
 from trundle.simulation import ModelHandle
 
 from .hardware import Hardware, JointHardware
@@ -20,7 +21,7 @@ class ControllerContext:
     namespace: str
     """Namespace of the robot."""
     node: Node
-    settings: NodeParams
+    settings: RosParameters
     hardware: Hardware
     model: ModelHandle
 
@@ -43,7 +44,7 @@ class ControllerContext:
         Raises:
             ParamError: neither is set.
         """
-        names = self.settings.texts("joints") if "joints" in self.settings.names() else [self.settings.text("joint")]
+        names = self.settings.texts("joints") if "joints" in self.settings else [self.settings.text("joint")]
         if not names:
             raise ParamError(f"parameter {self.name}/joints names no joint")
         return names

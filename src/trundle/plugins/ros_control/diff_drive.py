@@ -5,7 +5,8 @@ from collections import deque
 from typing import Self
 
 from trundle.control import DifferentialDrive, WheelOdometry
-from trundle.ros import Message, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message
 
 from .base_odometry import BaseOdometry
 from .controller import ControllerContext, Endpoints
@@ -48,11 +49,11 @@ class DiffDriveController:
             speed_limit(settings.section("linear").section("x")),
             speed_limit(settings.section("angular").section("z")),
         )
-        self._window = max(1, round(settings.number("velocity_rolling_window_size", _WINDOW)))
+        self._window = max(1, settings.integer("velocity_rolling_window_size", _WINDOW))
         self._advertise(settings)
         self._clear()
 
-    def _advertise(self, settings: NodeParams) -> None:
+    def _advertise(self, settings: RosParameters) -> None:
         context = self._context
         self._endpoints = Endpoints()
         self._odometry = BaseOdometry(context, self._endpoints, frame=settings.text("odom_frame_id", "odom"))
@@ -156,7 +157,7 @@ class DiffDriveController:
         linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
         self._odometry.publish(time_ns, (place.x, place.y, place.yaw), (linear, 0.0, angular))
 
-    def _geometry(self, settings: NodeParams) -> DifferentialDrive:
+    def _geometry(self, settings: RosParameters) -> DifferentialDrive:
         """Geometry by the parameters, else from the model."""
         context, left, right = self._context, self._left[0], self._right[0]
         separation = length(context, "wheel_separation", math.dist(origin(context, left), origin(context, right)))

@@ -1,18 +1,17 @@
 """Parameters that all drive controllers share."""
 
 import math
-from typing import Any
 
 from trundle.control import SpeedLimit
 from trundle.model import Cylinder, Sphere, model_from_joint
-from trundle.ros import NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
 from trundle.spatial import Vector3
 
 from .controller import ControllerContext
 from .hardware import JointHardware
 
 
-def joint_names(settings: NodeParams, name: str) -> list[str]:
+def joint_names(settings: RosParameters, name: str) -> list[str]:
     """Names of a parameter that is one joint or a list."""
     try:
         return [settings.text(name)]
@@ -23,7 +22,7 @@ def joint_names(settings: NodeParams, name: str) -> list[str]:
         return names
 
 
-def speed_limit(settings: NodeParams) -> SpeedLimit:
+def speed_limit(settings: RosParameters) -> SpeedLimit:
     """Read has_…_limits, max_… and min_…; min defaults to −max."""
 
     def bounds(what: str) -> tuple[float, float]:
@@ -45,12 +44,10 @@ def speed_limit(settings: NodeParams) -> SpeedLimit:
     )
 
 
-def covariance(settings: NodeParams, name: str) -> list[float]:
+def covariance(settings: RosParameters, name: str) -> list[float]:
     """Row-major 6×6 covariance from its diagonal; default zero."""
-    values: list[Any] = settings.items(name) or [0.0] * 6
-    if len(values) != 6 or not all(isinstance(value, int | float) for value in values):
-        raise ParamError(f"{name} must be 6 numbers, got {values!r}")
-    return [float(values[row]) if row == column else 0.0 for row in range(6) for column in range(6)]
+    values = settings.numbers(name, 6, (0.0,) * 6)
+    return [values[row] if row == column else 0.0 for row in range(6) for column in range(6)]
 
 
 def length(context: ControllerContext, name: str, otherwise: float | None) -> float:
@@ -79,7 +76,7 @@ def wheel_radius(context: ControllerContext, wheel: JointHardware) -> float:
     link = context.model.link(wheel.handle.joint.child).link
     round_ones = (each.geometry for each in link.collisions if isinstance(each.geometry, Cylinder | Sphere))
     found = next((geometry.radius for geometry in round_ones), None)
-    if found is None and "wheel_radius" not in context.settings.names():
+    if found is None and "wheel_radius" not in context.settings:
         raise ParamError(
             f"parameter {context.name}/wheel_radius is not set, and link {link.name!r} has neither a cylinder nor "
             "a sphere to measure"

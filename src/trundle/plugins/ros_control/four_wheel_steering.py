@@ -5,7 +5,8 @@ from collections import deque
 from typing import Any, Self
 
 from trundle.control import FourWheelSteering, Wheels, axle_angle
-from trundle.ros import Message, ParamError
+from trundle.parameters import ParamError
+from trundle.ros import Message
 
 from .base_odometry import BaseOdometry
 from .controller import ControllerContext, Endpoints
@@ -41,7 +42,7 @@ class FourWheelDrive:
         self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
         sections = (settings.section("linear").section("x"), settings.section("angular").section("z"))
         self._limits = tuple(map(speed_limit, sections))
-        self._window = max(1, round(settings.number("velocity_rolling_window_size", 10)))
+        self._window = max(1, settings.integer("velocity_rolling_window_size", 10))
         self._endpoints = Endpoints()
         self._odometry = BaseOdometry(context, self._endpoints, frame="odom")
         kind = f"{_PACKAGE}/FourWheelSteeringStamped"

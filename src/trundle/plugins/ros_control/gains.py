@@ -1,7 +1,8 @@
 """PID gains of controllers and joints: from parameters, and by dynamic_reconfigure."""
 
 from trundle.control import ToolboxPid
-from trundle.ros import Node, NodeParams, Option, Options, ReconfigureServer
+from trundle.parameters import RosParameters
+from trundle.ros import Node, Option, Options, ReconfigureServer
 
 from .controller import Endpoints
 
@@ -10,7 +11,7 @@ _MOST = 1_000.0
 """Bounds of p, and of all else, from control_toolbox."""
 
 
-def reconfigurable_pid(node: Node, settings: NodeParams, endpoints: Endpoints) -> ToolboxPid:
+def reconfigurable_pid(node: Node, settings: RosParameters, endpoints: Endpoints) -> ToolboxPid:
     """Read gains p, i, d, i_clamp (or the smaller of |i_clamp_min| and |i_clamp_max|) and antiwindup.
 
     dynamic_reconfigure changes them at run time, as in control_toolbox.
@@ -47,8 +48,8 @@ def reconfigurable_pid(node: Node, settings: NodeParams, endpoints: Endpoints) -
     return pid
 
 
-def _read_pid(settings: NodeParams) -> ToolboxPid:
-    clamps = [abs(settings.number(name)) for name in ("i_clamp_min", "i_clamp_max") if name in settings.names()]
+def _read_pid(settings: RosParameters) -> ToolboxPid:
+    clamps = [abs(settings.number(name)) for name in ("i_clamp_min", "i_clamp_max") if name in settings]
     return ToolboxPid(
         p=settings.number("p"),
         i=settings.number("i", 0.0),

@@ -5,6 +5,8 @@ from typing import Self
 from .controller import ControllerContext, Endpoints, PublishTimer
 from .transmissions import Interface
 
+_STATES = ("position", "velocity", "effort")
+
 
 class JointStateController:
     """Publishes `<robot>/joint_states` at `publish_rate`: joints by name, then `extra_joints`."""
@@ -16,9 +18,10 @@ class JointStateController:
         self._joints = [context.joint(name, None) for name in named] or [
             context.hardware[name] for name in sorted(context.hardware)
         ]
-        self._extra = [joint for joint in settings.items("extra_joints") if isinstance(joint, dict)]
-        self._names = [joint.name for joint in self._joints] + [str(joint.get("name", "")) for joint in self._extra]
-        self._timer = PublishTimer(settings.rate_hz("publish_rate"))
+        extra = settings.sections("extra_joints")
+        self._names = [joint.name for joint in self._joints] + [joint.text("name") for joint in extra]
+        self._extra = {name: [joint.number(name, 0.0) for joint in extra] for name in _STATES}
+        self._timer = PublishTimer(settings.number("publish_rate", above=0.0))
         self._states = context.node.advertise(
             f"{context.namespace}/joint_states", "sensor_msgs/JointState", queue_size=4
         )
@@ -43,9 +46,9 @@ class JointStateController:
             {
                 "header": {"stamp": time_ns},
                 "name": self._names,
-                "position": [j.position for j in self._joints] + [_number(j, "position") for j in self._extra],
-                "velocity": [j.velocity for j in self._joints] + [_number(j, "velocity") for j in self._extra],
-                "effort": [j.effort for j in self._joints] + [_number(j, "effort") for j in self._extra],
+                "position": [j.position for j in self._joints] + self._extra["position"],
+                "velocity": [j.velocity for j in self._joints] + self._extra["velocity"],
+                "effort": [j.effort for j in self._joints] + self._extra["effort"],
             }
         )
 
@@ -55,8 +58,3 @@ class JointStateController:
     def close(self) -> None:
         """Unregister its topic."""
         self._endpoints.close()
-
-
-def _number(joint: dict[str, object], key: str) -> float:
-    value = joint.get(key, 0.0)
-    return float(value) if isinstance(value, int | float) else 0.0

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from trundle.ros import Message, Node, NodeParams, ParamError
+from trundle.parameters import ParamError, RosParameters
+from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle
 
 from .catalog import CONTROLLERS, find_controller
@@ -91,7 +92,7 @@ class ControllerManager:
             return False
         full = f"{self._namespace}/{name}"
         tree = self._node.loop.run(self._node.params.get(full, {}))
-        settings = NodeParams(tree, full)
+        settings = RosParameters(tree, full)
         try:
             kind = settings.text("type")
         except ParamError:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Self
 
 from trundle.control import ToolboxPid
-from trundle.ros import Message, NodeParams
+from trundle.parameters import RosParameters
+from trundle.ros import Message
 
 from .controller import ControllerContext, Endpoints, group_command
 from .gains import reconfigurable_pid
@@ -158,7 +159,7 @@ class EffortGroupPosition:
         for loop, value in zip(self._loops, values, strict=False):
             loop.wanted = value
 
-    def _pid(self, settings: NodeParams, joint: str) -> ToolboxPid:
+    def _pid(self, settings: RosParameters, joint: str) -> ToolboxPid:
         return reconfigurable_pid(self._node, settings.section(joint).section("pid"), self._endpoints)
 
 

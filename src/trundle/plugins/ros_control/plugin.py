@@ -5,8 +5,8 @@ from typing import Self
 
 from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
-from trundle.parameters import TagParameters
-from trundle.ros import Node, NodeParams
+from trundle.parameters import RosParameters, TagParameters
+from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
 from ..plugin import Plugin
@@ -109,7 +109,7 @@ class GazeboRosControl(Plugin):
 
     def _begin(self, urdf: str, name: str, gains: object) -> None:
         report = self._sim.report
-        settings = NodeParams(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
+        settings = RosParameters(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
         lag_s = self._lag_s
         try:
             for driven in read_transmissions(urdf, name, report):
@@ -118,7 +118,7 @@ class GazeboRosControl(Plugin):
                     self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")
                     continue
                 own = settings.section(driven.name)
-                has_gains = "p" in own.names() and driven.interface != "EffortJointInterface"
+                has_gains = "p" in own and driven.interface != "EffortJointInterface"
                 pid = reconfigurable_pid(self._node, own, self._endpoints) if has_gains else None
                 joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
                 joint.read()

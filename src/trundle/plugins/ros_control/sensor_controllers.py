@@ -2,7 +2,7 @@
 
 from typing import ClassVar, Never
 
-from trundle.ros import ParamError
+from trundle.parameters import ParamError
 
 from .controller import ControllerContext
 

@@ -43,8 +43,8 @@ class TrajectoryController:
         self._forward = [forward.number(name, 0.0) for name in names]
         self._default_tolerances = read_tolerances(settings.section("constraints"), names)
         self._partial = settings.flag("allow_partial_joints_goal", default=False)
-        self._states = PublishTimer(settings.rate_hz("state_publish_rate", 50.0))
-        self._monitors = PublishTimer(settings.rate_hz("action_monitor_rate", 20.0))
+        self._states = PublishTimer(settings.number("state_publish_rate", 50.0, above=0.0))
+        self._monitors = PublishTimer(settings.number("action_monitor_rate", 20.0, above=0.0))
         self._trajectory: SampledTrajectory | None = None
         self._time_ns = 0
         self._settled: Callable[[ActionOutcome], None] | None = None

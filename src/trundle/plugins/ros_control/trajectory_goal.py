@@ -8,7 +8,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from trundle.control import JointPoint, JointSpline
-from trundle.ros import Message, NodeParams, to_nsec
+from trundle.parameters import RosParameters
+from trundle.ros import Message, to_nsec
 
 _STOPPED = 0.01
 """Default stopped_velocity_tolerance of the original [rad/s or m/s]."""
@@ -55,7 +56,7 @@ class Tolerances(Struct, frozen=True, kw_only=True):
         )
 
 
-def read_tolerances(constraints: NodeParams, joints: Sequence[str]) -> Tolerances:
+def read_tolerances(constraints: RosParameters, joints: Sequence[str]) -> Tolerances:
     """Read the parameters `constraints`."""
     own = [constraints.section(joint) for joint in joints]
     return Tolerances(
