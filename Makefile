@@ -41,6 +41,7 @@ format: $(READY)  ## rewrite the code in house style
 	$(BIN)/python cpp/lint.py format
 	$(BIN)/ruff check --fix src tests bench examples docs
 	$(BIN)/ruff format src tests bench examples docs
+	$(BIN)/python typings/message_types.py
 
 docs: $(READY)  ## the site, in out/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict

@@ -2,7 +2,7 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
@@ -10,7 +10,6 @@ from trundle.parameters import RosParameters
 from trundle.ros import (
     ActionOutcome,
     ActionServer,
-    Message,
     Node,
     Transform,
     TransformBuffer,
@@ -21,6 +20,9 @@ from trundle.ros import (
 from trundle.spatial import Pose
 
 from .host import NodeHost
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import tf2_msgs
 
 _ACTION = "tf2_buffer_server"
 _NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR, _INVALID_ARGUMENT_ERROR = 0, 1, 2, 3, 4
@@ -52,7 +54,7 @@ class BufferServer:
         await node.closed.wait()
         return 0
 
-    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: "tf2_msgs.LookupTransformGoal", accept: Callable[[], None]) -> ActionOutcome:
         """Retry until the lookup succeeds or times out; the goal succeeds either way, with the error in the result."""
         accept()
         clock = self._node.clock
@@ -67,7 +69,7 @@ class BufferServer:
                 return ActionOutcome(result={"transform": _stamped(found), "error": {"error": _NO_ERROR}})
             await asyncio.sleep(_POLL_S)
 
-    def _lookup(self, goal: Message) -> Transform:
+    def _lookup(self, goal: "tf2_msgs.LookupTransformGoal") -> Transform:
         buffer, source_ns = self._buffer, to_nsec(goal.source_time)
         for what in ("target_frame", "source_frame", "fixed_frame")[: 3 if goal.advanced else 2]:
             _check_frame(getattr(goal, what), what)
@@ -94,7 +96,7 @@ class BufferServer:
             parent=frame, child=frame, stamp_ns=stamp_ns, translation=Pose().position, rotation=Pose().quaternion
         )
 
-    def _frames(self, _request: Message) -> dict[str, Any]:
+    def _frames(self, _request: "tf2_msgs.FrameGraphRequest") -> dict[str, Any]:
         frames = {name: {"parent": parent} for name, parent in self._buffer.frames().items() if parent is not None}
         return {"frame_yaml": yaml.safe_dump(frames)}
 

@@ -2,15 +2,19 @@
 
 import asyncio
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import yaml
 
 from trundle.files import read_file
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.yaml_loader import load_yaml
 
 from .host import NodeHost
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 _KIND = "geometry_msgs/Twist"
 _IDLE = "idle"
@@ -64,7 +68,7 @@ class CmdVelMux:
                 self._allow(None)
         return 0
 
-    def _on_command(self, source: CmdVelSubscriber, message: Message) -> None:
+    def _on_command(self, source: CmdVelSubscriber, message: "geometry_msgs.Twist") -> None:
         now = source.received_ns = self._node.clock.now_ns()
         allowed = self._allowed
         is_free = allowed is None or allowed.is_expired(now) or source.priority > allowed.priority

@@ -2,15 +2,18 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.ros import Message, Node, Option, Options, ReconfigureServer
+from trundle.ros import Node, Option, Options, ReconfigureServer
 
 from .host import NodeHost
 from .private_parameters import private_parameters
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
 
 _ENCODINGS: dict[str, tuple[type[np.generic], float]] = {
     "32FC1": (np.float32, 1.0),
@@ -104,11 +107,11 @@ class DepthImageToLaserScan:
         self._frame = str(values["output_frame_id"])
         return values
 
-    def _on_camera_info(self, info: Message) -> None:
+    def _on_camera_info(self, info: "sensor_msgs.CameraInfo") -> None:
         k = [float(value) for value in info.K]
         self._camera = Pinhole(focal_px=k[0], center_x_px=k[2], center_y_px=k[5]) if k[0] > 0.0 else None
 
-    def _on_image(self, image: Message) -> None:
+    def _on_image(self, image: "sensor_msgs.Image") -> None:
         if self._camera is None or not self._scan.has_subscribers:
             return
         if image.encoding not in _ENCODINGS:
@@ -120,7 +123,7 @@ class DepthImageToLaserScan:
             return
         self._scan.publish(self._fields(image, self._camera))
 
-    def _fields(self, image: Message, camera: Pinhole) -> dict[str, Any]:
+    def _fields(self, image: "sensor_msgs.Image", camera: Pinhole) -> dict[str, Any]:
         nearest, farthest = self._nearest_m, self._farthest_m
         depths = read_depths(image)
         low, high, ranges = scan_from_depths(depths, camera, rows=self._rows, nearest_m=nearest, farthest_m=farthest)
@@ -136,7 +139,7 @@ class DepthImageToLaserScan:
         }
 
 
-def read_depths(image: Message) -> NDArray[np.float64]:
+def read_depths(image: "sensor_msgs.Image") -> NDArray[np.float64]:
     """Depths (height, width) of a depth image [m]; zeros of integer encodings become NaN."""
     kind, unit_m = _ENCODINGS[image.encoding]
     stored = np.dtype(kind).newbyteorder(">" if image.is_bigendian else "<")

@@ -4,7 +4,7 @@ import asyncio
 import math
 import sys
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from trundle.spatial import Pose
 from .host import NodeHost
 from .private_parameters import private_parameters
 from .rate import LogThrottle
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
 
 _HUGE, _LEAST = sys.float_info.max, sys.float_info.min
 """Defaults of the original, which takes std::numeric_limits::min, the smallest positive number, for the lowest."""
@@ -95,12 +98,12 @@ class PointCloudToLaserScan:
             await asyncio.sleep(_POLL_S)
         return 0
 
-    def _on_cloud(self, cloud: Message) -> None:
+    def _on_cloud(self, cloud: "sensor_msgs.PointCloud2") -> None:
         if self._waiting is not None:
             self._complaints.warn(f"a cloud is dropped: {self._why}")
         self._convert(cloud)
 
-    def _convert(self, cloud: Message) -> None:
+    def _convert(self, cloud: "sensor_msgs.PointCloud2") -> None:
         """Publish a cloud's scan; without a transform yet, keep it until the next cloud."""
         self._waiting = None
         try:
@@ -117,7 +120,7 @@ class PointCloudToLaserScan:
         else:
             self._scan.publish(self._fields(cloud, self._slice.ranges(points)))
 
-    def _fields(self, cloud: Message, ranges: NDArray[np.float32]) -> dict[str, Any]:
+    def _fields(self, cloud: "sensor_msgs.PointCloud2", ranges: NDArray[np.float32]) -> dict[str, Any]:
         cut = self._slice
         return {
             "header": {"stamp": cloud.header.stamp, "frame_id": self._frame or cloud.header.frame_id},
@@ -131,7 +134,7 @@ class PointCloudToLaserScan:
         }
 
 
-def read_points(cloud: Message) -> NDArray[np.float64]:
+def read_points(cloud: "sensor_msgs.PointCloud2") -> NDArray[np.float64]:
     """Points (n, 3) of a PointCloud2 [m].
 
     Raises:

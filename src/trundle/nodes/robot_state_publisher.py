@@ -1,17 +1,21 @@
 """robot_state_publisher: publishes tf of a robot's links from joint positions."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.parameters import RosParameters
 from trundle.robot import Robot, RobotJoint, parent_from_child, read_robot
-from trundle.ros import Message, Node, StaticTransformBroadcaster, Transform, TransformBroadcaster, to_nsec
+from trundle.ros import Node, StaticTransformBroadcaster, Transform, TransformBroadcaster, to_nsec
 from trundle.spatial import NS_PER_S
 from trundle.xmlnode import parse_xml
 
 from .host import NodeHost
 from .private_parameters import private_parameters
 from .rate import LogThrottle, period_ns
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
 
 _OLD_NS = 30 * NS_PER_S
 _FIXED_AHEAD_NS = NS_PER_S // 2
@@ -40,7 +44,7 @@ class RobotFrames:
             prefix=prefix.strip("/"),
         )
 
-    def positions(self, message: Message) -> dict[str, float]:
+    def positions(self, message: "sensor_msgs.JointState") -> dict[str, float]:
         """Position of each joint in name order, mimic joints included."""
         positions = {str(name): float(position) for name, position in zip(message.name, message.position, strict=True)}
         for name, joint in self.mimics.items():
@@ -127,7 +131,7 @@ class RobotStatePublisher:
     def _fixed(self, stamp_ns: int) -> list[Transform]:
         return [self._frames.transform(joint, 0.0, stamp_ns) for joint in self._frames.fixed.values()]
 
-    def _on_joint_states(self, message: Message) -> None:
+    def _on_joint_states(self, message: "sensor_msgs.JointState") -> None:
         node = self._node
         if len(message.name) != len(message.position):
             if len(message.position) == 0:

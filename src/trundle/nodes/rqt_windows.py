@@ -1,10 +1,15 @@
 """Graphical tools: image_view and rqt; the page replaces all of them."""
 
+from typing import TYPE_CHECKING
+
 from trundle.diagnostics import TrundleError
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from .host import Display, NodeHost
 from .private_parameters import private_parameters
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
 
 
 class Window:
@@ -43,7 +48,7 @@ class ImageView(Window):
     def _prepare(self, display: Display) -> None:
         display.show_image(self._node.resolve("image"))
 
-    def _on_image(self, image: Message) -> None:
+    def _on_image(self, image: "sensor_msgs.Image") -> None:
         if not self._seen:
             self._node.log.info(f"images of {image.width} × {image.height} pixels, {image.encoding}")
         self._seen = True

@@ -1,10 +1,14 @@
 """rviz/rviz: opens the page, with the original's publishers, subscribers and services."""
 
 import os
+from typing import TYPE_CHECKING
 
 from trundle.ros import Message, Node
 
 from .host import NodeHost
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_srvs
 
 _SEND_FILE_PATH = "std_msgs/String path\n---\nbool success\n"
 _TAKES_A_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--splash-screen", "--help-file", "-t")
@@ -60,7 +64,7 @@ def _ignore(_message: Message) -> None:
     """No-op callback."""
 
 
-def _nothing(_request: Message) -> dict[str, object]:
+def _nothing(_request: "std_srvs.EmptyRequest") -> dict[str, object]:
     return {}
 
 

@@ -1,10 +1,15 @@
 """teleop_twist_joy/teleop_node: joystick axes to velocity commands while a button is held."""
 
+from typing import TYPE_CHECKING
+
 from trundle.parameters import RosParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from .host import NodeHost
 from .private_parameters import private_parameters
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
 
 _MOVES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
 _TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}
@@ -33,7 +38,7 @@ class TeleopTwistJoy:
         await node.closed.wait()
         return 0
 
-    def _on_joy(self, joy: Message) -> None:
+    def _on_joy(self, joy: "sensor_msgs.Joy") -> None:
         if self._turbo >= 0 and _pressed(joy, self._turbo):
             self._send(joy, turbo=True)
         elif _pressed(joy, self._enable):
@@ -42,7 +47,7 @@ class TeleopTwistJoy:
             self._commands.publish({})
             self._sent_stop = True
 
-    def _send(self, joy: Message, *, turbo: bool) -> None:
+    def _send(self, joy: "sensor_msgs.Joy", *, turbo: bool) -> None:
         twist: dict[str, dict[str, float]] = {"linear": {}, "angular": {}}
         for (part, axis), index, scale, turbo_scale in self._moves:
             value = float(joy.axes[index]) if 0 <= index < len(joy.axes) else 0.0
@@ -72,5 +77,5 @@ def _axes(
     return [(names[name], settings.integer(f"axis_{part}", default), scale, turbo)]
 
 
-def _pressed(joy: Message, button: int) -> bool:
+def _pressed(joy: "sensor_msgs.Joy", button: int) -> bool:
     return 0 <= button < len(joy.buttons) and bool(joy.buttons[button])

@@ -2,12 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from .host import NodeHost
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 _KIND = "geometry_msgs/Twist"
 _DIAGNOSTICS_S = 1.0
@@ -103,7 +106,7 @@ class TwistMux:
             diagnostics.publish({"header": {"stamp": now}, "status": [self._status(now)]})
         return 0
 
-    def _on_command(self, source: TopicHandle, message: Message) -> None:
+    def _on_command(self, source: TopicHandle, message: "geometry_msgs.Twist") -> None:
         now = source.received_ns = self._node.clock.now_ns()
         if find_active_topic(self._sources, self._locks, now) is source:
             self._output.publish(message)

@@ -2,12 +2,16 @@
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.parameters import RosParameters
-from trundle.ros import Message, Node, Transform, TransformBroadcaster
+from trundle.ros import Node, Transform, TransformBroadcaster
 
 from ..rate import RateDivider
 from .controller import DiagnosticStatus, JointReading
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 
 @dataclass(slots=True)
@@ -62,7 +66,7 @@ class DiffController:
         self._broadcaster = TransformBroadcaster(node)
         node.log.info(f"Started DiffController ({name}). Geometry: {base_width}m wide, {ticks_meter} ticks/m.")
 
-    def _command(self, twist: Message) -> None:
+    def _command(self, twist: "geometry_msgs.Twist") -> None:
         """Apply new velocities from now on.
 
         The original applies them to the whole interval since its last update, up to 0.15 s before the command: its time

@@ -1,7 +1,9 @@
 """arbotix_python/arbotix_driver in its simulation mode: kinematic, without serial port or physics."""
 
+from typing import TYPE_CHECKING
+
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import Message, MessageError, Node
+from trundle.ros import MessageError, Node
 
 from ..host import NodeHost
 from ..private_parameters import private_parameters
@@ -11,6 +13,9 @@ from .diff_controller import DiffController
 from .follow_controller import FollowController
 from .linear_controller import LinearController, LinearJoint
 from .servo_controller import DynamixelServo, HobbyServo, ServoController
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import arbotix_msgs
 
 
 class ArbotixDriver:
@@ -125,6 +130,6 @@ class ArbotixDriver:
         )
 
 
-def _no_channel(_request: Message) -> dict[str, object]:
+def _no_channel(_request: "arbotix_msgs.SetupChannelRequest") -> dict[str, object]:
     """Empty response for channels that a simulated board lacks, as in the original."""
     return {}

@@ -2,13 +2,17 @@
 
 import asyncio
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import ActionOutcome, ActionServer, Message, Node, to_nsec
+from trundle.ros import ActionOutcome, ActionServer, Node, to_nsec
 
 from ..rate import Rate
 from .controller import ArbotixJoint, DiagnosticStatus, JointReading
 from .servo_controller import Servo
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import control_msgs, trajectory_msgs
 
 _EARLY_NS = 10_000_000
 """A point counts as reached this long before its time."""
@@ -50,11 +54,13 @@ class FollowController:
     def _active(self) -> bool:
         return self._server.active or (self._topic_task is not None and not self._topic_task.done())
 
-    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(
+        self, goal: "control_msgs.FollowJointTrajectoryGoal", accept: Callable[[], None]
+    ) -> ActionOutcome:
         accept()
         return await self._follow(goal.trajectory)
 
-    def _command(self, trajectory: Message) -> None:
+    def _command(self, trajectory: "trajectory_msgs.JointTrajectory") -> None:
         """Follow a trajectory from the topic, unless the action is active."""
         if self._server.active:
             self._node.log.info("Received trajectory, but action is active")
@@ -63,7 +69,7 @@ class FollowController:
             self._topic_task.cancel()
         self._topic_task = asyncio.get_running_loop().create_task(self._follow(trajectory))
 
-    async def _follow(self, trajectory: Message) -> ActionOutcome:
+    async def _follow(self, trajectory: "trajectory_msgs.JointTrajectory") -> ActionOutcome:
         names = list(trajectory.joint_names)
         if missing := [joint for joint in self._joints if joint not in names]:
             text = f"Trajectory joint names does not match action controlled joints: {missing[0]!r} is missing"

@@ -4,12 +4,16 @@ import asyncio
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import ActionOutcome, ActionServer, Message, Node
+from trundle.ros import ActionOutcome, ActionServer, Node
 
 from ..host import NodeHost
 from ..private_parameters import private_parameters
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import control_msgs, sensor_msgs
 
 _NEAR_RAD = 0.02
 """Tolerance of a reached command; servos count in ticks of 0.3 degrees."""
@@ -117,10 +121,10 @@ class GripperController:
         await node.closed.wait()
         return 0
 
-    def _on_joint_states(self, message: Message) -> None:
+    def _on_joint_states(self, message: "sensor_msgs.JointState") -> None:
         self._positions.update(zip(message.name, map(float, message.position), strict=False))
 
-    async def _move(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _move(self, goal: "control_msgs.GripperCommandGoal", accept: Callable[[], None]) -> ActionOutcome:
         accept()
         opening_m = float(goal.command.position)
         try:

@@ -1,9 +1,14 @@
 """arbotix_python's linear joints and controllers, simulated: joints jump to their commands."""
 
+from typing import TYPE_CHECKING
+
 from trundle.parameters import RosParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from .controller import DiagnosticStatus, JointReading
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_msgs, std_srvs
 
 
 class LinearJoint:
@@ -15,7 +20,7 @@ class LinearJoint:
         self.reading = JointReading(name=name)
         node.subscribe(f"{name}/command", "std_msgs/Float64", self._command)
 
-    def _command(self, message: Message) -> None:
+    def _command(self, message: "std_msgs.Float64") -> None:
         self.reading.position = float(message.data)
 
     def interpolate(self, rate_hz: float) -> None:
@@ -43,7 +48,7 @@ class LinearController:
             node.advertise_service(f"{name}/zero", "std_srvs/Empty", self._zero)
         node.log.info(f"Started LinearController{'Incremental' if incremental else ''} ({name}).")
 
-    def _zero(self, _request: Message) -> dict[str, object]:
+    def _zero(self, _request: "std_srvs.EmptyRequest") -> dict[str, object]:
         return {}
 
     def update(self) -> None:

@@ -2,12 +2,16 @@
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from trundle.parameters import RosParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from ..rate import RateDivider
 from .controller import ArbotixJoint, DiagnosticStatus, JointReading
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import arbotix_msgs, std_msgs
 
 
 class Servo:
@@ -44,7 +48,7 @@ class Servo:
         self.is_controlled: Callable[[], bool] = lambda: False
         """True while a controller moves the servo; its topic is then ignored."""
 
-    def on_command(self, message: Message) -> None:
+    def on_command(self, message: "std_msgs.Float64") -> None:
         """Handle a command from the topic."""
         if not self.is_controlled():
             self.command(float(message.data))
@@ -113,12 +117,12 @@ class DynamixelServo(Servo):
         self.reading.velocity = (self.reading.position - before) / elapsed_s if moved else 0.0
         self._last_ns = now
 
-    def relax(self, _request: Message) -> dict[str, object]:
+    def relax(self, _request: "arbotix_msgs.RelaxRequest") -> dict[str, object]:
         """Stop until the next command."""
         self._moving = self._active = False
         return {}
 
-    def enable(self, request: Message) -> dict[str, object]:
+    def enable(self, request: "arbotix_msgs.EnableRequest") -> dict[str, object]:
         """Accept or ignore commands."""
         self._enabled = bool(request.enable)
         if not self._enabled:
@@ -158,18 +162,18 @@ class ServoController:
     def status(self) -> None:
         """None: each servo has its own status."""
 
-    def _relax_all(self, request: Message) -> dict[str, object]:
+    def _relax_all(self, request: "arbotix_msgs.RelaxRequest") -> dict[str, object]:
         for servo in self._servos:
             if isinstance(servo, DynamixelServo):
                 servo.relax(request)
         return {}
 
-    def _enable_all(self, request: Message) -> dict[str, object]:
+    def _enable_all(self, request: "arbotix_msgs.EnableRequest") -> dict[str, object]:
         for servo in self._servos:
             if isinstance(servo, DynamixelServo):
                 servo.enable(request)
         return {"state": bool(request.enable)}
 
 
-def _empty_response(_request: Message) -> dict[str, object]:
+def _empty_response(_request: "arbotix_msgs.SetSpeedRequest") -> dict[str, object]:
     return {}

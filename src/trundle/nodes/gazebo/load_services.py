@@ -1,6 +1,6 @@
 """/gazebo's services that apply wrenches to links and efforts to joints."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.diagnostics import UsageError
 from trundle.ros import Message, Node, to_nsec
@@ -11,6 +11,9 @@ from ..host import Simulator
 from .entities import find_joint, find_link, is_world, world_from_entity
 from .messages import advertise_status_service, read_vector
 from .timed_loads import TimedLoads
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import gazebo_msgs
 
 
 def advertise_load_services(node: Node, simulator: Simulator) -> None:
@@ -34,7 +37,7 @@ class _LoadServices:
         for schedule in (self._wrenches, self._efforts):
             simulator.post(schedule.start)
 
-    def apply_body_wrench(self, request: Message) -> dict[str, Any]:
+    def apply_body_wrench(self, request: "gazebo_msgs.ApplyBodyWrenchRequest") -> dict[str, Any]:
         """Apply a wrench for a duration: force at the centre of mass, plus its moment from the reference point.
 
         The lever arm goes from the link's origin to the reference point, or from the world's origin if the frame is the
@@ -53,7 +56,7 @@ class _LoadServices:
         self._wrenches.add(link, wrench, **_times(request))
         return {}
 
-    def apply_joint_effort(self, request: Message) -> dict[str, Any]:
+    def apply_joint_effort(self, request: "gazebo_msgs.ApplyJointEffortRequest") -> dict[str, Any]:
         """Apply an effort to a joint for a duration."""
         joint = find_joint(self._simulator.simulation, request.joint_name)
         expect_finite(request.effort)
@@ -62,7 +65,7 @@ class _LoadServices:
         self._efforts.add(joint, float(request.effort), **_times(request))
         return {}
 
-    def clear_body_wrenches(self, request: Message) -> dict[str, Any]:
+    def clear_body_wrenches(self, request: "gazebo_msgs.BodyRequestRequest") -> dict[str, Any]:
         """Remove the wrenches of a link; like gazebo_ros, report success for unknown links."""
         try:
             self._wrenches.clear(find_link(self._simulator.simulation, request.body_name))
@@ -70,7 +73,7 @@ class _LoadServices:
             self._node.log.warn(str(error))
         return {}
 
-    def clear_joint_forces(self, request: Message) -> dict[str, Any]:
+    def clear_joint_forces(self, request: "gazebo_msgs.JointRequestRequest") -> dict[str, Any]:
         """Remove the efforts of a joint."""
         try:
             self._efforts.clear(find_joint(self._simulator.simulation, request.joint_name))

@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.diagnostics import TrundleError
 from trundle.ros import Message, Node
 from trundle.simulation import expect_finite
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Twist, Vector3
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 
 def pose_fields(pose: Pose) -> dict[str, Any]:
@@ -26,7 +29,7 @@ def twist_fields(twist: Twist) -> dict[str, Any]:
     return {"linear": vector_fields(twist.linear), "angular": vector_fields(twist.angular)}
 
 
-def read_vector(message: Message) -> Vector3:
+def read_vector(message: "geometry_msgs.Vector3") -> Vector3:
     """Convert a Vector3 or Point.
 
     Raises:
@@ -36,7 +39,7 @@ def read_vector(message: Message) -> Vector3:
     return (float(message.x), float(message.y), float(message.z))
 
 
-def read_pose(message: Message) -> Pose:
+def read_pose(message: "geometry_msgs.Pose") -> Pose:
     """Convert a Pose; an all-zero quaternion, the default in requests, is the identity.
 
     Raises:
@@ -49,7 +52,7 @@ def read_pose(message: Message) -> Pose:
     return Pose(read_vector(message.position), turn)
 
 
-def read_twist(message: Message) -> Twist:
+def read_twist(message: "geometry_msgs.Twist") -> Twist:
     """Convert a Twist.
 
     Raises:

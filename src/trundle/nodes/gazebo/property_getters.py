@@ -1,15 +1,18 @@
 """/gazebo's services that return properties of the world, models, links, joints, lights and physics."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.model import JointType
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from ..host import Simulator
 from .entities import find_joint, find_light, find_link, find_model
 from .messages import advertise_status_service, pose_fields, vector_fields
 from .ode import OdeSettings
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import gazebo_msgs
 
 _JOINT_TYPES = {
     JointType.REVOLUTE: 0,
@@ -40,7 +43,7 @@ class _PropertyGetters:
         self._simulator = simulator
         self._ode = ode
 
-    def get_world_properties(self, _request: Message) -> dict[str, Any]:
+    def get_world_properties(self, _request: "gazebo_msgs.GetWorldPropertiesRequest") -> dict[str, Any]:
         simulation = self._simulator.simulation
         return {
             "sim_time": simulation.time_ns / 1e9,
@@ -48,7 +51,7 @@ class _PropertyGetters:
             "rendering_enabled": True,
         }
 
-    def get_model_properties(self, request: Message) -> dict[str, Any]:
+    def get_model_properties(self, request: "gazebo_msgs.GetModelPropertiesRequest") -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
         own = [link for link in model.links if "::" not in link.name]
         inner = [link for link in model.links if "::" in link.name]
@@ -61,7 +64,7 @@ class _PropertyGetters:
             "is_static": model.model.static,
         }
 
-    def get_link_properties(self, request: Message) -> dict[str, Any]:
+    def get_link_properties(self, request: "gazebo_msgs.GetLinkPropertiesRequest") -> dict[str, Any]:
         link = find_link(self._simulator.simulation, request.link_name).link
         inertial = link.inertial
         (ixx, iyy, izz), (ixy, ixz, iyz) = inertial.moments, inertial.products
@@ -77,7 +80,7 @@ class _PropertyGetters:
             "iyz": iyz,
         }
 
-    def get_joint_properties(self, request: Message) -> dict[str, Any]:
+    def get_joint_properties(self, request: "gazebo_msgs.GetJointPropertiesRequest") -> dict[str, Any]:
         handle = find_joint(self._simulator.simulation, request.joint_name)
         joint = handle.joint
         endless = joint.type is JointType.REVOLUTE and joint.axis is not None and joint.axis.upper == math.inf
@@ -88,7 +91,7 @@ class _PropertyGetters:
             "rate": list(handle.velocities),
         }
 
-    def get_physics_properties(self, _request: Message) -> dict[str, Any]:
+    def get_physics_properties(self, _request: "gazebo_msgs.GetPhysicsPropertiesRequest") -> dict[str, Any]:
         physics = self._simulator.simulation.world.physics
         return {
             "time_step": physics.max_step_size_s,
@@ -98,7 +101,7 @@ class _PropertyGetters:
             "ode_config": self._ode.values,
         }
 
-    def get_light_properties(self, request: Message) -> dict[str, Any]:
+    def get_light_properties(self, request: "gazebo_msgs.GetLightPropertiesRequest") -> dict[str, Any]:
         light = find_light(self._simulator.simulation.world, request.light_name)
         return {
             "diffuse": dict(zip("rgba", light.diffuse, strict=True)),

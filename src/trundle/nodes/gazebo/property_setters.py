@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
@@ -15,6 +15,9 @@ from ..host import Simulator
 from .entities import find_joint, find_light, find_link
 from .messages import advertise_status_service, read_pose, read_vector
 from .ode import IGNORED, OdeSettings
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import gazebo_msgs, std_msgs
 
 _NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
 """Settings of ODE joints without counterparts in MuJoCo."""
@@ -70,7 +73,7 @@ class _PropertySetters:
         self._simulator = simulator
         self._ode = ode
 
-    def set_physics_properties(self, request: Message) -> dict[str, Any]:
+    def set_physics_properties(self, request: "gazebo_msgs.SetPhysicsPropertiesRequest") -> dict[str, Any]:
         """Set time step, gravity and update rate; ODE's settings are stored without effect."""
         set_physics(
             self._simulator,
@@ -82,7 +85,7 @@ class _PropertySetters:
         note = f"{_UPDATED}; {IGNORED}{', '.join(ignored)}"
         return {"status_message": note} if ignored else {}
 
-    def set_link_properties(self, request: Message) -> dict[str, Any]:
+    def set_link_properties(self, request: "gazebo_msgs.SetLinkPropertiesRequest") -> dict[str, Any]:
         """Set mass, centre of mass, inertia, and whether gravity applies."""
         simulation = self._simulator.simulation
         handle = find_link(simulation, request.link_name)
@@ -99,7 +102,7 @@ class _PropertySetters:
         self._put(replace(model, links=_with(model.links, link)))
         return {}
 
-    def set_joint_properties(self, request: Message) -> dict[str, Any]:
+    def set_joint_properties(self, request: "gazebo_msgs.SetJointPropertiesRequest") -> dict[str, Any]:
         """Set damping and limits of each axis, and ODE's joint motor (fmax, vel)."""
         simulation = self._simulator.simulation
         handle = find_joint(simulation, request.joint_name)
@@ -121,7 +124,7 @@ class _PropertySetters:
         note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
         return {"status_message": note} if ignored else {}
 
-    def set_light_properties(self, request: Message) -> dict[str, Any]:
+    def set_light_properties(self, request: "gazebo_msgs.SetLightPropertiesRequest") -> dict[str, Any]:
         """Set colours, attenuation, pose and direction."""
         world = self._simulator.simulation.world
         light = find_light(world, request.light_name)
@@ -142,7 +145,7 @@ class _PropertySetters:
         self._light(light, [changed])
         return {}
 
-    def delete_light(self, request: Message) -> dict[str, Any]:
+    def delete_light(self, request: "gazebo_msgs.DeleteLightRequest") -> dict[str, Any]:
         """Delete a light of the world."""
         self._light(find_light(self._simulator.simulation.world, request.light_name), [])
         return {}
@@ -181,5 +184,5 @@ def _axis(joint: Joint, number: int, asked: Message) -> JointAxis | None:
     return replace(axis, lower=lower, upper=upper, damping=damping)
 
 
-def _colour(colour: Message) -> tuple[float, float, float, float]:
+def _colour(colour: "std_msgs.ColorRGBA") -> tuple[float, float, float, float]:
     return (float(colour.r), float(colour.g), float(colour.b), float(colour.a))

@@ -1,6 +1,6 @@
 """/gazebo's services and topics that get and set states of models and links."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node
@@ -10,6 +10,9 @@ from trundle.spatial import Pose, Twist
 from ..host import Simulator
 from .entities import find_link, find_model, is_world, world_from_entity
 from .messages import advertise_status_service, pose_fields, read_pose, read_twist, twist_fields
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import gazebo_msgs
 
 
 def advertise_state_services(node: Node, simulator: Simulator) -> None:
@@ -34,7 +37,7 @@ class _StateServices:
     def __init__(self, simulator: Simulator) -> None:
         self._simulator = simulator
 
-    def get_model_state(self, request: Message) -> dict[str, Any]:
+    def get_model_state(self, request: "gazebo_msgs.GetModelStateRequest") -> dict[str, Any]:
         simulation = self._simulator.simulation
         model = find_model(simulation, request.model_name)
         frame = world_from_entity(simulation, request.relative_entity_name)
@@ -45,7 +48,7 @@ class _StateServices:
             "twist": twist_fields(_seen_from(simulation, frame, request.relative_entity_name, model.pose, twist)),
         }
 
-    def get_link_state(self, request: Message) -> dict[str, Any]:
+    def get_link_state(self, request: "gazebo_msgs.GetLinkStateRequest") -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, request.link_name)
         frame = world_from_entity(simulation, request.reference_frame)
@@ -59,13 +62,13 @@ class _StateServices:
             }
         }
 
-    def set_model_state(self, request: Message) -> dict[str, Any]:
+    def set_model_state(self, request: "gazebo_msgs.SetModelStateRequest") -> dict[str, Any]:
         return self.on_model_state(request.model_state)
 
-    def set_link_state(self, request: Message) -> dict[str, Any]:
+    def set_link_state(self, request: "gazebo_msgs.SetLinkStateRequest") -> dict[str, Any]:
         return self.on_link_state(request.link_state)
 
-    def on_model_state(self, state: Message) -> dict[str, Any]:
+    def on_model_state(self, state: "gazebo_msgs.ModelState") -> dict[str, Any]:
         simulation = self._simulator.simulation
         model = find_model(simulation, state.model_name)
         frame = world_from_entity(simulation, state.reference_frame)
@@ -75,7 +78,7 @@ class _StateServices:
             model.set_link_twists(twist)
         return {}
 
-    def on_link_state(self, state: Message) -> dict[str, Any]:
+    def on_link_state(self, state: "gazebo_msgs.LinkState") -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, state.link_name)
         frame = world_from_entity(simulation, state.reference_frame)
@@ -84,7 +87,7 @@ class _StateServices:
         link.set_twist(twist)
         return {}
 
-    def set_model_configuration(self, request: Message) -> dict[str, Any]:
+    def set_model_configuration(self, request: "gazebo_msgs.SetModelConfigurationRequest") -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
         if len(request.joint_names) != len(request.joint_positions):
             raise UsageError(f"{len(request.joint_names)} joints, but {len(request.joint_positions)} positions")

@@ -3,6 +3,7 @@
 import asyncio
 import math
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from trundle.ros import Message, Node
 
 from ..host import NodeHost
 from .occupancy_grid import OccupancyGrid, write_map
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import nav_msgs
 
 _USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
 
@@ -56,7 +60,7 @@ class MapSaver:
         return 0
 
 
-def _grid_of(message: Message) -> OccupancyGrid:
+def _grid_of(message: "nav_msgs.OccupancyGrid") -> OccupancyGrid:
     info, turn = message.info, message.info.origin.orientation
     cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
     yaw = math.atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2))

@@ -6,15 +6,18 @@ import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.diagnostics import UsageError
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from ..host import NodeHost
 from ..private_parameters import private_parameters
 from .occupancy_grid import OccupancyGrid, positive, read_cells, read_map
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import nav_msgs
 
 _USAGE = "usage: map_server MAP.yaml"
 _SUCCESS, _DOES_NOT_EXIST, _INVALID = 0, 1, 2
@@ -62,10 +65,10 @@ class MapServer:
         self._metadata.publish(self._fields["info"])
         self._map.publish(self._fields)
 
-    def _get_map(self, _request: Message) -> dict[str, Any]:
+    def _get_map(self, _request: "nav_msgs.GetMapRequest") -> dict[str, Any]:
         return {"map": self._fields}
 
-    async def _change_map(self, request: Message) -> dict[str, Any]:
+    async def _change_map(self, request: "nav_msgs.LoadMapRequest") -> dict[str, Any]:
         file = Path(request.map_url.removeprefix("file://"))
         try:
             await self._load(partial(read_map, file))

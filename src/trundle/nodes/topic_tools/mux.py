@@ -1,12 +1,15 @@
 """topic_tools/mux: forwards one of several topics, selected by a service."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from trundle.ros import Message, Node, RawMessage, ServiceError
+from trundle.ros import Node, RawMessage, ServiceError
 
 from ..host import NodeHost
 from ..private_parameters import private_parameters
 from .raw_relay import RawPublisher, RawSubscriber, subscribe_lazily
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import topic_tools
 
 _NONE = "__none"
 
@@ -73,21 +76,21 @@ class Mux:
         self._said.publish({"data": topic})
         return before or ""
 
-    def _select(self, request: Message) -> dict[str, Any]:
+    def _select(self, request: "topic_tools.MuxSelectRequest") -> dict[str, Any]:
         return {"prev_topic": self._choose(request.topic)}
 
-    def _select_legacy(self, request: Message) -> dict[str, Any]:
+    def _select_legacy(self, request: "topic_tools.MuxSelectRequest") -> dict[str, Any]:
         self._node.log.warn("the <topic>_select service is deprecated; use mux/select instead")
         return self._select(request)
 
-    def _add_service(self, request: Message) -> dict[str, Any]:
+    def _add_service(self, request: "topic_tools.MuxAddRequest") -> dict[str, Any]:
         name = self._node.resolve(request.topic)
         if request.topic == _NONE or name in self._inputs:
             raise ServiceError(f"{request.topic!r} is an input already, or not a valid name")
         self._add(name)
         return {}
 
-    def _delete(self, request: Message) -> dict[str, Any]:
+    def _delete(self, request: "topic_tools.MuxDeleteRequest") -> dict[str, Any]:
         name = self._node.resolve(request.topic)
         if name == self._selected:
             raise ServiceError(f"{name!r} is selected; select another one first")
@@ -97,5 +100,5 @@ class Mux:
         source.unsubscribe()
         return {}
 
-    def _list(self, _request: Message) -> dict[str, Any]:
+    def _list(self, _request: "topic_tools.MuxListRequest") -> dict[str, Any]:
         return {"topics": list(self._inputs)}

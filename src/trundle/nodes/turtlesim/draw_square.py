@@ -2,11 +2,15 @@
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from trundle.ros import Message, Node
 
 from ..host import NodeHost
 from ..rate import Rate
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import turtlesim
 
 _SIDE_M = 2.0
 _RATE_HZ = 62.5
@@ -50,5 +54,5 @@ class DrawSquare:
             self._commands.publish({})
             await rate.sleep()
 
-    def _on_pose(self, pose: Message) -> None:
+    def _on_pose(self, pose: "turtlesim.Pose") -> None:
         self._pose = pose

@@ -1,8 +1,13 @@
 """turtlesim/mimic: drives one turtle like another."""
 
-from trundle.ros import Message, Node
+from typing import TYPE_CHECKING
+
+from trundle.ros import Node
 
 from ..host import NodeHost
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import turtlesim
 
 
 class Mimic:
@@ -17,7 +22,7 @@ class Mimic:
         node = self._node
         commands = node.advertise("output/cmd_vel", "geometry_msgs/Twist", queue_size=1)
 
-        def on_pose(pose: Message) -> None:
+        def on_pose(pose: "turtlesim.Pose") -> None:
             commands.publish({"linear": {"x": pose.linear_velocity}, "angular": {"z": pose.angular_velocity}})
 
         node.subscribe("input/pose", "turtlesim/Pose", on_pose, queue_size=1)

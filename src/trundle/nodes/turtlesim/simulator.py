@@ -1,7 +1,7 @@
 """turtlesim/turtlesim_node: turtles that follow velocity commands and draw; the window is an image topic."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.ros import Message, Node, Publisher, Service, ServiceError, Subscription
 from trundle.spatial import NS_PER_S
@@ -10,6 +10,9 @@ from ..host import NodeHost
 from ..rate import Rate
 from .turtle import Colour, Turtle
 from .turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs, std_srvs, turtlesim
 
 _TICK_NS = 16_000_000
 """Timer period of the original's window."""
@@ -114,7 +117,7 @@ class TurtleSim:
             node.advertise(f"{name}/color_sensor", "turtlesim/Color", queue_size=1),
         )
 
-        def command(twist: Message) -> None:
+        def command(twist: "geometry_msgs.Twist") -> None:
             turtle.command(twist.linear.x, twist.linear.y, twist.angular.z, now_ns=node.clock.now_ns())
 
         registered.commands = node.subscribe(f"{name}/cmd_vel", "geometry_msgs/Twist", command, queue_size=1)
@@ -158,12 +161,12 @@ class TurtleSim:
         if turtle.pen.on and before != (turtle.x, turtle.y):
             self._picture.draw_line(before, (turtle.x, turtle.y), turtle.pen.colour, turtle.pen.width_px)
 
-    def _teleport(self, turtle: Turtle, request: Message) -> None:
+    def _teleport(self, turtle: Turtle, request: "turtlesim.TeleportAbsoluteRequest") -> None:
         before = (turtle.x, turtle.y)
         turtle.teleport(request.x, request.y, request.theta)
         self._draw(turtle, before)
 
-    def _teleport_ahead(self, turtle: Turtle, request: Message) -> None:
+    def _teleport_ahead(self, turtle: Turtle, request: "turtlesim.TeleportRelativeRequest") -> None:
         before = (turtle.x, turtle.y)
         turtle.teleport_relative(request.linear, request.angular)
         self._draw(turtle, before)
@@ -185,12 +188,12 @@ class TurtleSim:
         self._background = (red, green, blue)
         self._picture.clear(self._background)
 
-    async def _clear(self, _request: Message) -> dict[str, Any]:
+    async def _clear(self, _request: "std_srvs.EmptyRequest") -> dict[str, Any]:
         self._node.log.info("Clearing turtlesim.")
         await self._wipe()
         return {}
 
-    async def _reset(self, _request: Message) -> dict[str, Any]:
+    async def _reset(self, _request: "std_srvs.EmptyRequest") -> dict[str, Any]:
         self._node.log.info("Resetting turtlesim.")
         for registered in self._turtles.values():
             registered.unregister()
@@ -199,7 +202,7 @@ class TurtleSim:
         self._start()
         return {}
 
-    def _on_spawn(self, request: Message) -> dict[str, Any]:
+    def _on_spawn(self, request: "turtlesim.SpawnRequest") -> dict[str, Any]:
         name = request.name or self._new_name()
         if name in self._turtles:
             raise ServiceError(f"A turtle named [{name}] already exists")
@@ -214,7 +217,7 @@ class TurtleSim:
             if (name := f"turtle{self._named}") not in self._turtles:
                 return name
 
-    def _kill(self, request: Message) -> dict[str, Any]:
+    def _kill(self, request: "turtlesim.KillRequest") -> dict[str, Any]:
         registered = self._turtles.pop(request.name, None)
         if registered is None:
             raise ServiceError(f"Tried to kill turtle [{request.name}], which does not exist")
@@ -222,7 +225,7 @@ class TurtleSim:
         return {}
 
 
-def _set_pen(turtle: Turtle, request: Message) -> None:
+def _set_pen(turtle: Turtle, request: "turtlesim.SetPenRequest") -> None:
     pen = turtle.pen
     pen.on = not request.off
     if pen.on:

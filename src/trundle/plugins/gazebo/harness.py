@@ -1,6 +1,6 @@
 """libHarnessPlugin.so: a model that hangs from a winch until it is detached."""
 
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from msgspec.structs import replace
 
@@ -10,11 +10,14 @@ from trundle.diagnostics import UsageError
 from trundle.model import Joint, JointAxis, PluginTag
 from trundle.names import ros_name
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.simulation import JointHandle, ModelHandle, Simulation
 from trundle.spatial import Pose
 
 from ..plugin import Plugin
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_msgs
 
 _PID = (
     *((name, name) for name in ("p", "i", "d", "i_min", "i_max")),
@@ -90,10 +93,10 @@ class Harness(Plugin):
             self._sim.detach(self._opens.name)
             self._opens = self._winch = None
 
-    def _on_velocity(self, message: Message) -> None:
+    def _on_velocity(self, message: "std_msgs.Float32") -> None:
         self.set_winch_velocity(float(message.data))
 
-    def _on_detach(self, message: Message) -> None:
+    def _on_detach(self, message: "std_msgs.Bool") -> None:
         if message.data:
             self.detach()
 

@@ -4,10 +4,14 @@ A key is a std_msgs/Int32: its character code, or Qt's key code (16777234 left, 
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Diagnostics
 from trundle.model import PluginTag
-from trundle.ros import Message, Node
+from trundle.ros import Node
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_msgs
 
 KEYS_TOPIC = "/keyboard/keypress"
 
@@ -18,7 +22,7 @@ def subscribe_keys(node: Node | None, tag: PluginTag, press: Callable[[int], Non
         report.warn(tag.at, f"plugin {tag.name!r} takes keys from a ROS topic, which --no-ros leaves out")
         return
 
-    def on_message(message: Message) -> None:
+    def on_message(message: "std_msgs.Int32") -> None:
         press(int(message.data))
 
     node.subscribe(KEYS_TOPIC, "std_msgs/Int32", on_message)

@@ -5,12 +5,15 @@
 """
 
 import math
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.names import ros_name
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.simulation import ModelHandle
 from trundle.spatial import rpy_from_quaternion
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 
 class VelocityCommand:
@@ -33,7 +36,7 @@ class VelocityCommand:
         """Set both speeds to zero."""
         self.speed = self.yaw_rate = 0.0
 
-    def _on_command(self, pose: Message) -> None:
+    def _on_command(self, pose: "geometry_msgs.Pose") -> None:
         turn = pose.orientation
         yaw = rpy_from_quaternion((turn.w, turn.x, turn.y, turn.z))[2]
         if math.isfinite(pose.position.x) and math.isfinite(yaw):

@@ -1,18 +1,21 @@
 """libWheelSlipPlugin.so: tyres whose slip grows with their force."""
 
 from dataclasses import dataclass
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.diagnostics import UsageError
 from trundle.model import Cylinder, Joint, JointType, PluginTag, Sphere
 from trundle.names import ros_name
 from trundle.parameters import TagParameters
 from trundle.physics import WheelGrip
-from trundle.ros import Message, Node, Publisher
+from trundle.ros import Node, Publisher
 from trundle.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Vector3, cross, dot, normalized
 
 from ..plugin import Plugin
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_msgs
 
 
 @dataclass(slots=True, eq=False)
@@ -94,10 +97,10 @@ class WheelSlip(Plugin):
             )
             wheel.topic.publish({"x": dot(along, twist.linear) - tread, "y": dot(axis, twist.linear), "z": tread})
 
-    def _on_lateral(self, message: Message) -> None:
+    def _on_lateral(self, message: "std_msgs.Float64") -> None:
         self.set_compliance(lateral=max(float(message.data), 0.0))
 
-    def _on_longitudinal(self, message: Message) -> None:
+    def _on_longitudinal(self, message: "std_msgs.Float64") -> None:
         self.set_compliance(longitudinal=max(float(message.data), 0.0))
 
 

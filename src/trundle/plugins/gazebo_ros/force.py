@@ -1,12 +1,17 @@
 """libgazebo_ros_force.so: a wrench on a link, from a topic."""
 
+from typing import TYPE_CHECKING
+
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Wrench
 
 from .namespaces import join_topic, read_namespace
 from .ros_plugin import RosPlugin
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 
 class Force(RosPlugin):
@@ -34,6 +39,6 @@ class Force(RosPlugin):
         """Set the wrench to zero."""
         self._wrench = Wrench()
 
-    def _on_wrench(self, message: Message) -> None:
+    def _on_wrench(self, message: "geometry_msgs.Wrench") -> None:
         force, torque = message.force, message.torque
         self._wrench = Wrench((force.x, force.y, force.z), (torque.x, torque.y, torque.z))

@@ -1,15 +1,20 @@
 """libgazebo_ros_imu.so: orientation, rate and acceleration of a link, without gravity as in the original."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Vector3
 
 from .link_motion import LinkMotion
 from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_srvs
 
 
 class Imu(RosPlugin):
@@ -58,6 +63,6 @@ class Imu(RosPlugin):
         return {axis: value + error for axis, value, error in zip("xyz", vector, errors, strict=True)}
 
 
-def _calibrated(_request: Message) -> dict[str, object]:
+def _calibrated(_request: "std_srvs.EmptyRequest") -> dict[str, object]:
     """Answer the calibration service; there is nothing to calibrate."""
     return {}

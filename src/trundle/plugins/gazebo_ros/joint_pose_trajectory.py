@@ -1,15 +1,18 @@
 """libgazebo_ros_joint_pose_trajectory.so: joint positions set at given times, without dynamics."""
 
 from collections import deque
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.diagnostics import UsageError
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node, to_nsec
+from trundle.ros import Node, to_nsec
 from trundle.simulation import ModelHandle, Simulation
 
 from .namespaces import join_topic, rate_to_period_ns, read_namespace
 from .ros_plugin import RosPlugin
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import gazebo_msgs, trajectory_msgs
 
 _MAX_POINTS = 100_000
 
@@ -43,20 +46,20 @@ class JointPoseTrajectory(RosPlugin):
         """Drop the remaining points."""
         self._due.clear()
 
-    def _on_trajectory(self, trajectory: Message) -> None:
+    def _on_trajectory(self, trajectory: "trajectory_msgs.JointTrajectory") -> None:
         try:
             self._plan(trajectory)
         except UsageError as error:
             self._node.log.error(str(error))
 
-    def _set_trajectory(self, request: Message) -> dict[str, Any]:
+    def _set_trajectory(self, request: "gazebo_msgs.SetJointTrajectoryRequest") -> dict[str, Any]:
         try:
             self._plan(request.joint_trajectory)
         except UsageError as error:
             return {"success": False, "status_message": str(error)}
         return {"success": True, "status_message": "set trajectory"}
 
-    def _plan(self, trajectory: Message) -> None:
+    def _plan(self, trajectory: "trajectory_msgs.JointTrajectory") -> None:
         names = [str(name) for name in trajectory.joint_names]
         for name in names:
             if not self._model.joint(name).is_driven:

@@ -1,12 +1,15 @@
 """Velocity command on a topic of geometry_msgs/Twist."""
 
 import math
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 
 from .namespaces import join_topic
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 
 class TwistCommand:
@@ -30,7 +33,7 @@ class TwistCommand:
         """Set the command to zero."""
         self.forward = self.sideways = self.yaw_rate = 0.0
 
-    def _on_command(self, twist: Message) -> None:
+    def _on_command(self, twist: "geometry_msgs.Twist") -> None:
         wanted = (float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
         if all(map(math.isfinite, wanted)):
             self.forward, self.sideways, self.yaw_rate = wanted

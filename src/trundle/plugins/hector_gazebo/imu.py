@@ -1,13 +1,18 @@
 """libhector_gazebo_ros_imu.so: an imu with gravity and an error model."""
 
+from typing import TYPE_CHECKING
+
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose
 
 from ..gazebo_ros.link_motion import LinkMotion
 from .error_model import ErrorModel
 from .link_sensor import LinkSensor
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_srvs
 
 _G = 9.8065
 """Standard gravity of the original [m/s²]."""
@@ -72,7 +77,7 @@ class Imu(LinkSensor):
         for errors in (self._acceleration, self._rate, self._heading):
             errors.reset()
 
-    def _calibrate(self, _request: Message) -> dict[str, object]:
+    def _calibrate(self, _request: "std_srvs.EmptyRequest") -> dict[str, object]:
         self._rate.reset()
         return {}
 

@@ -1,7 +1,7 @@
 """Kobuki's wheels, odometry and gyro; its bumpers, cliff and wheel drop sensors are in `sensors`."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.control import DifferentialDrive
 from trundle.diagnostics import UsageError
@@ -14,6 +14,9 @@ from ..gazebo_ros.namespaces import join_topic, rate_to_period_ns, read_namespac
 from ..gazebo_ros.odometry import OdometryTopic
 from ..gazebo_ros.ros_plugin import RosPlugin
 from .sensors import KobukiSensors, ModelSensor
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs, kobuki_msgs, sensor_msgs
 
 _BASE = "mobile_base"
 _POSE_VARIANCES = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
@@ -136,16 +139,16 @@ class Kobuki(RosPlugin):
         speed = distance / elapsed if elapsed > 0.0 else 0.0
         self._odometry.publish(time_ns, pose, Twist((speed, 0.0, 0.0), (0.0, 0.0, turning)))
 
-    def _on_command(self, twist: Message) -> None:
+    def _on_command(self, twist: "geometry_msgs.Twist") -> None:
         forward, turning = float(twist.linear.x), float(twist.angular.z)
         if math.isfinite(forward) and math.isfinite(turning):
             self._speeds = self._drive.wheel_speeds(forward, turning)
             self._commanded_ns = self._node.clock.now_ns()
 
-    def _on_motor_power(self, message: Message) -> None:
+    def _on_motor_power(self, message: "kobuki_msgs.MotorPower") -> None:
         self._is_powered = message.state == _ON
 
-    def _on_imu(self, message: Message) -> None:
+    def _on_imu(self, message: "sensor_msgs.Imu") -> None:
         self._gyro = message
 
     def _reset_odometry(self, _: Any) -> None:

@@ -2,14 +2,15 @@
 
 import math
 from collections import deque
-from typing import Self
-
-from trundle.ros import Message
+from typing import TYPE_CHECKING, Self
 
 from .base_odometry import BaseOdometry
 from .controller import ControllerContext, Endpoints
 from .drive_settings import length, origin, speed_limit, wheel_radius
 from .transmissions import Interface
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 _STRAIGHT_RAD = 1e-6
 """Turn below which an arc is integrated as a line [rad]."""
@@ -97,7 +98,7 @@ class AckermannSteering:
         """Unregister its topics."""
         self._endpoints.close()
 
-    def _on_command(self, message: Message) -> None:
+    def _on_command(self, message: "geometry_msgs.Twist") -> None:
         linear, angle = float(message.linear.x), float(message.angular.z)
         if not self._is_running:
             self._node.log.error("Can't accept new commands. Controller is not running.")

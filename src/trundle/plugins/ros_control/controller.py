@@ -2,14 +2,17 @@
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import Message, Node, Publisher, ReconfigureServer, Service, Subscription
+from trundle.ros import Node, Publisher, ReconfigureServer, Service, Subscription
 from trundle.simulation import ModelHandle
 
 from .hardware import Hardware, JointHardware
 from .transmissions import Interface
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import std_msgs
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +85,7 @@ class Controller(Protocol):
         ...
 
 
-def group_command(message: Message, count: int, node: Node) -> list[float]:
+def group_command(message: "std_msgs.Float64MultiArray", count: int, node: Node) -> list[float]:
     """Values of a std_msgs/Float64MultiArray for `count` joints; empty, with an error logged, if invalid."""
     values = [float(value) for value in message.data]
     if len(values) != count:

@@ -2,16 +2,18 @@
 
 import math
 from collections import deque
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.control import DifferentialDrive, WheelOdometry
 from trundle.parameters import ParamError, RosParameters
-from trundle.ros import Message
 
 from .base_odometry import BaseOdometry
 from .controller import ControllerContext, Endpoints
 from .drive_settings import joint_names, length, origin, speed_limit, wheel_radius
 from .transmissions import Interface
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 _VELOCITY: Interface = "VelocityJointInterface"
 _WINDOW = 10
@@ -111,7 +113,7 @@ class DiffDriveController:
         """Unregister its topics."""
         self._endpoints.close()
 
-    def _on_command(self, message: Message) -> None:
+    def _on_command(self, message: "geometry_msgs.Twist") -> None:
         if math.isfinite(message.linear.x) and math.isfinite(message.angular.z):
             stamp = self._context.node.clock.now_ns()
             self._command = (stamp, float(message.linear.x), float(message.angular.z))

@@ -2,17 +2,19 @@
 
 import math
 from collections import deque
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from trundle.control import FourWheelSteering, Wheels, axle_angle
 from trundle.parameters import ParamError
-from trundle.ros import Message
 
 from .base_odometry import BaseOdometry
 from .controller import ControllerContext, Endpoints
 from .drive_settings import joint_names, length, origin, speed_limit, wheel_radius
 from .hardware import JointHardware
 from .transmissions import Interface
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import four_wheel_steering_msgs, geometry_msgs
 
 _PACKAGE = "four_wheel_steering_msgs"
 
@@ -148,12 +150,12 @@ class FourWheelDrive:
         }
         self._steering_topic.publish({"header": {"stamp": time_ns, "frame_id": "odom"}, "data": data})
 
-    def _on_twist(self, message: Message) -> None:
+    def _on_twist(self, message: "geometry_msgs.Twist") -> None:
         values = (float(message.linear.x), float(message.angular.z))
         if self._accepts("geometry_msgs::Twist", values):
             self._twist = (self._node.clock.now_ns(), *values)
 
-    def _on_steering(self, message: Message) -> None:
+    def _on_steering(self, message: "four_wheel_steering_msgs.FourWheelSteering") -> None:
         values = (float(message.speed), float(message.front_steering_angle), float(message.rear_steering_angle))
         if self._accepts("four_wheel_steering_msgs::FourWheelSteering", values):
             self._angles = (self._node.clock.now_ns(), *values)

@@ -2,13 +2,16 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from trundle.ros import ActionOutcome, ActionServer, Message
+from trundle.ros import ActionOutcome, ActionServer
 
 from .controller import ControllerContext, Endpoints
 from .gains import reconfigurable_pid
 from .transmissions import Interface
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import control_msgs
 
 
 class GripperController:
@@ -87,7 +90,7 @@ class GripperController:
         self._server.close()
         self._endpoints.close()
 
-    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: "control_msgs.GripperCommandGoal", accept: Callable[[], None]) -> ActionOutcome:
         """Run a goal to its end; on the loop."""
         ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from trundle.parameters import ParamError, RosParameters
 from trundle.ros import Message, Node
@@ -11,6 +11,9 @@ from trundle.simulation import ModelHandle
 from .catalog import CONTROLLERS, find_controller
 from .controller import Controller, ControllerContext
 from .hardware import Hardware
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import controller_manager_msgs
 
 _STRICT = 2
 _PACKAGE = "controller_manager_msgs"
@@ -66,11 +69,11 @@ class ControllerManager:
             if loaded.state == "running":
                 loaded.controller.start(time_ns)
 
-    def _types(self, _request: Message) -> dict[str, Any]:
+    def _types(self, _request: "controller_manager_msgs.ListControllerTypesRequest") -> dict[str, Any]:
         names = sorted(CONTROLLERS)
         return {"types": names, "base_classes": ["controller_interface::ControllerBase"] * len(names)}
 
-    def _list(self, _request: Message) -> dict[str, Any]:
+    def _list(self, _request: "controller_manager_msgs.ListControllersRequest") -> dict[str, Any]:
         return {
             "controller": [
                 {
@@ -131,7 +134,7 @@ class ControllerManager:
         del self._loaded[name]
         return True
 
-    def _switch(self, request: Message) -> bool:
+    def _switch(self, request: "controller_manager_msgs.SwitchControllerRequest") -> bool:
         strict = request.strictness == _STRICT
         stops, starts = (
             [str(name) for name in names] for names in (request.stop_controllers, request.start_controllers)

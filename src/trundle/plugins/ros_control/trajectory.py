@@ -2,16 +2,19 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from trundle.control import ToolboxPid
-from trundle.ros import ActionOutcome, ActionServer, Message, to_nsec
+from trundle.ros import ActionOutcome, ActionServer, to_nsec
 
 from .controller import ControllerContext, Endpoints, PublishTimer
 from .gains import reconfigurable_pid
 from .hardware import JointHardware
 from .trajectory_goal import GoalError, SampledTrajectory, Tolerances, read_tolerances, read_trajectory
 from .transmissions import Interface
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import control_msgs, trajectory_msgs
 
 _GRACE_S = 0.2
 """Added to `goal_time` [s]: joints here lag by a few steps, while gazebo_ros_control sets positions at once."""
@@ -115,7 +118,7 @@ class TrajectoryController:
 
     # -- commands, on the simulation's thread
 
-    def _on_command(self, trajectory: Message) -> None:
+    def _on_command(self, trajectory: "trajectory_msgs.JointTrajectory") -> None:
         """Follow a trajectory from the topic; one without points holds the joints."""
         if not self._is_running:
             self._node.log.error("Can't accept new commands. Controller is not running.")
@@ -127,7 +130,7 @@ class TrajectoryController:
             return
         self._settle("preempted", 0, "a trajectory came on the topic")
 
-    def _begin(self, trajectory: Message, tolerances: Tolerances) -> None:
+    def _begin(self, trajectory: "trajectory_msgs.JointTrajectory", tolerances: Tolerances) -> None:
         if not trajectory.points:
             self._hold()
             return
@@ -145,7 +148,7 @@ class TrajectoryController:
             [joint.position for joint in self._joints], self._time_ns, self._default_tolerances
         )
 
-    def _query(self, request: Message) -> dict[str, Any]:
+    def _query(self, request: "control_msgs.QueryTrajectoryStateRequest") -> dict[str, Any]:
         sampled = self._trajectory or SampledTrajectory.hold_position(
             [joint.position for joint in self._joints], 0, self._default_tolerances
         )
@@ -159,7 +162,9 @@ class TrajectoryController:
 
     # -- the action
 
-    async def _on_goal(self, goal: Message, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(
+        self, goal: "control_msgs.FollowJointTrajectoryGoal", accept: Callable[[], None]
+    ) -> ActionOutcome:
         """Run a goal to its end, on the loop; a rejected one does not stop the trajectory before it."""
         loop = asyncio.get_running_loop()
         ended: asyncio.Future[ActionOutcome] = loop.create_future()

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -10,6 +11,9 @@ from msgspec.structs import replace
 from trundle.control import JointPoint, JointSpline
 from trundle.parameters import RosParameters
 from trundle.ros import Message, to_nsec
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import control_msgs, trajectory_msgs
 
 _STOPPED = 0.01
 """Default stopped_velocity_tolerance of the original [rad/s or m/s]."""
@@ -39,7 +43,7 @@ class Tolerances(Struct, frozen=True, kw_only=True):
     time_s: float
     """Delay of reaching the goal [s]."""
 
-    def with_goal(self, goal: Message, joints: Sequence[str]) -> "Tolerances":
+    def with_goal(self, goal: "control_msgs.FollowJointTrajectoryGoal", joints: Sequence[str]) -> "Tolerances":
         """Replace tolerances by those of an action's goal; a negative one is not checked."""
 
         def merged(usual: tuple[float, ...], asked: Sequence[Message]) -> tuple[float, ...]:
@@ -103,7 +107,7 @@ class SampledTrajectory:
 
 
 def read_trajectory(
-    trajectory: Message,
+    trajectory: "trajectory_msgs.JointTrajectory",
     joints: Sequence[str],
     now: Sequence[tuple[float, float, float]],
     now_ns: int,
@@ -160,7 +164,7 @@ def read_trajectory(
     return SampledTrajectory(columns, now_ns, tolerances)
 
 
-def _point(time_s: float, point: Message, column: int, width: int) -> JointPoint:
+def _point(time_s: float, point: "trajectory_msgs.JointTrajectoryPoint", column: int, width: int) -> JointPoint:
     def value(what: str) -> float | None:
         values = getattr(point, what)
         if len(values) == 0:

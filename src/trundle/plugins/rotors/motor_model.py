@@ -1,7 +1,7 @@
 """librotors_gazebo_motor_model.so: thrust, drag and torques of a rotor."""
 
 import math
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,12 +9,15 @@ from numpy.typing import NDArray
 from trundle.control import Pid
 from trundle.diagnostics import UsageError
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node
+from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Vector3, Wrench
 
 from ..gazebo_ros.ros_plugin import RosPlugin
 from .namespaces import read_topic_name
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import mav_msgs, rotors_comm
 
 _WAYS = {"cw": -1.0, "ccw": 1.0}
 _GAINS = (
@@ -138,7 +141,7 @@ class MotorModel(RosPlugin):
             torque = pose.transform_vector((0.0, 0.0, -self._way * thrust * self._moment))
             self._parent.add_wrench(Wrench(torque=_sum(torque, -abs(rate) * self._roll * across)))
 
-    def _on_command(self, message: Message) -> None:
+    def _on_command(self, message: "mav_msgs.Actuators") -> None:
         values = message.angular_velocities
         if not 0 <= self._number < len(values):
             self._node.log.error(f"motor {self._number}: the command is for {len(values)} motors")
@@ -147,7 +150,7 @@ class MotorModel(RosPlugin):
         if math.isfinite(wanted):
             self._wanted = min(wanted, self._fastest) if self._kind == "velocity" else wanted
 
-    def _on_wind(self, message: Message) -> None:
+    def _on_wind(self, message: "rotors_comm.WindSpeed") -> None:
         wind = np.array([message.velocity.x, message.velocity.y, message.velocity.z], dtype=float)
         if np.isfinite(wind).all():
             self._wind = wind

@@ -1,15 +1,18 @@
 """libunitreeDrawForcePlugin.so: the force on a foot, as a line."""
 
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from trundle.description import GAZEBO_MATERIALS
 from trundle.model import Box, Cylinder, Geometry, MeshFile, Plane, PluginTag, Sphere, Visual
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node, Subscription
+from trundle.ros import Node, Subscription
 from trundle.simulation import DebugLine, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import ZERO, Vector3
 
 from ..plugin import VisualPlugin
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import geometry_msgs
 
 _NEWTONS_PER_UNIT = 20.0
 
@@ -61,7 +64,7 @@ class DrawForce(VisualPlugin):
         world_from_visual = self._link.pose @ self._link_from_visual
         self._line.points[:] = [world_from_visual.position, world_from_visual.transform_point((x, y, z))]
 
-    def _on_force(self, message: Message) -> None:
+    def _on_force(self, message: "geometry_msgs.WrenchStamped") -> None:
         force = message.wrench.force
         self._force = (force.x, force.y, force.z)
 

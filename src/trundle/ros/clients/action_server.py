@@ -4,11 +4,14 @@ import asyncio
 import itertools
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ..messages.messages import Message
 from ..node.clock import to_nsec
 from ..node.node import Node
+
+if TYPE_CHECKING:
+    from ..message_types import actionlib_msgs
 
 _STATUS_RATE_HZ = 5.0
 _STATUS_LIST_TIMEOUT_S = 5.0
@@ -109,7 +112,7 @@ class ActionServer:
         self._goals[key] = goal
         goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
 
-    def _on_cancel(self, message: Message) -> None:
+    def _on_cancel(self, message: "actionlib_msgs.GoalID") -> None:
         """Cancel by id; an empty id means all, a stamp all goals up to it."""
         stamp = to_nsec(message.stamp)
         for key, goal in self._goals.items():

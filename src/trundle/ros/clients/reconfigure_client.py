@@ -3,12 +3,15 @@
 import asyncio
 import contextlib
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import ServiceError
 from ..messages.messages import Message
 from ..node.node import Node
 from .reconfigure_server import Option, Options, OptionValue, config_message, config_values
+
+if TYPE_CHECKING:
+    from ..message_types import dynamic_reconfigure
 
 _DESCRIPTIONS = "/parameter_descriptions"
 _KIND = "dynamic_reconfigure"
@@ -65,7 +68,7 @@ async def _latched_message(node: Node, topic: str, kind: str) -> Message:
     """Latched message of a topic."""
     future: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
 
-    def on_message(message: Message) -> None:
+    def on_message(message: "dynamic_reconfigure.Config") -> None:
         if not future.done():
             future.set_result(message)
 

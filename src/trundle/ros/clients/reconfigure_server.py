@@ -5,12 +5,14 @@ import math
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..errors import MasterUnreachableError
-from ..messages.messages import Message
 from ..node.callback_dispatch import run_on_callback_thread
 from ..node.node import Node
+
+if TYPE_CHECKING:
+    from ..message_types import dynamic_reconfigure
 
 OptionValue: TypeAlias = bool | int | float | str
 Options: TypeAlias = dict[str, OptionValue]
@@ -79,7 +81,7 @@ class ReconfigureServer:
         for end in self._endpoints:
             end.unregister()
 
-    async def _set(self, request: Message) -> dict[str, Any]:
+    async def _set(self, request: "dynamic_reconfigure.ReconfigureRequest") -> dict[str, Any]:
         asked = {**self._values, **self._read(request.config)}
         node = self._node
         self._values = await run_on_callback_thread(node.deliver, node.loop, lambda: self._apply(asked))
@@ -87,7 +89,7 @@ class ReconfigureServer:
         self._updates.publish(config_message(self._values))
         return {"config": config_message(self._values)}
 
-    def _read(self, config: Message) -> Options:
+    def _read(self, config: "dynamic_reconfigure.Config") -> Options:
         """Requested values, clamped; unknown options and wrong types are logged."""
         taken: Options = {}
         for item in (item for field in _FIELDS.values() for item in getattr(config, field)):
@@ -145,6 +147,6 @@ def config_message(values: Mapping[str, OptionValue]) -> dict[str, Any]:
     return {**config, "groups": [{"name": _GROUP, "state": True}]}
 
 
-def config_values(config: Message) -> Options:
+def config_values(config: "dynamic_reconfigure.Config") -> Options:
     """Values in a dynamic_reconfigure/Config."""
     return {str(item.name): item.value for field in _FIELDS.values() for item in getattr(config, field)}

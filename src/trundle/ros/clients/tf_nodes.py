@@ -1,11 +1,14 @@
 """tf broadcasters, and a listener that fills a buffer. Quaternions are xyzw in messages only."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..messages.messages import Message
 from ..node.clock import SimClock, to_nsec
 from ..node.node import Node
 from .tf_buffer import Transform, TransformBuffer
+
+if TYPE_CHECKING:
+    from ..message_types import tf2_msgs
 
 _TYPE = "tf2_msgs/TFMessage"
 _QUEUE = 100
@@ -60,7 +63,7 @@ class TransformListener:
         if isinstance(node.clock, SimClock):
             node.clock.on_jump(self.buffer.clear)
 
-    def _on_message(self, message: Message, *, static: bool) -> None:
+    def _on_message(self, message: "tf2_msgs.TFMessage", *, static: bool) -> None:
         for transform in read_transforms(message):
             self.buffer.set_transform(transform, static=static)
 
@@ -83,7 +86,7 @@ def transform_message(node: Node, transforms: tuple[Transform, ...]) -> Message:
     return node.new(_TYPE, {"transforms": items})
 
 
-def read_transforms(message: Message) -> list[Transform]:
+def read_transforms(message: "tf2_msgs.TFMessage") -> list[Transform]:
     """Convert a tf2_msgs/TFMessage to transforms."""
     result: list[Transform] = []
     for item in message.transforms:

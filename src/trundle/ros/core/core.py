@@ -4,15 +4,18 @@ import asyncio
 import uuid
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..distro import NOETIC, Distro
 from ..master.master import Master
 from ..master.parameters import ParameterTree
-from ..messages.messages import Message
 from ..node.loop import GraphLoop
 from ..node.node import Node
 from ..node.publisher import Publisher
 from .logs import CoreLogs
+
+if TYPE_CHECKING:
+    from ..message_types import rosgraph_msgs
 
 
 class Core:
@@ -116,7 +119,7 @@ class Core:
         if not self._is_stopping:
             self._start_rosout()
 
-    def _on_log(self, message: Message) -> None:
+    def _on_log(self, message: "rosgraph_msgs.Log") -> None:
         if self._gathered is not None:
             self._gathered.publish(message)
         if self._logs is not None:

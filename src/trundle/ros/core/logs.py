@@ -4,15 +4,17 @@ import os
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.names import resolve_name
 
 from ..log import LEVELS
 from ..log_file import LogFile
 from ..master.parameters import ParameterTree
-from ..messages.messages import Message
 from ..xmlrpc.rpc_methods import Answer
+
+if TYPE_CHECKING:
+    from ..message_types import rosgraph_msgs
 
 ROSOUT_BYTES, ROSOUT_BACKUPS = 100 * 1024 * 1024, 10
 """Limits of the original rosout node."""
@@ -48,7 +50,7 @@ class CoreLogs:
             self._rosout = LogFile(folder / "rosout.log", most_bytes=ROSOUT_BYTES, backups=ROSOUT_BACKUPS)
             self._rosout.write(f"\n\n{time.time_ns() / 1e9:.9f}  Node Startup")
 
-    def log_message(self, message: Message) -> None:
+    def log_message(self, message: "rosgraph_msgs.Log") -> None:
         """Log a rosgraph_msgs/Log in the format of the original rosout node."""
         if self._rosout is not None:
             with_topics = not (
@@ -79,7 +81,7 @@ class CoreLogs:
             self._rosout.close()
 
 
-def rosout_line(message: Message, *, with_topics: bool) -> str:
+def rosout_line(message: "rosgraph_msgs.Log", *, with_topics: bool) -> str:
     """Format a rosgraph_msgs/Log: stamp, level, node, file:line(function), the node's topics if wanted, text."""
     stamp = message.header.stamp
     topics = f"[topics: {', '.join(message.topics)}] " if with_topics else ""

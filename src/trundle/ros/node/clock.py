@@ -5,10 +5,12 @@ import heapq
 import itertools
 import time
 from collections.abc import Callable
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from ..messages.messages import Message
 from .loop import GraphLoop
+
+if TYPE_CHECKING:
+    from ..message_types import Time
 
 NS = 1_000_000_000
 
@@ -110,6 +112,6 @@ class SimClock:
             listener()
 
 
-def to_nsec(stamp: Message) -> int:
+def to_nsec(stamp: "Time") -> int:
     """Return a `time` or `duration` value as nanoseconds."""
     return stamp.sec * NS + stamp.nanosec

@@ -1,7 +1,7 @@
 """The loggers that a node lists for rosconsole and rqt_logger_level, each with its level."""
 
 from collections.abc import Iterable
-from typing import Self
+from typing import Self, cast
 
 from ..log import LEVELS, Level
 
@@ -41,7 +41,7 @@ class Loggers:
         """Every logger by name, with its level."""
         return [(name, self._level(name)) for name in self._names]
 
-    def set(self, name: str, level: Level) -> None:
+    def set(self, name: str, level: str) -> None:
         """Give a logger a level; one without a name is the node's own.
 
         Raises:
@@ -51,7 +51,7 @@ class Loggers:
             raise ValueError(f"no level {level!r}; levels: {', '.join(LEVELS)}")
         name = name or self._own
         self._names = sorted({*self._names, name})
-        self._levels[name] = level
+        self._levels[name] = cast(Level, level)
 
     def _level(self, name: str) -> Level:
         while name:

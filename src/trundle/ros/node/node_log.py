@@ -2,13 +2,15 @@
 
 import traceback
 from collections.abc import Callable
-from typing import Any, Protocol, TextIO
+from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
 from ..errors import ServiceError
 from ..log import LEVELS, Level, caller, print_log
-from ..messages.messages import Message
 from .clock import Clock, WallClock
 from .loggers import Loggers
+
+if TYPE_CHECKING:
+    from ..message_types import roscpp
 
 
 class LogTopic(Protocol):
@@ -67,12 +69,12 @@ class NodeLog:
         """Publish all that follows; `topics` names those that the node publishes."""
         self._rosout, self._topics = rosout, topics
 
-    def get_loggers(self, request: Message) -> dict[str, Any]:
+    def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, Any]:
         """Answer roscpp/GetLoggers."""
         del request
         return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
 
-    def set_logger_level(self, request: Message) -> dict[str, Any]:
+    def set_logger_level(self, request: "roscpp.SetLoggerLevelRequest") -> dict[str, Any]:
         """Answer roscpp/SetLoggerLevel."""
         try:
             self.loggers.set(request.logger, request.level.lower())
