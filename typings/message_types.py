@@ -26,7 +26,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-class Time(Protocol):
+from .messages.messages import TypedMessage
+
+class Time(TypedMessage, Protocol):
     """time or duration."""
 
     sec: int
@@ -102,7 +104,7 @@ def stub() -> str:
     for package in sorted({name.partition("/")[0] for name in known}):
         lines.append(f"class {package}:")
         for name in sorted(each for each in known if each.startswith(f"{package}/")):
-            lines += [f"    class {name.partition('/')[2]}(Protocol):"]
+            lines += [f"    class {name.partition('/')[2]}(TypedMessage, Protocol):"]
             fields = [f"{key}_" if iskeyword(key) else key for key in known[name]]
             types_of = [python_type(ros) for ros in known[name].values()]
             lines += [f"        {field}: {kind}" for field, kind in zip(fields, types_of, strict=True)]

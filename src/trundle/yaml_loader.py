@@ -51,7 +51,7 @@ class BoundedLoader(yaml.SafeLoader):
             raise yaml.YAMLError("nested too deeply") from None
         return node
 
-    def construct_document(self, node: yaml.Node) -> Any:
+    def construct_document(self, node: yaml.Node) -> object:
         """Construct the values."""
         try:
             return super().construct_document(node)
@@ -63,7 +63,7 @@ class BoundedLoader(yaml.SafeLoader):
             raise yaml.YAMLError(str(error)) from None
 
 
-def load_yaml(text: str, loader: type[BoundedLoader] = BoundedLoader) -> Any:
+def load_yaml(text: str, loader: type[BoundedLoader] = BoundedLoader) -> object:
     """Load one document.
 
     Raises:

@@ -3,12 +3,11 @@
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from trundle.diagnostics import UsageError
 
 
-def yaml_value(text: str) -> Any:
+def yaml_value(text: str) -> object:
     """Parse a YAML value from the command line."""
     import yaml
 
@@ -20,7 +19,7 @@ def yaml_value(text: str) -> Any:
         raise UsageError(f"Argument error: {error}") from None
 
 
-def yaml_file(path: str) -> Iterator[Any]:
+def yaml_file(path: str) -> Iterator[object]:
     """Yield the non-empty documents of a file."""
     import yaml
 
@@ -35,7 +34,7 @@ def yaml_file(path: str) -> Iterator[Any]:
         raise UsageError(f"invalid YAML in file {path}: {error}") from None
 
 
-def piped_documents() -> Iterator[Any]:
+def piped_documents() -> Iterator[object]:
     """Yield documents from standard input, each as soon as the `---` after it arrives."""
     lines: list[str] = []
     for line in sys.stdin:

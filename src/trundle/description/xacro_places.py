@@ -34,7 +34,7 @@ class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
         self.curNode.setUserData(_AT, Source(self._file, line), _Kept)
 
 
-def parse_with_lines(data: bytes, file: str) -> Any:
+def parse_with_lines(data: bytes, file: str) -> object:
     """Parse a file, which may start with blank lines; `place_of` returns the position of its elements.
 
     Raises:

@@ -1,7 +1,7 @@
 """Budget of time and memory for the expressions of one document."""
 
 from collections.abc import Iterable, Iterator
-from typing import Any, cast
+from typing import TypeVar, cast
 
 MAX_ITEMS = 1_000_000
 """Characters or items of one value."""
@@ -14,6 +14,7 @@ _MAX_OCTETS = 96 * 1024 * 1024
 _MAX_DEPTH = 100
 """Nesting depth of iterators."""
 
+_Item = TypeVar("_Item")
 _GROUPS = (list, tuple, set, frozenset, type({}.keys()), type({}.values()), type({}.items()))
 _SMALL = 1 << 61
 """Bound below which an integer is its own hash."""
@@ -64,7 +65,7 @@ class Budget:
         self.spend(20)
         self.allocate(800)
 
-    def lazy(self, items: Iterator[Any]) -> "LazyIterator":
+    def lazy(self, items: Iterator[object]) -> "LazyIterator":
         """Wrap a lazily evaluated iterator for use by expressions."""
         self.allocate_generator()
         return LazyIterator(self, items)
@@ -74,15 +75,15 @@ class Budget:
         self.allocate(50 + (len(text) if text.isascii() else 4 * len(text)))
         return text
 
-    def iterate(self, items: Iterable[Any], steps: int = 1) -> Iterator[Any]:
+    def iterate(self, items: Iterable[_Item], steps: int = 1) -> Iterator[_Item]:
         """Iterate with a cost in steps per item."""
         for item in items:
             self.spend(steps)
             yield item
 
-    def collect(self, items: Iterable[Any]) -> list[Any]:
+    def collect(self, items: Iterable[_Item]) -> list[_Item]:
         """Return the items of an iterable as a list."""
-        found: list[Any] = []
+        found: list[_Item] = []
         for item in items:
             self.spend(1)
             self.allocate(40)
@@ -121,7 +122,7 @@ class Budget:
         self.spend(size >> 6)
         return size
 
-    def spend_lookup(self, key: object, among: int) -> Any:
+    def spend_lookup(self, key: _Item, among: int) -> _Item:
         """Use the steps of looking up a key in a dictionary or set of that size."""
         if isinstance(key, tuple | frozenset):
             self.spend_traversal(key)
@@ -138,13 +139,13 @@ class LazyIterator:
 
     __slots__ = ("_budget", "_items")
 
-    def __init__(self, budget: Budget, items: Iterator[Any]) -> None:
+    def __init__(self, budget: Budget, items: Iterator[object]) -> None:
         self._budget, self._items = budget, items
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[object]:
         return self
 
-    def __next__(self) -> Any:
+    def __next__(self) -> object:
         self._budget.depth += 1
         try:
             if self._budget.depth > _MAX_DEPTH:

@@ -6,7 +6,7 @@ from typing import Any
 from .values import Caller
 
 
-def set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
+def set_of(caller: Caller, items: Iterable[object]) -> set[object]:
     """Make a set."""
     found: set[Any] = set()
     caller.budget.allocate(200)

@@ -32,7 +32,7 @@ def ascii_of(budget: Budget, value: object) -> str:
     return budget.allocate_text(ascii(value))
 
 
-def percent_text(budget: Budget, text: str, values: Any) -> str:
+def percent_text(budget: Budget, text: str, values: object) -> str:
     """Format as `text % values` does."""
     if "*" in text and re.search(r"%[^a-zA-Z%]*\*", text):
         raise _unsupported(text)
@@ -42,7 +42,7 @@ def percent_text(budget: Budget, text: str, values: Any) -> str:
     return budget.allocate_text(text % values)
 
 
-def formatted(budget: Budget, value: Any, spec: str) -> str:
+def formatted(budget: Budget, value: object, spec: str) -> str:
     """Format as `format(value, spec)` does."""
     if not spec:
         return text_of(budget, value)
@@ -52,7 +52,7 @@ def formatted(budget: Budget, value: Any, spec: str) -> str:
     return budget.allocate_text(format(value, spec))
 
 
-def format_text(budget: Budget, text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+def format_text(budget: Budget, text: str, values: Sequence[object], named: Mapping[str, object]) -> str:
     """Format as `text.format(*values, **named)` does."""
     budget.spend(len(text) >> 2)
     return budget.allocate_text(_Formatter(budget).vformat(text, values, named))
@@ -98,7 +98,7 @@ class _Formatter(Formatter):
         return text
 
 
-def converted(budget: Budget, value: Any, conversion: str | None) -> Any:
+def converted(budget: Budget, value: object, conversion: str | None) -> object:
     """Apply the `!s`, `!r` or `!a` of a field."""
     match conversion:
         case None:

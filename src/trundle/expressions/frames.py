@@ -16,17 +16,17 @@ Scopes = tuple[frozenset[str], ...]
 class Evaluator(Caller, Protocol):
     """Evaluation, as seen by its operations."""
 
-    def look_up(self, name: str) -> Any:
+    def look_up(self, name: str) -> object:
         """Return the value of a document's name."""
         ...
 
-    def attribute(self, owner: Any, name: str) -> Any:
+    def attribute(self, owner: object, name: str) -> object:
         """Return an attribute of a value."""
         ...
 
 
 Code = Callable[[Evaluator, Frame], Any]
-Assignment = Callable[[Evaluator, dict[Any, Any], Any], None]
+Assignment = Callable[[Evaluator, dict[object, object], object], None]
 
 
 def local_lookup(name: str, depth: int) -> Code:
@@ -96,7 +96,7 @@ class Lambda(Callee):
     def __init__(
         self,
         signature: ast.arguments,
-        defaults: Mapping[str, Any],
+        defaults: Mapping[str, object],
         body: Code,
         cost: int,
         running: Evaluator,
@@ -105,7 +105,7 @@ class Lambda(Callee):
         self._signature, self._defaults, self._body, self._cost = signature, defaults, body, cost
         self._running, self._around = running, around
 
-    def call(self, _caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+    def call(self, _caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         self._running.budget.spend(_STEPS_OF_A_CALL + self._cost + len(values))
         frame: dict[Any, Any] = {None: self._around, **self._defaults}
         arguments = self._signature

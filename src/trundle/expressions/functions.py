@@ -267,10 +267,10 @@ def _product(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) ->
     return reduce(lambda a, b: _multiply(caller.budget, a, b), items, named.get("start", 1))
 
 
-MATH_NAMES: Mapping[str, Any] = {name: value for name, value in vars(math).items() if not name.startswith("_")}
+MATH_NAMES: Mapping[str, object] = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 """Names of `from math import *`."""
 
-GUARDED: Mapping[Callable[..., Any], Guarded] = {
+GUARDED: Mapping[Callable[..., object], Guarded] = {
     **{function: _linear_time(function) for function in MATH_NAMES.values() if callable(function)},
     **{function: _of_small_integers(function) for function in (math.factorial, math.comb, math.perm)},
     math.lcm: _common_multiple,
@@ -299,5 +299,5 @@ GUARDED: Mapping[Callable[..., Any], Guarded] = {
 """Function → guarded replacement."""
 
 _PLAIN = "abs all any bool dict float int len list map max min round sorted str sum tuple"
-PYTHON_NAMES: Mapping[str, Any] = {name: getattr(builtins, name) for name in _PLAIN.split()}
+PYTHON_NAMES: Mapping[str, object] = {name: getattr(builtins, name) for name in _PLAIN.split()}
 """Builtins available without a prefix."""

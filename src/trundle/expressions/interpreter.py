@@ -28,7 +28,7 @@ _SHORT = frozenset({str, int, float, bool})
 class Names(Protocol):
     """Lookup of the names of an expression."""
 
-    def __getitem__(self, name: str, /) -> Any:
+    def __getitem__(self, name: str, /) -> object:
         """Return the value of a name.
 
         Raises:
@@ -45,7 +45,7 @@ class _Compiled(NamedTuple):
 class Interpreter:
     """Interpreter for the expressions of one document, which share a budget."""
 
-    def __init__(self, budget: Budget | None = None, dotted: Callable[[Any, str], Any] | None = None) -> None:
+    def __init__(self, budget: Budget | None = None, dotted: Callable[[object, str], object] | None = None) -> None:
         """Create an interpreter.
 
         Args:
@@ -98,7 +98,7 @@ class Evaluation:
         self._interpreter, self._names = interpreter, names
         self.budget = interpreter.budget
 
-    def look_up(self, name: str) -> Any:
+    def look_up(self, name: str) -> object:
         """Return the value of a name.
 
         Raises:
@@ -109,7 +109,7 @@ class Evaluation:
         except KeyError:
             raise NameError(f"name {name!r} is not defined") from None
 
-    def attribute(self, owner: Any, name: str) -> Any:
+    def attribute(self, owner: object, name: str) -> object:
         """Return an attribute of a value.
 
         Raises:
@@ -121,7 +121,7 @@ class Evaluation:
         found = NotImplemented if dotted is None else dotted(owner, name)
         return attribute(owner, name) if found is NotImplemented else found
 
-    def call(self, callee: Any, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+    def call(self, callee: object, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         """Call a value.
 
         Raises:

@@ -21,14 +21,14 @@ class Method(Callee):
     owner: object
     guard: _Guarded
 
-    def call(self, caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+    def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         return self.guard(caller, self.owner, values, named)
 
     def __repr__(self) -> str:
         return f"<method {self.name}>"
 
 
-def attribute(owner: Any, name: str) -> Any:
+def attribute(owner: object, name: str) -> object:
     """Return an attribute.
 
     Raises:

@@ -8,7 +8,7 @@ from typing import Any, cast
 from .budget import Budget, bound_bits, bound_length
 from .formatting import percent_text
 
-Operation = Callable[[Budget, Any, Any], Any]
+Operation = Callable[[Budget, object, object], Any]
 
 _MACHINE_WORD = 1 << 62
 _SEQUENCES: Any = (str, list, tuple)
@@ -71,6 +71,10 @@ def _power(budget: Budget, base: Any, exponent: Any) -> Any:
     return base**exponent
 
 
+def _shift_right(budget: Budget, a: Any, b: Any) -> Any:
+    return allocate_integer(budget, a >> b)
+
+
 def _shift(budget: Budget, left: Any, right: Any) -> Any:
     if isinstance(left, int) and isinstance(right, int):
         bound_bits(left.bit_length() + right)
@@ -116,7 +120,7 @@ BINARY: dict[type[ast.operator], Operation] = {
     ast.Mod: _modulo,
     ast.Pow: _power,
     ast.LShift: _shift,
-    ast.RShift: lambda budget, a, b: allocate_integer(budget, a >> b),
+    ast.RShift: _shift_right,
     ast.BitAnd: _merging(operator.and_),
     ast.BitOr: _merging(operator.or_),
     ast.BitXor: _merging(operator.xor),
@@ -146,7 +150,7 @@ def _ordered(function: Callable[[Any, Any], Any]) -> Operation:
     return compare
 
 
-def spend_comparison(budget: Budget, left: Any, right: Any) -> None:
+def spend_comparison(budget: Budget, left: object, right: object) -> None:
     """Use the steps of comparing two values."""
     if isinstance(left, _CONTAINERS):
         if isinstance(right, _CONTAINERS):
@@ -170,7 +174,7 @@ def contains(budget: Budget, item: Any, among: Any) -> bool:
     return operator.contains(among, item)
 
 
-def equal(budget: Budget, left: Any, right: Any) -> bool:
+def equal(budget: Budget, left: object, right: object) -> bool:
     """True if two values are equal."""
     spend_comparison(budget, left, right)
     return bool(left == right)

@@ -15,7 +15,7 @@ class Caller(Protocol):
         """Remaining time and memory."""
         ...
 
-    def call(self, callee: Any, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+    def call(self, callee: object, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         """Call a value.
 
         Raises:
@@ -24,7 +24,7 @@ class Caller(Protocol):
         ...
 
 
-Guarded = Callable[[Caller, Sequence[Any], Mapping[str, Any]], Any]
+Guarded = Callable[[Caller, Sequence[object], Mapping[str, object]], Any]
 """Function that bounds its own cost."""
 
 
@@ -33,7 +33,7 @@ class Callee:
 
     __slots__ = ()
 
-    def call(self, caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+    def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         """Call the value."""
         raise NotImplementedError
 
@@ -45,14 +45,14 @@ class Function(Callee):
     name: str
     body: Guarded
 
-    def call(self, caller: Caller, values: Sequence[Any], named: Mapping[str, Any], /) -> Any:
+    def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         return self.body(caller, values, named)
 
     def __repr__(self) -> str:
         return f"<function {self.name}>"
 
 
-def wrap_function(function: Callable[..., Any], name: str | None = None) -> Function:
+def wrap_function(function: Callable[..., object], name: str | None = None) -> Function:
     """Offer a Python function whose cost is linear in the length of its arguments."""
 
     def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:

@@ -149,7 +149,7 @@ class JointSet:
             raise ParamError(f"joint {chain[0] if chain else name!r} follows {name!r}, which is not a free joint")
         return self.free[name], factor, offset
 
-    def message(self) -> dict[str, Any]:
+    def message(self) -> dict[str, object]:
         """JointState fields in file order; an array without any known value is omitted."""
         joints = [(name, *self.resolve(name)) for name in self.names]
         fields: dict[str, Any] = {"name": [name for name, *_ in joints]}

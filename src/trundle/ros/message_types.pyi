@@ -6,60 +6,62 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-class Time(Protocol):
+from .messages.messages import TypedMessage
+
+class Time(TypedMessage, Protocol):
     """time or duration."""
 
     sec: int
     nanosec: int
 
 class actionlib_msgs:
-    class GoalID(Protocol):
+    class GoalID(TypedMessage, Protocol):
         stamp: Time
         id: str
 
 class arbotix_msgs:
-    class EnableRequest(Protocol):
+    class EnableRequest(TypedMessage, Protocol):
         enable: bool
 
-    class RelaxRequest(Protocol): ...
+    class RelaxRequest(TypedMessage, Protocol): ...
 
-    class SetSpeedRequest(Protocol):
+    class SetSpeedRequest(TypedMessage, Protocol):
         speed: float
 
-    class SetupChannelRequest(Protocol):
+    class SetupChannelRequest(TypedMessage, Protocol):
         topic_name: str
         pin: int
         value: int
         rate: int
 
 class control_msgs:
-    class FollowJointTrajectoryGoal(Protocol):
+    class FollowJointTrajectoryGoal(TypedMessage, Protocol):
         trajectory: trajectory_msgs.JointTrajectory
         path_tolerance: list[control_msgs.JointTolerance]
         goal_tolerance: list[control_msgs.JointTolerance]
         goal_time_tolerance: Time
 
-    class GripperCommand(Protocol):
+    class GripperCommand(TypedMessage, Protocol):
         position: float
         max_effort: float
 
-    class GripperCommandGoal(Protocol):
+    class GripperCommandGoal(TypedMessage, Protocol):
         command: control_msgs.GripperCommand
 
-    class JointTolerance(Protocol):
+    class JointTolerance(TypedMessage, Protocol):
         name: str
         position: float
         velocity: float
         acceleration: float
 
-    class QueryTrajectoryStateRequest(Protocol):
+    class QueryTrajectoryStateRequest(TypedMessage, Protocol):
         time: Time
 
 class controller_manager_msgs:
-    class ListControllerTypesRequest(Protocol): ...
-    class ListControllersRequest(Protocol): ...
+    class ListControllerTypesRequest(TypedMessage, Protocol): ...
+    class ListControllersRequest(TypedMessage, Protocol): ...
 
-    class SwitchControllerRequest(Protocol):
+    class SwitchControllerRequest(TypedMessage, Protocol):
         start_controllers: list[str]
         stop_controllers: list[str]
         strictness: int
@@ -69,40 +71,40 @@ class controller_manager_msgs:
         STRICT: int
 
 class dynamic_reconfigure:
-    class BoolParameter(Protocol):
+    class BoolParameter(TypedMessage, Protocol):
         name: str
         value: bool
 
-    class Config(Protocol):
+    class Config(TypedMessage, Protocol):
         bools: list[dynamic_reconfigure.BoolParameter]
         ints: list[dynamic_reconfigure.IntParameter]
         strs: list[dynamic_reconfigure.StrParameter]
         doubles: list[dynamic_reconfigure.DoubleParameter]
         groups: list[dynamic_reconfigure.GroupState]
 
-    class DoubleParameter(Protocol):
+    class DoubleParameter(TypedMessage, Protocol):
         name: str
         value: float
 
-    class GroupState(Protocol):
+    class GroupState(TypedMessage, Protocol):
         name: str
         state: bool
         id: int
         parent: int
 
-    class IntParameter(Protocol):
+    class IntParameter(TypedMessage, Protocol):
         name: str
         value: int
 
-    class ReconfigureRequest(Protocol):
+    class ReconfigureRequest(TypedMessage, Protocol):
         config: dynamic_reconfigure.Config
 
-    class StrParameter(Protocol):
+    class StrParameter(TypedMessage, Protocol):
         name: str
         value: str
 
 class four_wheel_steering_msgs:
-    class FourWheelSteering(Protocol):
+    class FourWheelSteering(TypedMessage, Protocol):
         front_steering_angle: float
         rear_steering_angle: float
         front_steering_angle_velocity: float
@@ -112,7 +114,7 @@ class four_wheel_steering_msgs:
         jerk: float
 
 class gazebo_msgs:
-    class ApplyBodyWrenchRequest(Protocol):
+    class ApplyBodyWrenchRequest(TypedMessage, Protocol):
         body_name: str
         reference_frame: str
         reference_point: geometry_msgs.Point
@@ -120,60 +122,60 @@ class gazebo_msgs:
         start_time: Time
         duration: Time
 
-    class ApplyJointEffortRequest(Protocol):
+    class ApplyJointEffortRequest(TypedMessage, Protocol):
         joint_name: str
         effort: float
         start_time: Time
         duration: Time
 
-    class BodyRequestRequest(Protocol):
+    class BodyRequestRequest(TypedMessage, Protocol):
         body_name: str
 
-    class DeleteLightRequest(Protocol):
+    class DeleteLightRequest(TypedMessage, Protocol):
         light_name: str
 
-    class DeleteModelRequest(Protocol):
+    class DeleteModelRequest(TypedMessage, Protocol):
         model_name: str
 
-    class GetJointPropertiesRequest(Protocol):
+    class GetJointPropertiesRequest(TypedMessage, Protocol):
         joint_name: str
 
-    class GetLightPropertiesRequest(Protocol):
+    class GetLightPropertiesRequest(TypedMessage, Protocol):
         light_name: str
 
-    class GetLinkPropertiesRequest(Protocol):
+    class GetLinkPropertiesRequest(TypedMessage, Protocol):
         link_name: str
 
-    class GetLinkStateRequest(Protocol):
+    class GetLinkStateRequest(TypedMessage, Protocol):
         link_name: str
         reference_frame: str
 
-    class GetModelPropertiesRequest(Protocol):
+    class GetModelPropertiesRequest(TypedMessage, Protocol):
         model_name: str
 
-    class GetModelStateRequest(Protocol):
+    class GetModelStateRequest(TypedMessage, Protocol):
         model_name: str
         relative_entity_name: str
 
-    class GetPhysicsPropertiesRequest(Protocol): ...
-    class GetWorldPropertiesRequest(Protocol): ...
+    class GetPhysicsPropertiesRequest(TypedMessage, Protocol): ...
+    class GetWorldPropertiesRequest(TypedMessage, Protocol): ...
 
-    class JointRequestRequest(Protocol):
+    class JointRequestRequest(TypedMessage, Protocol):
         joint_name: str
 
-    class LinkState(Protocol):
+    class LinkState(TypedMessage, Protocol):
         link_name: str
         pose: geometry_msgs.Pose
         twist: geometry_msgs.Twist
         reference_frame: str
 
-    class ModelState(Protocol):
+    class ModelState(TypedMessage, Protocol):
         model_name: str
         pose: geometry_msgs.Pose
         twist: geometry_msgs.Twist
         reference_frame: str
 
-    class ODEJointProperties(Protocol):
+    class ODEJointProperties(TypedMessage, Protocol):
         damping: NDArray[np.float64]
         hiStop: NDArray[np.float64]
         loStop: NDArray[np.float64]
@@ -185,7 +187,7 @@ class gazebo_msgs:
         fmax: NDArray[np.float64]
         vel: NDArray[np.float64]
 
-    class ODEPhysics(Protocol):
+    class ODEPhysics(TypedMessage, Protocol):
         auto_disable_bodies: bool
         sor_pgs_precon_iters: int
         sor_pgs_iters: int
@@ -197,18 +199,18 @@ class gazebo_msgs:
         erp: float
         max_contacts: int
 
-    class SetJointPropertiesRequest(Protocol):
+    class SetJointPropertiesRequest(TypedMessage, Protocol):
         joint_name: str
         ode_joint_config: gazebo_msgs.ODEJointProperties
 
-    class SetJointTrajectoryRequest(Protocol):
+    class SetJointTrajectoryRequest(TypedMessage, Protocol):
         model_name: str
         joint_trajectory: trajectory_msgs.JointTrajectory
         model_pose: geometry_msgs.Pose
         set_model_pose: bool
         disable_physics_updates: bool
 
-    class SetLightPropertiesRequest(Protocol):
+    class SetLightPropertiesRequest(TypedMessage, Protocol):
         light_name: str
         cast_shadows: bool
         diffuse: std_msgs.ColorRGBA
@@ -219,7 +221,7 @@ class gazebo_msgs:
         direction: geometry_msgs.Vector3
         pose: geometry_msgs.Pose
 
-    class SetLinkPropertiesRequest(Protocol):
+    class SetLinkPropertiesRequest(TypedMessage, Protocol):
         link_name: str
         com: geometry_msgs.Pose
         gravity_mode: bool
@@ -231,25 +233,25 @@ class gazebo_msgs:
         iyz: float
         izz: float
 
-    class SetLinkStateRequest(Protocol):
+    class SetLinkStateRequest(TypedMessage, Protocol):
         link_state: gazebo_msgs.LinkState
 
-    class SetModelConfigurationRequest(Protocol):
+    class SetModelConfigurationRequest(TypedMessage, Protocol):
         model_name: str
         urdf_param_name: str
         joint_names: list[str]
         joint_positions: NDArray[np.float64]
 
-    class SetModelStateRequest(Protocol):
+    class SetModelStateRequest(TypedMessage, Protocol):
         model_state: gazebo_msgs.ModelState
 
-    class SetPhysicsPropertiesRequest(Protocol):
+    class SetPhysicsPropertiesRequest(TypedMessage, Protocol):
         time_step: float
         max_update_rate: float
         gravity: geometry_msgs.Vector3
         ode_config: gazebo_msgs.ODEPhysics
 
-    class SpawnModelRequest(Protocol):
+    class SpawnModelRequest(TypedMessage, Protocol):
         model_name: str
         model_xml: str
         robot_namespace: str
@@ -257,87 +259,87 @@ class gazebo_msgs:
         reference_frame: str
 
 class geometry_msgs:
-    class Point(Protocol):
+    class Point(TypedMessage, Protocol):
         x: float
         y: float
         z: float
 
-    class Pose(Protocol):
+    class Pose(TypedMessage, Protocol):
         position: geometry_msgs.Point
         orientation: geometry_msgs.Quaternion
 
-    class Quaternion(Protocol):
+    class Quaternion(TypedMessage, Protocol):
         x: float
         y: float
         z: float
         w: float
 
-    class Transform(Protocol):
+    class Transform(TypedMessage, Protocol):
         translation: geometry_msgs.Vector3
         rotation: geometry_msgs.Quaternion
 
-    class TransformStamped(Protocol):
+    class TransformStamped(TypedMessage, Protocol):
         header: std_msgs.Header
         child_frame_id: str
         transform: geometry_msgs.Transform
 
-    class Twist(Protocol):
+    class Twist(TypedMessage, Protocol):
         linear: geometry_msgs.Vector3
         angular: geometry_msgs.Vector3
 
-    class Vector3(Protocol):
+    class Vector3(TypedMessage, Protocol):
         x: float
         y: float
         z: float
 
-    class Wrench(Protocol):
+    class Wrench(TypedMessage, Protocol):
         force: geometry_msgs.Vector3
         torque: geometry_msgs.Vector3
 
-    class WrenchStamped(Protocol):
+    class WrenchStamped(TypedMessage, Protocol):
         header: std_msgs.Header
         wrench: geometry_msgs.Wrench
 
 class kobuki_msgs:
-    class MotorPower(Protocol):
+    class MotorPower(TypedMessage, Protocol):
         state: int
         OFF: int
         ON: int
 
 class mav_msgs:
-    class Actuators(Protocol):
+    class Actuators(TypedMessage, Protocol):
         header: std_msgs.Header
         angles: NDArray[np.float64]
         angular_velocities: NDArray[np.float64]
         normalized: NDArray[np.float64]
 
 class nav_msgs:
-    class GetMapRequest(Protocol): ...
+    class GetMapRequest(TypedMessage, Protocol): ...
 
-    class LoadMapRequest(Protocol):
+    class LoadMapRequest(TypedMessage, Protocol):
         map_url: str
 
-    class MapMetaData(Protocol):
+    class MapMetaData(TypedMessage, Protocol):
         map_load_time: Time
         resolution: float
         width: int
         height: int
         origin: geometry_msgs.Pose
 
-    class OccupancyGrid(Protocol):
+    class OccupancyGrid(TypedMessage, Protocol):
         header: std_msgs.Header
         info: nav_msgs.MapMetaData
         data: NDArray[np.int8]
 
 class roscpp:
-    class GetLoggersRequest(Protocol): ...
+    class GetLoggersRequest(TypedMessage, Protocol): ...
 
-    class SetLoggerLevelRequest(Protocol):
+    class SetLoggerLevelRequest(TypedMessage, Protocol):
         logger: str
         level: str
 
 class rosgraph_msgs:
-    class Log(Protocol):
+    class Log(TypedMessage, Protocol):
         header: std_msgs.Header
         level: int
         name: str
@@ -353,12 +355,12 @@ class rosgraph_msgs:
         FATAL: int
 
 class rotors_comm:
-    class WindSpeed(Protocol):
+    class WindSpeed(TypedMessage, Protocol):
         header: std_msgs.Header
         velocity: geometry_msgs.Vector3
 
 class sensor_msgs:
-    class CameraInfo(Protocol):
+    class CameraInfo(TypedMessage, Protocol):
         header: std_msgs.Header
         height: int
         width: int
@@ -371,7 +373,7 @@ class sensor_msgs:
         binning_y: int
         roi: sensor_msgs.RegionOfInterest
 
-    class Image(Protocol):
+    class Image(TypedMessage, Protocol):
         header: std_msgs.Header
         height: int
         width: int
@@ -380,7 +382,7 @@ class sensor_msgs:
         step: int
         data: NDArray[np.uint8]
 
-    class Imu(Protocol):
+    class Imu(TypedMessage, Protocol):
         header: std_msgs.Header
         orientation: geometry_msgs.Quaternion
         orientation_covariance: NDArray[np.float64]
@@ -389,19 +391,19 @@ class sensor_msgs:
         linear_acceleration: geometry_msgs.Vector3
         linear_acceleration_covariance: NDArray[np.float64]
 
-    class JointState(Protocol):
+    class JointState(TypedMessage, Protocol):
         header: std_msgs.Header
         name: list[str]
         position: NDArray[np.float64]
         velocity: NDArray[np.float64]
         effort: NDArray[np.float64]
 
-    class Joy(Protocol):
+    class Joy(TypedMessage, Protocol):
         header: std_msgs.Header
         axes: NDArray[np.float32]
         buttons: NDArray[np.int32]
 
-    class PointCloud2(Protocol):
+    class PointCloud2(TypedMessage, Protocol):
         header: std_msgs.Header
         height: int
         width: int
@@ -412,7 +414,7 @@ class sensor_msgs:
         data: NDArray[np.uint8]
         is_dense: bool
 
-    class PointField(Protocol):
+    class PointField(TypedMessage, Protocol):
         name: str
         offset: int
         datatype: int
@@ -426,7 +428,7 @@ class sensor_msgs:
         FLOAT32: int
         FLOAT64: int
 
-    class RegionOfInterest(Protocol):
+    class RegionOfInterest(TypedMessage, Protocol):
         x_offset: int
         y_offset: int
         height: int
@@ -434,49 +436,49 @@ class sensor_msgs:
         do_rectify: bool
 
 class std_msgs:
-    class Bool(Protocol):
+    class Bool(TypedMessage, Protocol):
         data: bool
 
-    class ColorRGBA(Protocol):
+    class ColorRGBA(TypedMessage, Protocol):
         r: float
         g: float
         b: float
         a: float
 
-    class Float32(Protocol):
+    class Float32(TypedMessage, Protocol):
         data: float
 
-    class Float64(Protocol):
+    class Float64(TypedMessage, Protocol):
         data: float
 
-    class Float64MultiArray(Protocol):
+    class Float64MultiArray(TypedMessage, Protocol):
         layout: std_msgs.MultiArrayLayout
         data: NDArray[np.float64]
 
-    class Header(Protocol):
+    class Header(TypedMessage, Protocol):
         seq: int
         stamp: Time
         frame_id: str
 
-    class Int32(Protocol):
+    class Int32(TypedMessage, Protocol):
         data: int
 
-    class MultiArrayDimension(Protocol):
+    class MultiArrayDimension(TypedMessage, Protocol):
         label: str
         size: int
         stride: int
 
-    class MultiArrayLayout(Protocol):
+    class MultiArrayLayout(TypedMessage, Protocol):
         dim: list[std_msgs.MultiArrayDimension]
         data_offset: int
 
 class std_srvs:
-    class EmptyRequest(Protocol): ...
+    class EmptyRequest(TypedMessage, Protocol): ...
 
 class tf2_msgs:
-    class FrameGraphRequest(Protocol): ...
+    class FrameGraphRequest(TypedMessage, Protocol): ...
 
-    class LookupTransformGoal(Protocol):
+    class LookupTransformGoal(TypedMessage, Protocol):
         target_frame: str
         source_frame: str
         source_time: Time
@@ -485,28 +487,28 @@ class tf2_msgs:
         fixed_frame: str
         advanced: bool
 
-    class TFMessage(Protocol):
+    class TFMessage(TypedMessage, Protocol):
         transforms: list[geometry_msgs.TransformStamped]
 
 class topic_tools:
-    class MuxAddRequest(Protocol):
+    class MuxAddRequest(TypedMessage, Protocol):
         topic: str
 
-    class MuxDeleteRequest(Protocol):
+    class MuxDeleteRequest(TypedMessage, Protocol):
         topic: str
 
-    class MuxListRequest(Protocol): ...
+    class MuxListRequest(TypedMessage, Protocol): ...
 
-    class MuxSelectRequest(Protocol):
+    class MuxSelectRequest(TypedMessage, Protocol):
         topic: str
 
 class trajectory_msgs:
-    class JointTrajectory(Protocol):
+    class JointTrajectory(TypedMessage, Protocol):
         header: std_msgs.Header
         joint_names: list[str]
         points: list[trajectory_msgs.JointTrajectoryPoint]
 
-    class JointTrajectoryPoint(Protocol):
+    class JointTrajectoryPoint(TypedMessage, Protocol):
         positions: NDArray[np.float64]
         velocities: NDArray[np.float64]
         accelerations: NDArray[np.float64]
@@ -514,34 +516,34 @@ class trajectory_msgs:
         time_from_start: Time
 
 class turtlesim:
-    class KillRequest(Protocol):
+    class KillRequest(TypedMessage, Protocol):
         name: str
 
-    class Pose(Protocol):
+    class Pose(TypedMessage, Protocol):
         x: float
         y: float
         theta: float
         linear_velocity: float
         angular_velocity: float
 
-    class SetPenRequest(Protocol):
+    class SetPenRequest(TypedMessage, Protocol):
         r: int
         g: int
         b: int
         width: int
         off: int
 
-    class SpawnRequest(Protocol):
+    class SpawnRequest(TypedMessage, Protocol):
         x: float
         y: float
         theta: float
         name: str
 
-    class TeleportAbsoluteRequest(Protocol):
+    class TeleportAbsoluteRequest(TypedMessage, Protocol):
         x: float
         y: float
         theta: float
 
-    class TeleportRelativeRequest(Protocol):
+    class TeleportRelativeRequest(TypedMessage, Protocol):
         linear: float
         angular: float

@@ -3,7 +3,6 @@
 import asyncio
 import traceback
 from collections.abc import Callable, Coroutine
-from typing import Any
 
 from trundle.diagnostics import TrundleError
 
@@ -13,7 +12,7 @@ from .job import StopTimeouts
 class TaskJob:
     """Runs a coroutine function that returns the exit code."""
 
-    def __init__(self, name: str, run: Callable[[], Coroutine[Any, Any, int]]) -> None:
+    def __init__(self, name: str, run: Callable[[], Coroutine[object, object, int]]) -> None:
         self.name = name
         self._run = run
         self._task: asyncio.Task[int] | None = None

@@ -172,7 +172,7 @@ def _split(text: str, node: LaunchNode) -> list[str]:
         ) from None
 
 
-def _value(text: str) -> bool | int | float | str | list[object] | dict[str, object]:
+def _value(text: str) -> object:
     """Value of a node's `_name:=value` argument: as YAML, else the text."""
     try:
         value = load_yaml(text)

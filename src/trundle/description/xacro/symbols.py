@@ -102,7 +102,7 @@ def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, 
 class SubstitutedNames:
     """Names of a `$(eval …)`, with functions from the package; the original has every builtin."""
 
-    def __init__(self, symbols: Any, others: Mapping[str, Any]) -> None:
+    def __init__(self, symbols: Any, others: Mapping[str, object]) -> None:
         self._symbols, self._others = symbols, others
 
     def __getitem__(self, name: str) -> Any:

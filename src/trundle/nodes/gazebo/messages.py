@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import geometry_msgs
 
 
-def pose_fields(pose: Pose) -> dict[str, Any]:
+def pose_fields(pose: Pose) -> dict[str, object]:
     """Fields of a geometry_msgs/Pose."""
     w, x, y, z = pose.quaternion
     return {"position": vector_fields(pose.position), "orientation": {"x": x, "y": y, "z": z, "w": w}}
@@ -24,7 +24,7 @@ def vector_fields(vector: Vector3) -> dict[str, float]:
     return dict(zip("xyz", vector, strict=True))
 
 
-def twist_fields(twist: Twist) -> dict[str, Any]:
+def twist_fields(twist: Twist) -> dict[str, object]:
     """Fields of a geometry_msgs/Twist."""
     return {"linear": vector_fields(twist.linear), "angular": vector_fields(twist.angular)}
 
@@ -62,7 +62,7 @@ def read_twist(message: "geometry_msgs.Twist") -> Twist:
 
 
 def advertise_status_service(
-    node: Node, name: str, kind: str, work: Callable[[Message], dict[str, Any]], done: str
+    node: Node, name: str, kind: str, work: Callable[[Message], dict[str, object]], done: str
 ) -> None:
     """Advertise a service with `success` and `status_message`, as those of gazebo_ros.
 

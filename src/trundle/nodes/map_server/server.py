@@ -93,7 +93,7 @@ def _read_picture(picture: Path, resolution: str, settings: RosParameters) -> Oc
     return OccupancyGrid(cells=cells, resolution_m=resolution_m, origin=(0.0, 0.0, 0.0))
 
 
-def grid_fields(grid: OccupancyGrid, *, frame: str, stamp_ns: int) -> dict[str, Any]:
+def grid_fields(grid: OccupancyGrid, *, frame: str, stamp_ns: int) -> dict[str, object]:
     """Fields of a nav_msgs/OccupancyGrid."""
     x, y, yaw = grid.origin
     height, width = grid.cells.shape

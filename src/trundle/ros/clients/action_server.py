@@ -82,7 +82,7 @@ class ActionServer:
         """True while a goal is active."""
         return any(goal.status == _ACTIVE for goal in self._goals.values())
 
-    def publish_feedback(self, feedback: dict[str, Any]) -> None:
+    def publish_feedback(self, feedback: dict[str, object]) -> None:
         """Publish feedback for all active goals; thread-safe."""
         if not self._feedback.has_subscribers:
             return

@@ -139,7 +139,7 @@ def _bound(option: Option, bound: float) -> OptionValue:
             return min(max(bound, -sys.float_info.max), sys.float_info.max)
 
 
-def config_message(values: Mapping[str, OptionValue]) -> dict[str, Any]:
+def config_message(values: Mapping[str, OptionValue]) -> dict[str, object]:
     """Fields of a dynamic_reconfigure/Config."""
     config: dict[str, Any] = {field: [] for field in _FIELDS.values()}
     for name, value in values.items():

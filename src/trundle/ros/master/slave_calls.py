@@ -21,7 +21,7 @@ class SlaveCalls:
         self._waiting: dict[str, list[tuple[str, tuple[Any, ...]]]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def send(self, uri: str, method: str, *arguments: Any) -> None:
+    def send(self, uri: str, method: str, *arguments: object) -> None:
         """Queue a call; it replaces a queued call about the same topic or parameter."""
         queue = self._waiting.get(uri)
         if queue is None:

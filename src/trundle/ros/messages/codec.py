@@ -40,7 +40,7 @@ class Codec:
         """
         self._mend = mend
 
-    def write(self, message: Any) -> bytes:
+    def write(self, message: object) -> bytes:
         """Serialize a message.
 
         Raises:
@@ -51,7 +51,7 @@ class Codec:
         except ENCODING_ERRORS:
             return self._mended(message, self._native.write)
 
-    def frame(self, message: Any) -> Pieces:
+    def frame(self, message: object) -> Pieces:
         """Serialize a message with its length prefix: one `bytes`, plus the buffers of long arrays.
 
         Long arrays (images, maps, point clouds) are not copied.

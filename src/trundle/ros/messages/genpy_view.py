@@ -19,7 +19,7 @@ class MessageView:
         self._message = message
         self._messages = messages
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> object:
         message = self._message
         if name == "_type":
             return ros_name(message.__msgtype__)

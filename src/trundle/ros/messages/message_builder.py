@@ -27,14 +27,14 @@ class MessageBuilder:
         self._store = store
         self._fast_path = MessageFastPath(store)
 
-    def message(self, key: str, given: Any, now_ns: int) -> Any:
+    def message(self, key: str, given: object, now_ns: int) -> object:
         """Build a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message."""
         try:
             return self._fast_path.make(key, given)
         except NotFastPathError:
             return self._message(key, given, now_ns, "")
 
-    def empty(self, key: str) -> Any:
+    def empty(self, key: str) -> object:
         """Build a message with ROS's default in all fields."""
         return self._fast_path.empty(key)
 

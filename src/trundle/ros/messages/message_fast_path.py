@@ -45,7 +45,7 @@ class MessageFastPath:
         """
         return (self._makers.get(key) or self._compile(key))(given)
 
-    def empty(self, key: str) -> Any:
+    def empty(self, key: str) -> object:
         """Make a message whose fields all have ROS's default."""
         return self._default_maker(key)()
 
@@ -112,7 +112,7 @@ def dtype_of(kind: str) -> "np.dtype[Any]":
     return np.dtype(_DTYPES.get(kind, kind))
 
 
-def number_array(given: Sequence[Any], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
+def number_array(given: Sequence[object], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
     """Convert a list of plain numbers; None if the elements must be checked one by one."""
     try:
         array = np.array(given)

@@ -8,7 +8,7 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from ..errors import MessageError
 from .codec import Codec
@@ -19,7 +19,15 @@ from .type_registry import TypeRegistry, UnknownTypeError
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
+    from ..message_types import Time
     from .message_builder import MessageBuilder
+
+
+class TypedMessage(Protocol):
+    """What every message object has: its type in rosbags' form."""
+
+    __msgtype__: str
+
 
 Message: TypeAlias = Any
 """A message object: a dataclass made by rosbags, with the fields of its ROS type. Number arrays are numpy arrays,
@@ -84,7 +92,7 @@ class Messages:
         """Class of a type; it needs every field as an argument, unlike `new`."""
         return self._store.types[self._key(type_name)]
 
-    def type_of(self, message: Message) -> str:
+    def type_of(self, message: TypedMessage) -> str:
         """Type name of a message."""
         return ros_name(message.__msgtype__)
 
@@ -178,11 +186,12 @@ class Messages:
             return self._builder.empty(self._key(type_name))
         return self._builder.message(self._key(type_name), fields, time.time_ns() if now_ns is None else now_ns)
 
-    def stamp(self, ns: int) -> Message:
+    def stamp(self, ns: int) -> "Time":
         """Make a `time` value."""
-        return self._store.types["builtin_interfaces/msg/Time"](sec=ns // 10**9, nanosec=ns % 10**9)
+        made: Any = self._store.types["builtin_interfaces/msg/Time"]
+        return made(sec=ns // 10**9, nanosec=ns % 10**9)
 
-    def serialize(self, message: Message) -> bytes:
+    def serialize(self, message: TypedMessage) -> bytes:
         """Serialize a message.
 
         Raises:

@@ -109,7 +109,7 @@ class MessagePrinter:
         return f"\n{indent}secs: {seconds:{self.width}d}\n{indent}nsecs: {nanoseconds:{self.width}d}"
 
 
-def field_value(message: Message, field: str) -> Any:
+def field_value(message: Message, field: str) -> object:
     """Value of a field by its ROS name; the attribute of a Python keyword has a trailing `_`."""
     if field in ("secs", "nsecs"):
         field = {"secs": "sec", "nsecs": "nanosec"}[field]

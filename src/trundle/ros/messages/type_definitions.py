@@ -117,7 +117,7 @@ class TypeDefinitions:
         return "\n".join(lines)
 
 
-def fields_of(store: "Typestore", key: str) -> list[tuple[str, Any]]:
+def fields_of(store: "Typestore", key: str) -> list[tuple[str, object]]:
     """Fields of a type in order, without rosbags' placeholder."""
     return [field for field in store.fielddefs[key][1] if field[0] != PLACEHOLDER]
 

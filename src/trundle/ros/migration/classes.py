@@ -71,7 +71,7 @@ class RuleMessage(metaclass=MessageClass):
 
     __slots__: tuple[str, ...] = ()
 
-    def __init__(self, *values: Any, **named: Any) -> None:
+    def __init__(self, *values: object, **named: object) -> None:
         """Create a message from all fields in order, or from some by name; others are 0 or empty."""
         made = type(self)
         names = list(made.kinds)
@@ -157,7 +157,7 @@ class MessageClasses:
         """Constants of a type: name → (type, value as written)."""
         return self._messages.constants(kind)
 
-    def default(self, kind: str) -> Any:
+    def default(self, kind: str) -> object:
         """Default value of a field."""
         base, bracket, count = kind.partition("[")
         if bracket:
@@ -171,7 +171,7 @@ class MessageClasses:
         """Deserialize with the type store."""
         return self._messages.deserialize(data, kind)
 
-    def write(self, kind: str, fields: dict[str, Any]) -> bytes:
+    def write(self, kind: str, fields: dict[str, object]) -> bytes:
         """Serialize a message with these fields.
 
         Raises:

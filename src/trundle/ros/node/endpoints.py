@@ -6,7 +6,6 @@ Any thread may add and remove one, and does not wait; the rest is read on the lo
 import threading
 from collections.abc import Awaitable, Callable
 from contextlib import AbstractContextManager
-from typing import Any
 
 from ..errors import MessageError
 from .endpoint_recorder import Endpoint, EndpointRecorder
@@ -130,11 +129,11 @@ class NodeEndpoints:
         """Topics with the type this node expects."""
         return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
 
-    def connections(self) -> list[list[Any]]:
+    def connections(self) -> list[list[object]]:
         """All links, as getBusInfo tells them."""
         return [link for end in (*self.publishers, *self.subscriptions) for link in end.connections()]
 
-    def statistics(self) -> list[list[Any]]:
+    def statistics(self) -> list[list[object]]:
         """Bytes and messages, as getBusStats tells them."""
         return [[p.statistics() for p in self.publishers], [s.statistics() for s in self.subscriptions], []]
 

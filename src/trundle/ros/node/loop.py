@@ -96,7 +96,7 @@ class GraphLoop:
         """Whether the caller runs on the loop."""
         return threading.get_ident() == self._thread.ident
 
-    def run(self, coroutine: Coroutine[Any, Any, _T], timeout_s: float | None = 30.0) -> _T:
+    def run(self, coroutine: Coroutine[object, object, _T], timeout_s: float | None = 30.0) -> _T:
         """Run a coroutine on the loop and wait for its answer, from another thread.
 
         Raises:
@@ -111,7 +111,7 @@ class GraphLoop:
             future.cancel()
             raise
 
-    def spawn(self, coroutine: Coroutine[Any, Any, _T]) -> Future[_T]:
+    def spawn(self, coroutine: Coroutine[object, object, _T]) -> Future[_T]:
         """Start a coroutine on the loop, from any thread; if it fails and nobody asks, the log says so."""
         future: Future[_T] = Future()
         self._unstarted[future] = coroutine

@@ -7,12 +7,12 @@ Registering returns at once, from any thread. Whatever needs an answer is a coro
 import asyncio
 import contextlib
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING
 
 from trundle.names import canonical_name, join_names, resolve_name
 
 from ..distro import NOETIC
-from ..messages.messages import ANY_TYPE, Message, Messages
+from ..messages.messages import ANY_TYPE, Message, Messages, TypedMessage
 from ..transport.network import master_uri_from_env, server_address
 from .clock import Clock, WallClock
 from .endpoints import NodeEndpoints
@@ -27,6 +27,9 @@ from .service import Service, ServiceCallback
 from .service_client import call_service, wait_for_service
 from .slave import Slave
 from .subscription import Callback, Subscription
+
+if TYPE_CHECKING:
+    from ..message_types import Time
 
 _FAREWELL_S = 1.0
 """How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
@@ -44,7 +47,7 @@ class Node:
         master_uri: str | None = None,
         namespace: str = "/",
         remappings: Mapping[str, str] | None = None,
-        params: Mapping[str, Any] | None = None,
+        params: Mapping[str, object] | None = None,
         clock: Clock | None = None,
         deliver: Callable[[Callable[[], None]], None] | None = None,
         rosout: bool = True,
@@ -129,7 +132,7 @@ class Node:
         """Make a message; 'now' and 'auto' are this node's ROS time. See `Messages.new`."""
         return self.messages.new(type_name, fields, now_ns=self.clock.now_ns())
 
-    def stamp(self) -> Message:
+    def stamp(self) -> "Time":
         """ROS time as a `time` value."""
         return self.messages.stamp(self.clock.now_ns())
 
@@ -236,7 +239,7 @@ class Node:
         self,
         name: str,
         type_name: str,
-        request: Message | dict[str, Any] | None = None,
+        request: TypedMessage | Mapping[str, object] | None = None,
         *,
         timeout_s: float | None = 10.0,
     ) -> Message:

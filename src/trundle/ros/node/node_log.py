@@ -1,8 +1,8 @@
 """The log of a node: stderr, and /rosout once it is published. Any thread may write to it."""
 
 import traceback
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol, TextIO
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Protocol, TextIO
 
 from ..errors import ServiceError
 from ..log import LEVELS, Level, caller, print_log
@@ -21,7 +21,7 @@ class LogTopic(Protocol):
         """Whether publishing reaches anybody now."""
         ...
 
-    def publish(self, message: dict[str, Any], /) -> None:
+    def publish(self, message: Mapping[str, object], /) -> None:
         """Publish the fields of a rosgraph_msgs/Log."""
         ...
 
@@ -69,12 +69,12 @@ class NodeLog:
         """Publish all that follows; `topics` names those that the node publishes."""
         self._rosout, self._topics = rosout, topics
 
-    def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, Any]:
+    def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, object]:
         """Answer roscpp/GetLoggers."""
         del request
         return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
 
-    def set_logger_level(self, request: "roscpp.SetLoggerLevelRequest") -> dict[str, Any]:
+    def set_logger_level(self, request: "roscpp.SetLoggerLevelRequest") -> dict[str, object]:
         """Answer roscpp/SetLoggerLevel."""
         try:
             self.loggers.set(request.logger, request.level.lower())

@@ -16,7 +16,7 @@ _UNSET: Any = object()
 class ParamClient:
     """The parameter server, seen from one node: names are resolved and remapped."""
 
-    def __init__(self, node: NodeContext, private: Mapping[str, Any]) -> None:
+    def __init__(self, node: NodeContext, private: Mapping[str, object]) -> None:
         """`private` parameters are set when the node starts; reading waits for that."""
         self._node = node
         self._private = dict(private)
@@ -77,7 +77,7 @@ class ParamClient:
         except MasterError:
             return None
 
-    async def watch(self, name: str, callback: ParamCallback) -> Any:
+    async def watch(self, name: str, callback: ParamCallback) -> object:
         """Have a function called, on the loop, whenever a parameter or something below it changes.
 
         Returns:
@@ -88,7 +88,7 @@ class ParamClient:
         self._watched.setdefault(full, []).append(callback)
         return await self._node.master.call("subscribeParam", self._node.uri, full)
 
-    def notify(self, key: str, value: Any) -> bool:
+    def notify(self, key: str, value: object) -> bool:
         """Tell those who watch a parameter; False: nobody does."""
         name = key.rstrip("/") or "/"
         told = [
@@ -101,7 +101,7 @@ class ParamClient:
             callback(name, value)
         return bool(told)
 
-    def unwatch_all(self) -> list[Awaitable[Any]]:
+    def unwatch_all(self) -> list[Awaitable[object]]:
         """Calls that tell the master that nothing is watched any more."""
         return [self._node.master.call("unsubscribeParam", self._node.uri, name) for name in self._watched]
 

@@ -2,12 +2,12 @@
 
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..errors import MessageError
 from ..messages.codec import ENCODING_ERRORS, Codec
-from ..messages.messages import Message
+from ..messages.messages import Message, TypedMessage
 from ..transport.framing import LENGTH, Pieces
 from ..transport.headers import check_md5
 from ..transport.send_queue import SendQueue
@@ -89,7 +89,7 @@ class Publisher:
         """Whether each message counts to somebody; else, what is told again and again may be told less often."""
         return self._wanted > 0 and self._subscriber_links.need_every_message
 
-    def publish(self, message: Message | dict[str, Any] | bytes) -> None:
+    def publish(self, message: TypedMessage | Mapping[str, object] | bytes) -> None:
         """Publish a message, from any thread; never blocks. The message is read-only from now on.
 
         A header's `seq` is filled in. Subscribers that read too slowly lose the oldest messages.
@@ -197,11 +197,11 @@ class Publisher:
         self._subscriber_links.close()
         self._count()
 
-    def connections(self) -> list[list[Any]]:
+    def connections(self) -> list[list[object]]:
         """Links as getBusInfo tells them."""
         return self._subscriber_links.connections()
 
-    def statistics(self) -> list[Any]:
+    def statistics(self) -> list[object]:
         """Bytes and messages as getBusStats tells them."""
         return self._subscriber_links.statistics()
 

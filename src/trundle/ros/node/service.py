@@ -3,7 +3,7 @@
 import asyncio
 import contextlib
 import inspect
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from typing import Any
 
 from ..errors import MessageError, ServiceError, WireError
@@ -13,7 +13,8 @@ from ..transport.tcpros import FrameProtocol
 from .callback_dispatch import run_on_callback_thread
 from .node_context import NodeContext
 
-ServiceCallback = Callable[[Message], "Awaitable[Message | dict[str, Any]] | Message | dict[str, Any]"]
+ServiceCallback = Callable[[Message], object]
+"""Takes the request; returns the response, its fields as a dictionary, or an awaitable of either."""
 _MAX_WAITING = 64
 """Requests one client may send ahead of the answers; no client library sends more than one."""
 

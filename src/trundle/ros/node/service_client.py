@@ -3,10 +3,10 @@
 import asyncio
 import contextlib
 import struct
-from typing import Any
+from collections.abc import Mapping
 
 from ..errors import MasterError, MessageError, RosError, ServiceError, WireError
-from ..messages.messages import Message, Messages, ServiceType
+from ..messages.messages import Message, Messages, ServiceType, TypedMessage
 from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header, frame
 from ..xmlrpc.http import host_and_port
 from .node_context import NodeContext
@@ -16,7 +16,11 @@ _POLL_S = 0.05
 
 
 async def call_service(
-    node: NodeContext, name: str, type_name: str, request: Message | dict[str, Any] | None, timeout_s: float | None
+    node: NodeContext,
+    name: str,
+    type_name: str,
+    request: TypedMessage | Mapping[str, object] | None,
+    timeout_s: float | None,
 ) -> Message:
     """Call a service by its global name.
 

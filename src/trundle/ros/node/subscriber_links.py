@@ -47,7 +47,7 @@ class SubscriberLinks:
         ]
         return far + [[_number(s), name, "o", "INTRAPROCESS", self._topic, True, ""] for s, name in self.local.items()]
 
-    def statistics(self) -> list[Any]:
+    def statistics(self) -> list[object]:
         """Bytes and messages as getBusStats tells them; our header is the first frame."""
         links = [[_number(link), link.out.bytes_sent, link.out.frames_sent - 1, True] for link in self.remote]
         return [self._topic, sum(link.out.bytes_sent for link in self.remote), links]

@@ -130,7 +130,7 @@ class Subscription:
         except MessageError as error:
             self._node.log.error(f"a message on {self.topic} is not taken: {error}")
 
-    def connections(self) -> list[list[Any]]:
+    def connections(self) -> list[list[object]]:
         """Links as getBusInfo tells them."""
         result: list[list[Any]] = []
         for uri, link in self._links.items():
@@ -139,7 +139,7 @@ class Subscription:
             result.append([id(link) % 2**31, uri, "i", kind, self.topic, True, text])
         return result
 
-    def statistics(self) -> list[Any]:
+    def statistics(self) -> list[object]:
         """Bytes and messages as getBusStats tells them."""
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]

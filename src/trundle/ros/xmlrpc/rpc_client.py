@@ -46,7 +46,7 @@ async def call_value(uri: str, method: str, *arguments: object, timeout_s: float
     return unpack_value(uri, method, await call(uri, method, *arguments, timeout_s=timeout_s))
 
 
-def unpack_value(uri: str, method: str, answer: Any) -> Any:
+def unpack_value(uri: str, method: str, answer: object) -> object:
     """Unpack [code, text, value] and return the value.
 
     Raises:

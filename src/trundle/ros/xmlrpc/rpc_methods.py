@@ -1,7 +1,7 @@
 """Argument checks and answers [code, text, value] of the master and slave APIs; refusals in the original's words."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from trundle.names import resolve_name
 
@@ -17,7 +17,7 @@ class BadArgumentError(Exception):
     """An argument the original refuses, with its error text."""
 
 
-def answer_call(methods: Mapping[str, Method], method: str, arguments: list[Any]) -> Answer:
+def answer_call(methods: Mapping[str, Method], method: str, arguments: list[object]) -> Answer:
     """Check the arguments, call the method and return its answer.
 
     Raises:
@@ -40,7 +40,7 @@ def answer_call(methods: Mapping[str, Method], method: str, arguments: list[Any]
         return -1, str(error), nothing
 
 
-def name_argument(what: str, value: Any, caller: str) -> str:
+def name_argument(what: str, value: object, caller: str) -> str:
     """Resolve a name argument in the caller's namespace.
 
     Raises:

@@ -47,7 +47,7 @@ def encode_fault(code: int, text: str) -> bytes:
     return f"<?xml version='1.0'?>\n<methodResponse><fault>{fault}</fault></methodResponse>".encode()
 
 
-def decode_call(body: bytes) -> tuple[str, list[Any]]:
+def decode_call(body: bytes) -> tuple[str, list[object]]:
     """Decode a call.
 
     Raises:
@@ -59,7 +59,7 @@ def decode_call(body: bytes) -> tuple[str, list[Any]]:
     return reader.method, reader.values
 
 
-def decode_response(body: bytes) -> Any:
+def decode_response(body: bytes) -> object:
     """Decode a response.
 
     Raises:
