@@ -32,8 +32,11 @@ from xml.etree import ElementTree
 import yaml
 
 ROOT = Path(__file__).parents[1]
-BIN = Path(os.environ.get("TRUNDLE_BIN", Path(sys.executable).parent))
-"""Where the `trundle` and `python` under test are; the wheel's test names another environment's."""
+_DOCS = sorted((ROOT / "docs").rglob("*.md"))
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md", *_DOCS] if _DOCS else []
+"""The documentation; none in the sdist."""
+COMMANDS = Path(os.environ.get("TRUNDLE_COMMANDS", Path(sys.executable).parent))
+"""Folder of the `trundle` and the `python` that blocks call."""
 _TIMEOUT_S = 60.0
 _FENCE = re.compile(
     r"(?:^[ ]*<!-- (?P<mark>[^\n]+?) -->\n+)?"
@@ -60,6 +63,8 @@ class Folder:
     """Where a page's blocks run, and what they may rely on."""
 
     path: Path
+    commands: Path
+    """Folder of the `trundle` and the `python` that they call."""
     environment: dict[str, str]
 
 
@@ -78,17 +83,27 @@ def read_blocks(page: Path) -> list[Block]:
     ]
 
 
+def has_blocks(page: Path) -> bool:
+    """Whether there is something to run."""
+    return bool(read_blocks(page)) or _has_doctest(page)
+
+
+def _has_doctest(page: Path) -> bool:
+    return any(line.lstrip().startswith(">>> ") for line in page.read_text().splitlines())
+
+
 def is_slow(page: Path) -> bool:
     """Whether the page is left to `make test-all`."""
     return page.read_text().startswith("<!-- slow -->")
 
 
-def run_page(page: Path, folder: Path) -> None:
+def run_page(page: Path, folder: Path, *, commands: Path = COMMANDS) -> None:
     """Run every block; an assertion names the page and the line of the one that does not do what it says."""
-    where = Folder(path=folder, environment=_environment(folder))
+    where = Folder(path=folder, commands=commands, environment=_environment(folder, commands))
     blocks = read_blocks(page)
-    if any(line.lstrip().startswith(">>> ") for line in page.read_text().splitlines()):
-        _run([str(BIN / "python"), "-m", "doctest", "-o", "ELLIPSIS", str(page)], where, f"{page.name}: the doctest")
+    if _has_doctest(page):
+        doctest = [str(where.commands / "python"), "-m", "doctest", "-o", "ELLIPSIS", str(page)]
+        _run(doctest, where, f"{page.name}: the doctest")
     with ExitStack() as running:
         for block, after in itertools.zip_longest(blocks, blocks[1:]):
             name = f"{page.relative_to(ROOT)}:{block.line}"
@@ -115,7 +130,7 @@ def _run_block(block: Block, expected: str | None, where: Folder, name: str, run
         script = ["bash", "-e", "-c", block.text]
         _compare(_run(script, where, name, code=1 if block.mark == "fails" else 0), expected, name)
     elif block.language == "python" and not block.text.startswith(">>>"):
-        _compare(_run([str(BIN / "python"), "-c", block.text], where, name), expected, name)
+        _compare(_run([str(where.commands / "python"), "-c", block.text], where, name), expected, name)
 
 
 def _run(command: list[str], where: Folder, name: str, *, code: int = 0) -> str:
@@ -173,7 +188,7 @@ def _kept_running(block: Block, where: Folder, name: str) -> Iterator[None]:
             process.wait()
 
 
-def _environment(folder: Path) -> dict[str, str]:
+def _environment(folder: Path, commands: Path) -> dict[str, str]:
     """Those of a user who has nothing of ROS: a home and a master of the page's own."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -181,7 +196,7 @@ def _environment(folder: Path) -> dict[str, str]:
     kept = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
     return kept | {
         "HOME": str(folder),
-        "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}",
+        "PATH": f"{commands}{os.pathsep}{os.environ['PATH']}",
         "PYTHONUNBUFFERED": "1",
         "ROS_MASTER_URI": f"http://127.0.0.1:{port}/",
     }

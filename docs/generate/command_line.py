@@ -1,6 +1,7 @@
 """The reference of the command line, from the parsers."""
 
 import argparse
+import re
 
 from trundle.cli.main import COMMANDS, make_parser
 
@@ -34,11 +35,10 @@ def _command(parser: argparse.ArgumentParser, *, level: int) -> str:
         examples, summary = "", examples
     parts = [f"{'#' * level} {parser.prog}", summary]
     if examples:
-        lines = examples.removeprefix("examples:").strip("\n")
-        parts.append(f"```text\n{lines}\n```")
+        parts.append(f"```bash\n{_examples(examples)}\n```")
     subparsers = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
     if not subparsers:
-        parts += [f"```text\n{parser.format_usage().strip()}\n```", _arguments(parser)]
+        parts.append(_arguments(parser))
     for action in subparsers:
         help_of = {choice.dest: choice.help or "" for choice in action._choices_actions}
         seen: set[int] = set()
@@ -48,6 +48,18 @@ def _command(parser: argparse.ArgumentParser, *, level: int) -> str:
                 subparser.description = subparser.description or help_of.get(name, "")
                 parts.append(_command(subparser, level=level + 1))
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _examples(text: str) -> str:
+    """Commands, each below what it does: in `--help` that stands beside it, or on the next line."""
+    commands: list[tuple[str, list[str]]] = []
+    for line in text.removeprefix("examples:").strip("\n").splitlines():
+        command, *comment = re.split(r"\s{2,}", line.removeprefix("  "))
+        if command:
+            commands.append((command, comment))
+        else:
+            commands[-1][1].extend(comment)
+    return "\n".join(f"# {' '.join(comment)}\n{command}" if comment else command for command, comment in commands)
 
 
 def _arguments(parser: argparse.ArgumentParser) -> str:

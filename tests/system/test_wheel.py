@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.docs_blocks import PAGES, ROOT, has_blocks, run_page
 
-ROOT = Path(__file__).parents[2]
 SEEDS = ROOT.parent / "shared/seeds"
 WHEELS = sorted((ROOT / "dist").glob("trundle-*.whl"))
 TIMEOUT_S = 120.0
@@ -118,6 +118,11 @@ def test_the_wheel_renders(run: Run, tmp_path: Path) -> None:
 
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "home.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("page", filter(has_blocks, PAGES), ids=lambda page: page.name)
+def test_every_block_of_the_documentation_does_what_it_says(page: Path, commands: Path, tmp_path: Path) -> None:
+    run_page(page, tmp_path, commands=commands)
 
 
 @pytest.mark.skipif(shutil.which("uvx") is None, reason="uvx is not installed")
