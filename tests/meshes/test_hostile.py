@@ -39,7 +39,7 @@ def test_a_binary_stl_may_start_with_solid(tmp_path: Path) -> None:
 def test_an_stl_that_counts_more_than_it_holds(tmp_path: Path) -> None:
     path = tmp_path / "a.stl"
     path.write_bytes(b"x" + stl(4_000_000_000, TRIANGLE)[1:])
-    assert "says 4000000000 triangles and holds 1" in refused(path)
+    assert "declares 4000000000 triangles and contains 1" in refused(path)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
@@ -59,7 +59,7 @@ def test_collada_nodes_that_multiply(tmp_path: Path) -> None:
     scenes = "<library_visual_scenes>"
     text = text.replace(scenes, f"<library_nodes>{''.join(library)}</library_nodes>{scenes}")
     path.write_text(text.replace('<node id="n1"', '<node id="n0"><instance_node url="#x10"/></node><node id="n1"'))
-    assert "more of them than any robot has" in refused(path)
+    assert "too many of them" in refused(path)
 
 
 def test_a_collada_polygon_of_a_thousand_million_corners(tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def glb(tree: dict[str, object]) -> bytes:
 def test_a_glb_that_promises_more_than_it_holds(tmp_path: Path) -> None:
     path = tmp_path / "a.glb"
     path.write_bytes(glb({"asset": {"version": "2.0"}, "accessors": [{"count": 10**12, "type": "VEC3"}]}))
-    assert "promises more vertices than it has bytes" in refused(path)
+    assert "declares more vertices than it has bytes" in refused(path)
     path.write_bytes(glb({"asset": {"version": "2.0"}, "buffers": [{"uri": "/etc/passwd", "byteLength": 4}]}))
     assert "in another file" in refused(path)
 

@@ -195,7 +195,7 @@ def test_one_part_can_be_asked_for_and_centred(tmp_path: Path) -> None:
 
 def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path: Path) -> None:
     two_parts(tmp_path / "cart.glb")
-    with pytest.raises(MeshError, match=r"cart\.glb: no part 'door'; parts there: "):
+    with pytest.raises(MeshError, match=r"cart\.glb: no part 'door'; parts: "):
         load_mesh(tmp_path / "cart.glb", submesh="door")
 
 
@@ -203,15 +203,15 @@ def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path:
     ("name", "content", "said"),
     [
         ("a.stl", b"", "no triangles|not readable"),
-        ("a.stl", b"\x00\xff garbage that is no mesh" * 9, r"says \d+ triangles and holds 3"),
+        ("a.stl", b"\x00\xff garbage that is no mesh" * 9, r"declares \d+ triangles and contains 3"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\n", "no triangles|not readable"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "not readable"),
         ("a.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "not finite|not readable"),
         ("a.dae", b"<COLLADA>\n", "line 2: not well-formed XML: it ends where <COLLADA> of line 1"),
         ("a.dae", b"", "line 1: the file is empty"),
-        ("a.glb", b"glTF\x02\x00\x00\x00", "no binary glTF, or cut short"),
-        ("a.ply", b"ply", r"\.ply meshes are not read; \.dae, \.glb, \.obj, \.stl are"),
-        ("mesh", b"", "files without ending meshes are not read"),
+        ("a.glb", b"glTF\x02\x00\x00\x00", "not a binary glTF, or truncated"),
+        ("a.ply", b"ply", r"\.ply meshes are not supported; formats: \.dae, \.glb, \.obj, \.stl"),
+        ("mesh", b"", "files without ending meshes are not supported"),
     ],
 )
 def test_a_file_that_cannot_be_used_is_one_sentence_that_names_it(

@@ -94,7 +94,7 @@ def test_a_part_is_asked_for_by_its_nodes_name_as_in_gazebo(tmp_path: Path) -> N
     assert window.rgba == (0.0, 0.0, 1.0, 0.25)
     assert window.vertices.min(axis=0) == pytest.approx([-0.5, -0.5, 0.0])
     assert len(load_mesh(path, submesh="quad").faces) == 4
-    with pytest.raises(MeshError, match="no part 'Door'; parts there: 'Body', 'Window'"):
+    with pytest.raises(MeshError, match="no part 'Door'; parts: 'Body', 'Window'"):
         load_mesh(path, submesh="Door")
 
 

@@ -119,7 +119,7 @@ def test_skeletons_fit_by_name_or_else_by_how_they_branch(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("spoil", "what"),
     [
-        (("root tip</Name", "root lost</Name"), "its skin is bound to 'lost', which is no bone in it"),
+        (("root tip</Name", "root lost</Name"), "its skin is bound to 'lost', which is not a bone in it"),
         (("<skeleton>", "<bones>"), r"line \d+: not well-formed XML: </skeleton> where <bones> "),
         (('<controller id="c">', '<controller id="d">'), "no mesh in it is bound to bones"),
     ],

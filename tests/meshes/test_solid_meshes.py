@@ -68,8 +68,8 @@ def test_the_normals_of_a_terrain_and_a_cone_stand_on_their_surfaces() -> None:
 
 def test_what_is_no_terrain_is_refused_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / "text.png").write_text("no image")
-    with pytest.raises(MeshError, match=r"^it is no image$"):
+    with pytest.raises(MeshError, match=r"^it is not an image$"):
         read_heights(tmp_path / "text.png")
     Image.new("L", (9, 1)).save(tmp_path / "line.png")
-    with pytest.raises(MeshError, match="9 by 1 pixels; 2 to 4096 can be used"):
+    with pytest.raises(MeshError, match="9 by 1 pixels; 2 to 4096 are possible"):
         read_heights(tmp_path / "line.png")

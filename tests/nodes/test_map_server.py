@@ -47,7 +47,7 @@ def test_negated_maps_and_modes(picture: Path) -> None:
         ("[1]", "not a YAML mapping"),
         ("a: [", "expected"),
         (f"image: none.pgm\n{_KEYS}", "none.pgm"),
-        (f"image: map.yaml\n{_KEYS}", "map.yaml: it is no image"),
+        (f"image: map.yaml\n{_KEYS}", "map.yaml: it is not an image"),
         (f"image: map.pgm\n{_KEYS.replace('0.05', '0')}", "resolution must be > 0"),
         (f"image: map.pgm\nmode: other\n{_KEYS}", "no mode 'other'"),
         (f"image: map.pgm\n{_KEYS.replace('[-1.0, -2.0, 0.5]', 'x')}", ""),

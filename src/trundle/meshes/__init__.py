@@ -1,4 +1,4 @@
-"""Vertex arrays from .dae, .stl, .obj and .glb files, from images and from outlines."""
+"""Meshes from .dae, .stl, .obj and .glb files, images and outlines."""
 
 import lazy_loader
 

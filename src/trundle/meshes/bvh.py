@@ -1,4 +1,4 @@
-"""BVH motion capture files: a skeleton of plain offsets, and its joints' angles frame by frame."""
+"""Reader of BVH motion capture files: joint offsets, and joint angles per frame."""
 
 import math
 from collections.abc import Iterator
@@ -15,10 +15,10 @@ _AXES = "XYZ"
 
 
 def read_bvh(text: str) -> Motion:
-    """Read a file, in its own lengths and axes, as Gazebo does; a joint turns by its angles in their order.
+    """Read a file in its own units and axes, as Gazebo does; a joint's rotations are applied in channel order.
 
     Raises:
-        MeshError: it is no such file, or ends too early.
+        MeshError: not a BVH file, or truncated.
     """
     words = iter(text.split())
     try:
@@ -35,7 +35,7 @@ def read_bvh(text: str) -> Motion:
     count = min(count, len(numbers) // max(width, 1), _MAX_FRAMES)
     are_finite = all(np.isfinite(values).all() for values in (step_s, numbers, *(bone.rest for bone in bones)))
     if not (count > 0 and width > 0 and step_s > 0.0 and are_finite):
-        raise MeshError("holds no motion")
+        raise MeshError("contains no motion")
     frames = np.split(
         numbers[: count * width].reshape(count, width), np.cumsum([len(c) for c in channels])[:-1], axis=1
     )
@@ -45,11 +45,11 @@ def read_bvh(text: str) -> Motion:
 
 
 def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]:
-    """The joints, parents first, and what each of them is told in a frame; ends of limbs are no joints."""
+    """Return the joints, parents first, and the channels of each; end sites are not joints."""
     bones: list[Bone] = []
     channels: list[list[str]] = []
     above: list[int] = []
-    """The joints around this word; −1 for an end of a limb."""
+    """Enclosing joints; −1 for an end site."""
     while (word := next(words)) != "MOTION":
         match word:
             case "ROOT" | "JOINT":
@@ -80,7 +80,7 @@ def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]
 
 
 def _heading(words: Iterator[str]) -> tuple[int, float]:
-    """How many frames follow, and how long each lasts [s]."""
+    """Return the number of frames and the frame time [s]."""
     if next(words) != "Frames:":
         raise MeshError("no 'Frames:' after MOTION")
     count = int(next(words))
@@ -90,7 +90,7 @@ def _heading(words: Iterator[str]) -> tuple[int, float]:
 
 
 def _poses(bone: Bone, channels: list[str], values: _Array) -> _Array:
-    """(frames, 4, 4) parent_from_bone."""
+    """Return (frames, 4, 4) parent_from_bone."""
     poses = np.repeat(bone.rest[None], len(values), axis=0)
     for channel, column in zip(channels, values.T, strict=True):
         axis = _AXES.find(channel[:1])

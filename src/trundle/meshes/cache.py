@@ -1,6 +1,6 @@
-"""Meshes that took long to read, kept on disk under a key made of the file's bytes.
+"""Disk cache of meshes that are slow to read, keyed by the file's content.
 
-A cache that cannot be written, whose files are damaged, or that another user could write, costs time and nothing else.
+A cache that is read-only, damaged or writable by another user costs time and nothing else.
 """
 
 import contextlib
@@ -21,25 +21,25 @@ from trundle.ownership import home_folder, is_owned_by_user
 from .raw import RawPart
 
 VERSION = 4
-"""Part of every key; raised where a reader gives something else for the same bytes."""
+"""Version in every key; raised when a reader's result changes for the same bytes."""
 _MAX_BYTES = 512 * 1024 * 1024
 
 
 def folder() -> Path:
-    """Below XDG_CACHE_HOME, or ~/.cache."""
+    """Return the folder below XDG_CACHE_HOME, or ~/.cache."""
     root = os.environ.get("XDG_CACHE_HOME") or home_folder(os.environ) / ".cache"
     return Path(root) / "trundle" / "meshes"
 
 
 def load_parts(key: str) -> list[RawPart] | None:
-    """What was kept under a key; None where nothing was, or it is damaged."""
+    """Load the parts of a key; None if missing or damaged."""
     path = folder() / f"{key}.npz"
-    if not is_owned_by_user(path.parent):  # what another user put there would be taken for the mesh
+    if not is_owned_by_user(path.parent):  # another user's file could be any mesh
         return None
     try:
         data = path.read_bytes()
         parts = _unpacked(data)
-        os.utime(path)  # the longest unused go first
+        os.utime(path)  # marks it as recently used
     except FileNotFoundError:
         return None
     except Exception:  # damage takes any form
@@ -50,7 +50,7 @@ def load_parts(key: str) -> list[RawPart] | None:
 
 
 def save_parts(key: str, parts: Sequence[RawPart]) -> None:
-    """Keep parts under a key, and let go of what was not used for longest."""
+    """Save parts under a key, and remove the least recently used ones beyond the limit."""
     packed = _packed(parts)
     if len(packed) > _MAX_BYTES // 8:
         return
@@ -65,7 +65,7 @@ def save_parts(key: str, parts: Sequence[RawPart]) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Whole or not at all, also where Ctrl-C comes in between."""
+    """Write atomically, even with Ctrl-C in between."""
     with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
         try:
             file.write(data)

@@ -1,4 +1,4 @@
-"""Binary glTF, through trimesh; y is up by its standard, so it is turned to stand upright here."""
+"""Reader of binary glTF through trimesh; glTF's y-up is converted to z-up."""
 
 import io
 import json
@@ -14,14 +14,14 @@ from .texture import as_png
 
 _JSON = b"JSON"
 
-logging.getLogger("trimesh").addHandler(logging.NullHandler())  # else it prints a traceback for a missing texture
+logging.getLogger("trimesh").addHandler(logging.NullHandler())  # otherwise it prints a traceback for a missing texture
 
 
 def read_glb(data: bytes) -> list[RawPart]:
-    """Read a GLB without following any reference out of it.
+    """Read a GLB without following external references.
 
     Raises:
-        Exception: trimesh's own, in its own words.
+        Exception: any exception of trimesh.
     """
     import trimesh
 
@@ -42,7 +42,7 @@ def read_glb(data: bytes) -> list[RawPart]:
             raise MeshError(f"more than {MAX_TRIANGLES} triangles")
         faces = faces[:, ::-1] if np.linalg.det(transform[:3, :3]) < 0 else faces
         normals = None
-        if "vertex_normals" in geometry._cache:  # else trimesh would make some up, and glTF wants flat faces then
+        if "vertex_normals" in geometry._cache:  # otherwise trimesh computes some, but glTF prescribes flat faces
             turned = np.asarray(geometry.vertex_normals, dtype=np.float64) @ np.linalg.pinv(transform[:3, :3])
             normals = at_corners(turned[:, [0, 2, 1]] * (1.0, -1.0, 1.0), faces, 3)
         part = RawPart(
@@ -56,20 +56,20 @@ def read_glb(data: bytes) -> list[RawPart]:
 
 
 def _check_counts(data: bytes) -> None:
-    """Refuse accessors that promise more than the file holds: memory is taken for them before they are read."""
+    """Refuse accessors that declare more than the file contains: their memory is allocated before reading."""
     length = int.from_bytes(data[12:16], "little")
     if data[:4] != b"glTF" or data[16:20] != _JSON or len(data) < 20 + length:
-        raise MeshError("no binary glTF, or cut short")
+        raise MeshError("not a binary glTF, or truncated")
     tree = json.loads(data[20 : 20 + length])
     counts = [accessor.get("count", 0) for accessor in tree.get("accessors", [])]
     if any(not isinstance(count, int) or not 0 <= count <= len(data) for count in counts):
-        raise MeshError("promises more vertices than it has bytes")
+        raise MeshError("declares more vertices than it has bytes")
     if any("uri" in buffer for buffer in tree.get("buffers", [])):
         raise MeshError("its vertices are in another file, which is not read")
 
 
 def _painted(part: RawPart, visual: Any, pictures: dict[int, bytes | None]) -> RawPart:
-    """A part with its material; trimesh turns glTF's v, which points down, up."""
+    """Return a part with its material; trimesh flips glTF's v, which points down."""
     uv = getattr(visual, "uv", None)
     if uv is not None:
         part = replace(part, uv=at_corners(np.asarray(uv, dtype=np.float64), part.faces, 2))

@@ -1,4 +1,4 @@
-"""Grey images as terrain."""
+"""Heightmaps from grey images."""
 
 from pathlib import Path
 
@@ -9,28 +9,28 @@ from .mesh import MeshError
 from .texture import image_file, why_undecoded
 
 _MAX_PIXELS = 4096
-"""Of each side of an image."""
+"""Largest side of an image [px]."""
 MAX_SAMPLES = 1025
-"""Of each side of the terrain; more is thinned out."""
+"""Most samples per side of the terrain; larger ones are reduced."""
 
 
 def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> NDArray[np.float32]:
-    """Read an image as (rows, columns) from black, 0, to white, 1; the upper edge first.
+    """Read an image as (rows, columns) heights from 0 (black) to 1 (white), upper edge first.
 
     Args:
-        path: of a grey image of 8 or 16 bit, or of one that becomes grey.
-        sampling: samples for each pixel and axis.
-        most: samples of each side.
+        path: a grey image of 8 or 16 bit, or one that is converted.
+        sampling: samples per pixel and axis.
+        most: most samples per side.
 
     Raises:
-        MeshError: it cannot be read, or is too large or a mere line.
+        MeshError: it cannot be read, is too large, or is a single line.
     """
     from PIL import Image  # slow to load, and few worlds have terrain
 
     try:
         with Image.open(image_file(path)) as image:
             if max(image.size) > _MAX_PIXELS or min(image.size) < 2:
-                raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MAX_PIXELS} can be used")
+                raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MAX_PIXELS} are possible")
             deep = image.mode in ("I", "F") or image.mode.startswith("I;")
             grey = image if deep else image.convert("L")
             columns, rows = (min((n - 1) * max(sampling, 1) + 1, most) for n in image.size)

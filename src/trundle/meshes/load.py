@@ -1,4 +1,4 @@
-"""Reads a mesh file of any format, or takes it from the cache."""
+"""Loader of mesh files of any format, with a cache."""
 
 import hashlib
 import os
@@ -20,22 +20,22 @@ from .texture import find_texture, mean_colour
 
 MAX_BYTES = 256 * 1024 * 1024
 _SLOW = frozenset({".dae", ".glb", ".obj"})
-"""Formats that are worth keeping once read; STL is as fast as the cache."""
+"""Formats worth caching; STL is as fast as the cache."""
 _FORMATS = _SLOW | {".stl"}
 _WORTH_KEEPING = 100_000
-"""[bytes] Smaller files are read again as fast."""
+"""Size from which caching is worthwhile [bytes]."""
 _LIBRARY = re.compile(rb"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
 
 def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -> Mesh:
-    """Read a mesh file into one list of triangles, in parts of one colour.
+    """Read a mesh file as one list of triangles, in parts of one colour.
 
-    The numbers of a file are metres, but for .dae, which states its own unit.
+    Lengths are metres, except for .dae, which states its unit.
 
     Args:
         path: .dae, .stl, .obj or .glb.
         submesh: only the parts of this name.
-        center: move the middle of the bounding box of what is left to the origin.
+        center: move the bounding box centre of the selected parts to the origin.
 
     Raises:
         MeshError: unreadable, too large, no triangles, or no such part.
@@ -44,21 +44,21 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
         suffix = path.suffix.lower()
         if suffix not in _FORMATS:
             known = ", ".join(sorted(_FORMATS))
-            raise MeshError(f"{suffix or 'files without ending'} meshes are not read; {known} are")
+            raise MeshError(f"{suffix or 'files without ending'} meshes are not supported; formats: {known}")
         stat = path.stat()
         return _load(path, suffix, submesh, center, (stat.st_mtime_ns, stat.st_size))
 
 
 @contextmanager
 def faults_of(path: Path) -> Generator[None]:
-    """Have whatever a reader fails with be a MeshError that starts with the file's name."""
+    """Convert every exception of a reader to a MeshError that starts with the file's name."""
     try:
         yield
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
     except OSError as error:
         raise MeshError(f"{path}: {error.strerror or error}") from None
-    except Exception as error:  # every reader fails in its own way
+    except Exception as error:  # every reader has its own exceptions
         what = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(f"{path}: not readable as {path.suffix.lower()}: {what[:200]}") from None
 
@@ -71,7 +71,7 @@ def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tup
         chosen = [part for part in parts if submesh in part.names]
         if not chosen:
             names = sorted({part.names[0] for part in parts if part.names})
-            raise MeshError(f"no part {submesh!r}; parts there: {', '.join(map(repr, names)) or 'none'}")
+            raise MeshError(f"no part {submesh!r}; parts: {', '.join(map(repr, names)) or 'none'}")
         parts = chosen
     return joined(parts, path, center)
 
@@ -111,7 +111,7 @@ def _read(data: bytes, suffix: str, path: Path) -> list[RawPart]:
 
 
 def _read_sibling(path: Path, name: str) -> bytes | None:
-    """A file in the mesh's folder or below; None where there is none, or it lies elsewhere or is too large."""
+    """Read a file in the mesh's folder or below; None if it is missing, elsewhere or too large."""
     file = path.parent / name.replace("\\", "/")
     try:
         inside = Path(os.path.realpath(file)).is_relative_to(os.path.realpath(path.parent))
@@ -121,10 +121,10 @@ def _read_sibling(path: Path, name: str) -> bytes | None:
 
 
 def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
-    """One mesh of parts, in their order; those without triangles are left out.
+    """Join parts to one mesh, in order, without those that have no triangles.
 
     Raises:
-        MeshError: nothing is left, or not everything is a triangle in space.
+        MeshError: nothing is left, or the data is not a valid triangle mesh.
     """
     parts = [part for part in parts if len(part.faces)]
     if not parts:
@@ -182,7 +182,7 @@ def _tinted(rgba: Rgba, tint: Rgba) -> Rgba:
 def _joined_corners(
     values: Sequence[NDArray[np.float32] | None], parts: Sequence[RawPart], size: int
 ) -> NDArray[np.float32] | None:
-    """What all parts say of their corners, zeros where one says nothing; None where all do."""
+    """Return the corner values of all parts, with zeros for parts without any; None if no part has any."""
     if all(value is None for value in values):
         return None
     rows = [

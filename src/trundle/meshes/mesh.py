@@ -1,4 +1,4 @@
-"""Triangles, in parts that each have a colour."""
+"""Triangle meshes, in parts of one colour."""
 
 from functools import lru_cache
 from pathlib import Path
@@ -13,63 +13,63 @@ from trundle.diagnostics import TrundleError
 
 Rgba: TypeAlias = tuple[float, float, float, float]
 Texture: TypeAlias = Path | bytes
-"""An image: its file, or what a file of it would hold where it is inside the mesh's own."""
+"""Image file, or its content if embedded in the mesh file."""
 
 
 class MeshError(TrundleError):
-    """A mesh file that cannot be used; the text says why."""
+    """Unusable mesh file, with the reason."""
 
 
 class MeshPart(Struct, frozen=True, kw_only=True):
-    """Some faces of a mesh in a row: what a file gives one material."""
+    """Contiguous faces of a mesh with one material."""
 
     name: str
-    """Of the node or object it comes from."""
+    """Name of the node or object in the file."""
     first_face: int
     face_count: int
     rgba: Rgba | None = None
-    """The file's own colour; where there is a texture, its mean. None: the file has none."""
+    """Colour in the file, or the texture's mean colour. None: the file has none."""
     texture: Texture | None = None
-    """An image, laid out by the mesh's `uv`."""
+    """Texture, mapped by the mesh's `uv`."""
     tint: Rgba = (1.0, 1.0, 1.0, 1.0)
-    """What the image's colours are multiplied by."""
+    """Factor of the texture's colours."""
     missing_texture: str | None = None
-    """What the file names and is not there."""
+    """Texture named in the file that was not found."""
 
 
 class Mesh(Struct, frozen=True, eq=False):
-    """A triangle mesh in its own frame, in metres, z up."""
+    """Triangle mesh in its own frame, in metres, z up."""
 
     vertices: NDArray[np.float32]
     """(N, 3) [m]"""
     faces: NDArray[np.int32]
-    """(M, 3) indices into the vertices, counter-clockwise from outside."""
+    """(M, 3) vertex indices, counter-clockwise from outside."""
     rgba: Rgba | None = None
-    """The colour of its largest part; None where that has none."""
+    """Colour of the largest part; None if it has none."""
     uv: NDArray[np.float32] | None = None
-    """(M, 3, 2) where each corner of each face is in an image: u to the right, v up, (0, 0) at the lower left of the
-    image, beyond 0…1 it repeats. Zeros in parts whose file has none; None: no part has any. Where only the description
-    paints a mesh, its texture is laid out by this too."""
+    """(M, 3, 2) texture coordinates of each face corner: u to the right, v up, (0, 0) at the lower left of the image,
+    repeated beyond 0…1. Zeros for parts without any; None: no part has any. They also map a texture set by the
+    description alone.
+    """
     parts: tuple[MeshPart, ...] = ()
-    """In the order of the faces; none: all of one colour."""
+    """Parts in the order of the faces; empty: one colour."""
     normals: NDArray[np.float32] | None = None
-    """(M, 3, 3) which way the surface faces at each corner of each face, of any length, for light that runs smoothly
-    over edges; zeros, or None, where faces are flat."""
+    """(M, 3, 3) normals of each face corner, of any length, for smooth shading; zeros, or None, for flat faces."""
 
     def degenerate_face_count(self) -> int:
-        """How many faces have corners on one line, or one place."""
+        """Return the number of faces with collinear or coincident corners."""
         a, b, c = (self.vertices[self.faces[:, corner]] for corner in range(3))
         with np.errstate(over="ignore", invalid="ignore"):
             return int((~np.cross(b - a, c - a).any(axis=1)).sum())
 
     def scaled(self, scale: tuple[float, float, float]) -> "Mesh":
-        """The mesh stretched along its axes; a mirrored one keeps its outside outside."""
+        """Return the mesh scaled along its axes; a mirrored one keeps its faces outwards."""
         if scale == (1.0, 1.0, 1.0):
             return self
         mirrored = scale[0] * scale[1] * scale[2] < 0
         step = -1 if mirrored else 1
         factors = np.asarray(scale, dtype=np.float32)
-        upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # along 1 / factors, where none is 0 too
+        upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # along 1 / factors, but finite for zeros
         return replace(
             self,
             vertices=self.vertices * factors,
@@ -79,7 +79,7 @@ class Mesh(Struct, frozen=True, eq=False):
         )
 
     def with_vertices(self, vertices: NDArray[np.float32]) -> "Mesh":
-        """The mesh with its vertices elsewhere, (N, 3) [m]; its normals turn as their faces do."""
+        """Return the mesh with other vertices (N, 3) [m]; its normals rotate with their faces."""
         if self.normals is None:
             return replace(self, vertices=vertices)
         in_face = self.normals @ _axes(self.vertices[self.faces]).transpose(0, 2, 1)
@@ -87,19 +87,19 @@ class Mesh(Struct, frozen=True, eq=False):
         return replace(self, vertices=vertices, normals=normals)
 
     def split_by_material(self) -> tuple["Mesh", ...]:
-        """The mesh cut into meshes of one colour and one texture each, which its first part has."""
+        """Return the mesh split into meshes of one colour and one texture, stored in their first part."""
         return _split_by_material(self)
 
 
 def _axes(corners: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Of triangles (M, 3, 3): three axes in rows that turn with them, (M, 3, 3); zeros where there is no area."""
+    """Return (M, 3, 3) axes, in rows, that rotate with triangles (M, 3, 3); zeros for those without area."""
     along = corners[:, 1] - corners[:, 0]
     up = np.cross(along, corners[:, 2] - corners[:, 0])
     axes = np.stack([along, np.cross(up, along), up], axis=1)
     return axes / np.maximum(np.linalg.norm(axes, axis=2, keepdims=True), np.float32(1e-30))
 
 
-@lru_cache(maxsize=256)  # a robot's four wheels are to stay instances of one mesh
+@lru_cache(maxsize=256)  # a robot's four wheels stay instances of one mesh
 def _split_by_material(mesh: Mesh) -> tuple[Mesh, ...]:
     looks: dict[tuple[Rgba | None, Texture | None, Rgba], list[MeshPart]] = {}
     for part in mesh.parts:

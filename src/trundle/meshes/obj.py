@@ -1,4 +1,4 @@
-"""Wavefront OBJ and its materials."""
+"""Reader of Wavefront OBJ and its materials."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ from .mesh import Rgba
 from .raw import RawPart, at_corners, triangle_fans, used_vertices
 
 ReadSibling = Callable[[str], bytes | None]
-"""A file beside the mesh, by its relative path; None where there is none."""
+"""Reads a file beside the mesh by its relative path; None if it is missing."""
 
 
 class _Group(Struct):
@@ -22,22 +22,22 @@ class _Group(Struct):
 
 
 class _Material(Struct):
-    """A material of a library."""
+    """Material of a library."""
 
     diffuse: tuple[float, float, float] | None = None
     opacity: float = 1.0
     texture: str | None = None
 
     def over(self, r: float, g: float, b: float) -> Rgba:
-        """Its colour, or that one where it states none."""
+        """Return its colour, or the given one if it has none."""
         return (*(self.diffuse or (r, g, b)), self.opacity)
 
 
 def read_obj(data: bytes, beside: ReadSibling) -> list[RawPart]:
-    """Read an OBJ; lines and points are no triangles and are passed over.
+    """Read an OBJ; lines and points are skipped.
 
     Raises:
-        ValueError, IndexError: numbers that are none.
+        ValueError, IndexError: invalid numbers.
     """
     vertices: list[list[float]] = []
     places: list[list[float]] = []
@@ -72,7 +72,9 @@ def read_obj(data: bytes, beside: ReadSibling) -> list[RawPart]:
 
 
 def _add_face(group: _Group, corners: list[str], counts: tuple[int, int, int]) -> None:
-    """Indices count from 1, or from the latest back if negative; `counts` of vertices, places and normals so far."""
+    """Add a face; indices count from 1, or backwards from the latest if negative. `counts` are those of vertices,
+    texture coordinates and normals so far.
+    """
     for corner in corners:
         index, place, normal = (*corner.split("/"), "", "")[:3]
         group.corners.append(_index(index, counts[0]))
@@ -110,7 +112,7 @@ def _part(
 
 
 def read_mtl(data: bytes) -> dict[str, _Material]:
-    """The materials of a library: diffuse colour, opacity and diffuse map."""
+    """Return the materials of a library: diffuse colour, opacity and diffuse map."""
     looks: dict[str, _Material] = {}
     look = _Material()
     for line in data.decode("utf-8", "replace").splitlines():
@@ -128,7 +130,7 @@ def read_mtl(data: bytes) -> dict[str, _Material]:
         elif keyword == "tr":
             look.opacity = 1.0 - _fraction(words[-1])
         elif keyword == "map_kd":
-            look.texture = words[-1]  # options such as -s 1 1 1 come before the name
+            look.texture = words[-1]  # after options such as -s 1 1 1
     return looks
 
 

@@ -1,4 +1,4 @@
-"""What the readers of the formats give: loose parts in the file's own units, in double precision."""
+"""Result of the format readers: separate parts in the file's own units, in double precision."""
 
 import numpy as np
 from msgspec import Struct
@@ -7,52 +7,52 @@ from numpy.typing import NDArray
 from .mesh import Rgba
 
 MAX_TRIANGLES = 20_000_000
-"""More than any robot; a file can ask for more by naming one part over and over."""
+"""Most triangles of a mesh; a small file can instantiate one part repeatedly."""
 
 
 class RawSkin(Struct, frozen=True, eq=False, kw_only=True):
-    """How a part's vertices hang on bones."""
+    """Bone weights of a part's vertices."""
 
     bound: NDArray[np.float64]
-    """(N, 3) the vertices where they were bound."""
+    """(N, 3) vertices in the bind pose."""
     bones: tuple[str, ...]
     bone_from_skin: NDArray[np.float64]
-    """(bones, 4, 4)"""
+    """(bones, 4, 4) inverse bind matrices."""
     influences: NDArray[np.intp]
     """(N, K) indices into the bones."""
     weights: NDArray[np.float64]
-    """(N, K) of each; each row's sum is 1."""
+    """(N, K) weights; each row's sum is 1."""
 
 
 class RawPart(Struct, frozen=True, kw_only=True):
-    """The triangles of one material in one node or object."""
+    """Triangles of one material in one node or object."""
 
     names: tuple[str, ...]
-    """What a description may call it by, the usual one first."""
+    """Names for <submesh>, the usual one first."""
     vertices: NDArray[np.float64]
     """(N, 3)"""
     faces: NDArray[np.int64]
     """(M, 3)"""
     rgba: Rgba | None = None
     texture: str | bytes | None = None
-    """A path relative to the mesh file, as written, or the image itself."""
+    """Path relative to the mesh file, as written, or the embedded image."""
     tint: Rgba = (1.0, 1.0, 1.0, 1.0)
-    """What the texture's colours are multiplied by."""
+    """Factor of the texture's colours."""
     uv: NDArray[np.float32] | None = None
-    """(M, 3, 2) of each corner of each face; v is up."""
+    """(M, 3, 2) texture coordinates of each face corner; v is up."""
     normals: NDArray[np.float32] | None = None
-    """(M, 3, 3) of each corner of each face, of any length."""
+    """(M, 3, 3) normals of each face corner, of any length."""
     skin: RawSkin | None = None
-    """None: it hangs on no bones."""
+    """None: not bound to bones."""
 
 
 def used_vertices(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The vertices that faces name, and the faces numbered anew.
+    """Return the vertices used by faces, and the faces with new indices.
 
     Raises:
-        IndexError: a face names a vertex that is not there.
+        IndexError: a face refers to a missing vertex.
     """
     if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
         raise IndexError(f"a face names vertex {faces.max()} of {len(vertices)}")
@@ -61,9 +61,9 @@ def used_vertices(
 
 
 def at_corners(values: NDArray[np.float64], faces: NDArray[np.int64], size: int) -> NDArray[np.float32] | None:
-    """The first numbers of a value for each corner: (M, 3, size), by faces that number values.
+    """Return the first `size` components of a value per face corner, (M, 3, size), by faces that index the values.
 
-    None where they name one that is not there.
+    None if an index is out of range.
     """
     if not len(faces) or faces.min() < 0 or faces.max() >= len(values) or values.shape[1] < size:
         return None
@@ -71,7 +71,7 @@ def at_corners(values: NDArray[np.float64], faces: NDArray[np.int64], size: int)
 
 
 def triangle_fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The corners of polygons, one after another, as fans of triangles: (M, 3) positions in `indices`.
+    """Triangulate polygons, given one after another, as fans: (M, 3) positions in `indices`.
 
     Raises:
         ValueError: the counts do not add up.

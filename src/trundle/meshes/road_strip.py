@@ -1,4 +1,4 @@
-"""A strip of triangles along a line, as roads are drawn."""
+"""Triangle strips along a line, for roads."""
 
 from collections.abc import Sequence
 
@@ -9,16 +9,16 @@ from trundle.spatial import Vector3
 from .mesh import Mesh
 
 _BEND = 0.97
-"""Cosine between two segments beyond which a corner is as good as straight, or turns back, and is not widened."""
+"""Cosine between two segments beyond which a corner is nearly straight or turns back, and is not widened."""
 
 
 def strip_mesh(points: Sequence[Vector3], width: float) -> Mesh:
-    """A level strip, wider in its corners so that it is as wide between them, as Gazebo has its roads.
+    """Return a level strip with mitred corners, as Gazebo's roads.
 
-    Its uv repeat an image as wide as the strip: u from 0 on the left to 1 on the right, v up along the way.
+    Its uv repeat an image as wide as the strip: u from 0 on the left to 1 on the right, v up along the road.
 
     Args:
-        points: of the middle line, at least two [m].
+        points: centre line, at least two [m].
         width: [m]
     """
     line = np.array(points, dtype=np.float64)
@@ -35,6 +35,6 @@ def strip_mesh(points: Sequence[Vector3], width: float) -> Mesh:
     vertices = np.stack([line + sides, line - sides], axis=1).reshape(-1, 3)
     covered = np.concatenate([[0.0], np.cumsum(lengths)]) / width
     places = np.column_stack([np.tile([0.0, 1.0], len(line)), np.repeat(covered, 2)])
-    quad = np.array([[0, 1, 3], [0, 3, 2]])  # left and right, here and at the next point
+    quad = np.array([[0, 1, 3], [0, 3, 2]])  # left and right vertex, here and at the next point
     faces = (2 * np.arange(len(segments))[:, None, None] + quad).reshape(-1, 3)
     return Mesh(vertices.astype(np.float32), faces.astype(np.int32), uv=places[faces].astype(np.float32))

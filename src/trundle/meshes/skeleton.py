@@ -1,4 +1,4 @@
-"""Bones, how they move, and the skin that they carry along."""
+"""Skeletons, their animations, and skins."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,33 +16,33 @@ _SMALL = 1e-12
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Bone:
-    """One of a skeleton's bones, or a node that bones hang from."""
+    """Bone of a skeleton, or a parent node of bones."""
 
     name: str
     id: str
-    """What animations call it."""
+    """Id used by animations."""
     parent: int
-    """Index of the bone it hangs from, which comes before it; −1: none."""
+    """Index of the parent bone, which comes before it; −1: none."""
     is_joint: bool
     rest: _Array
-    """(4, 4) parent_from_bone [m], where no animation moves it."""
+    """(4, 4) parent_from_bone in the rest pose [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """How one bone moves: parent_from_bone at some times."""
+    """Animation of one bone: parent_from_bone at key times."""
 
     times: _Array
-    """(T,) [s], rising."""
+    """(T,) key times [s], ascending."""
     positions: _Array
-    """(T, 3) [m]"""
+    """(T, 3) positions [m]."""
     rotations: tuple[Quaternion, ...]
     """T unit quaternions."""
     scales: _Array
-    """(T, 3) along the bone's axes."""
+    """(T, 3) scales along the bone's axes."""
 
     def pose_at(self, time_s: float, scale: float) -> _Array:
-        """(4, 4) at a time, between two of them as far as it has gone; places are multiplied by `scale`."""
+        """Return the interpolated pose (4, 4) at a time, with positions multiplied by `scale`."""
         after = int(np.clip(np.searchsorted(self.times, time_s, side="right"), 1, max(len(self.times) - 1, 1)))
         before, after = after - 1, min(after, len(self.times) - 1)
         span = self.times[after] - self.times[before]
@@ -60,11 +60,11 @@ class Track:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motion:
-    """An animation of a skeleton, over and over."""
+    """Looped animation of a skeleton."""
 
     bones: tuple[Bone, ...]
     tracks: Mapping[int, Track]
-    """By the number of the bone."""
+    """Bone index → track."""
     length_s: float = field(init=False)
 
     def __post_init__(self) -> None:
@@ -72,7 +72,9 @@ class Motion:
         object.__setattr__(self, "length_s", max(ends, default=0.0))
 
     def time_at(self, distance: float, scale: float) -> float:
-        """When the root has come so far along x [m], time and again from its first round's start to its end."""
+        """Return the time at which the root has moved a distance along x [m], repeated over the animation's total
+        distance.
+        """
         track = self.tracks.get(root_of(self.bones))
         way = None if track is None else np.maximum.accumulate(track.positions[:, 0]) * scale
         if track is None or way is None or not way[-1] > 0.0:
@@ -80,31 +82,31 @@ class Motion:
         return float(np.interp(max(distance % float(way[-1]), float(way[0])), way, track.times))
 
     def poses(self, time_s: float, scale: float) -> dict[int, _Array]:
-        """parent_from_bone (4, 4) of each bone that moves; places are multiplied by `scale`."""
+        """Return parent_from_bone (4, 4) of each animated bone, with positions multiplied by `scale`."""
         time_s = time_s % self.length_s if self.length_s > 0.0 else 0.0
         return {number: track.pose_at(time_s, scale) for number, track in self.tracks.items()}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Skin:
-    """A mesh whose vertices follow bones."""
+    """Mesh deformed by bones (linear blend skinning)."""
 
     mesh: Mesh
-    """As it was bound to the bones."""
+    """Mesh in the bind pose."""
     bones: tuple[Bone, ...]
     bound: _Array
-    """(N, 4) the mesh's vertices where they were bound, homogeneous [m]."""
+    """(N, 4) vertices in the bind pose, homogeneous [m]."""
     joint_indices: NDArray[np.intp]
-    """(A,) the bone of each tie between the skin and a bone."""
+    """(A,) bone index of each bind matrix."""
     bone_from_skin: _Array
-    """(A, 4, 4) where the skin was in that bone when it was tied."""
+    """(A, 4, 4) inverse bind matrices."""
     influences: NDArray[np.intp]
-    """(N, K) the ties that each vertex follows."""
+    """(N, K) indices of the bind matrices of each vertex."""
     weights: _Array
-    """(N, K) how much; each row's sum is 1."""
+    """(N, K) weights; each row's sum is 1."""
 
     def vertices(self, poses: Mapping[int, _Array]) -> NDArray[np.float32]:
-        """(N, 3) the mesh's vertices with the bones at these parent_from_bone (4, 4); others are at rest."""
+        """Return the (N, 3) vertices for parent_from_bone (4, 4) of some bones; the others are in the rest pose."""
         skin_from_bone = np.empty((len(self.bones), 4, 4))
         for number, bone in enumerate(self.bones):
             local = poses.get(number, bone.rest)
@@ -118,14 +120,14 @@ class Skin:
 
 
 def root_of(bones: tuple[Bone, ...]) -> int:
-    """The number of the first bone that is a joint."""
+    """Return the index of the first bone that is a joint."""
     return next((number for number, bone in enumerate(bones) if bone.is_joint), 0)
 
 
 def match_bones(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, int] | None:
-    """The bone of a skin for each bone of a motion: by name, else by their order where they branch alike.
+    """Return the skin's bone for each bone of a motion: by name, else by order if the skeletons branch alike.
 
-    None: the skeletons do not fit.
+    None if the skeletons do not match.
     """
     numbers = {bone.name: number for number, bone in enumerate(skin)}
     moving = [number for number, bone in enumerate(motion) if bone.is_joint]
@@ -138,7 +140,7 @@ def match_bones(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, i
 
 
 def track_from_poses(times: _Array, poses: _Array) -> Track:
-    """A track through parent_from_bone (T, 4, 4), which may stretch but not shear."""
+    """Return a track through parent_from_bone (T, 4, 4), with scale but without shear."""
     stretches = np.maximum(np.linalg.norm(poses[:, :3, :3], axis=1), _SMALL)
     turns = tuple(
         quaternion_from_matrix(pose[:3, :3] / stretch) for pose, stretch in zip(poses, stretches, strict=True)

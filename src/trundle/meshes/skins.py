@@ -1,4 +1,4 @@
-"""Reads skins with bones in them, and animations."""
+"""Loaders of skinned meshes and skeleton animations."""
 
 from functools import lru_cache
 from pathlib import Path
@@ -18,20 +18,20 @@ from .skeleton import Motion, Skin
 
 
 def load_skin(path: Path) -> Skin:
-    """Read a .dae whose mesh is bound to bones; parts that are bound to none are left out.
+    """Read a .dae whose mesh is bound to bones; unbound parts are dropped.
 
     Raises:
-        MeshError: unreadable, or no mesh in it is bound.
+        MeshError: unreadable, or no mesh is bound.
     """
     with faults_of(path):
         return _load_skin(path, _state(path))
 
 
 def load_motion(path: Path) -> Motion:
-    """Read the animation of a .dae or .bvh; the numbers of a .bvh are metres.
+    """Read the animation of a .dae or .bvh; lengths in a .bvh are metres.
 
     Raises:
-        MeshError: unreadable, or nothing moves in it.
+        MeshError: unreadable, or without animation.
     """
     with faults_of(path):
         return _load_motion(path, _state(path))
@@ -51,7 +51,7 @@ def _load_skin(path: Path, state: tuple[int, int]) -> Skin:
     skins = [part.skin for part in parts if part.skin is not None]
     lost = sorted({name for skin in skins for name in skin.bones if name not in numbers})
     if lost:
-        raise MeshError(f"its skin is bound to {lost[0]!r}, which is no bone in it")
+        raise MeshError(f"its skin is bound to {lost[0]!r}, which is not a bone in it")
     widest = max(skin.influences.shape[1] for skin in skins)
     firsts = np.cumsum([0, *(len(skin.bones) for skin in skins)])
     to_bones = np.concatenate([skin.bone_from_skin for skin in skins])

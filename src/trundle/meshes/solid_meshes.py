@@ -1,4 +1,4 @@
-"""Shapes that are made of triangles for want of a formula."""
+"""Triangle meshes of shapes without an analytic primitive."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ _SIDES = 48
 
 
 def cone_mesh(radius: float, length: float) -> Mesh:
-    """A cone along z, its tip up, centred at half its height."""
+    """Return a cone along z, tip up, centred at half its height."""
     turns = np.linspace(0.0, 2 * np.pi, _SIDES, endpoint=False)
     rim = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_SIDES, -length / 2)])
     vertices = np.vstack([rim, [[0.0, 0.0, length / 2], [0.0, 0.0, -length / 2]]])
@@ -27,12 +27,12 @@ def cone_mesh(radius: float, length: float) -> Mesh:
 
 
 def prism_mesh(outlines: Sequence[Sequence[Point]], height: float) -> Mesh:
-    """Outlines in the x-y plane drawn up to a height [m]; no faces where nothing is inside."""
+    """Return outlines in the x-y plane extruded to a height [m]; no faces without an enclosed area."""
     corners: list[tuple[float, float, float]] = []
     plan = triangulate(outlines)
     for a, b, c in plan:
         corners += [(*a, height), (*b, height), (*c, height), (*c, 0.0), (*b, 0.0), (*a, 0.0)]
-    # Walls are where an edge belongs to one triangle only: its other side has none that runs the other way.
+    # Walls are at edges of one triangle only, whose reverse does not occur.
     edges = {(p, q) for a, b, c in plan for p, q in ((a, b), (b, c), (c, a))}
     for p, q in sorted(edges):
         if (q, p) not in edges:
@@ -42,7 +42,9 @@ def prism_mesh(outlines: Sequence[Sequence[Point]], height: float) -> Mesh:
 
 
 def terrain_mesh(heights: NDArray[np.float32], size: tuple[float, float, float]) -> Mesh:
-    """Heights (rows, columns) from 0 to 1, the upper edge, +y, first; `size` [m] about the middle, z from 0 up."""
+    """Return the mesh of heights (rows, columns) from 0 to 1, upper edge (+y) first; `size` [m] about the centre, z
+    from 0.
+    """
     rows, columns = heights.shape
     x = np.linspace(-size[0] / 2, size[0] / 2, columns, dtype=np.float32)
     y = np.linspace(size[1] / 2, -size[1] / 2, rows, dtype=np.float32)

@@ -1,4 +1,4 @@
-"""STL: triangles in metres, binary or in letters."""
+"""Reader of STL: triangles in metres, binary or ASCII."""
 
 import re
 
@@ -28,7 +28,7 @@ def read_stl(data: bytes) -> list[RawPart]:
         corners = numbers[: len(numbers) // 3 * 3].astype(np.float64)
     elif count:
         there = max(len(data) - _HEADER, 0) // _TRIANGLE.itemsize
-        raise MeshError(f"says {count} triangles and holds {there}")
+        raise MeshError(f"declares {count} triangles and contains {there}")
     else:
         raise MeshError("no triangles")
     unique, faces = np.unique(corners, axis=0, return_inverse=True)

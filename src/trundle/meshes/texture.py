@@ -1,4 +1,4 @@
-"""Images that meshes are painted with: where they are, and what colour they have on the whole."""
+"""Textures of meshes: files and mean colours."""
 
 import io
 import os
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 _MAX_BYTES = 256 * 1024 * 1024
 _MAX_PIXELS = 64 * 1024 * 1024
 _BOX = 4
-"""Pillow's number for the filter that takes the mean."""
+"""Pillow's filter number of BOX, which averages."""
 
 
 def find_texture(name: str, mesh: Path) -> Path | None:
-    """A texture's file: beside the mesh, or in the model's `materials/textures`; nowhere else."""
+    """Return a texture's file beside the mesh or in the model's `materials/textures`; None if elsewhere."""
     model = mesh.parent.parent
     relative = Path(name.replace("\\", "/"))
     candidates = (
@@ -35,28 +35,28 @@ def find_texture(name: str, mesh: Path) -> Path | None:
 
 
 def image_file(texture: Texture) -> io.BytesIO:
-    """An image's file as decoders read it.
+    """Return an image's file for decoding.
 
     Raises:
-        OSError: it is no regular file, too large, or cannot be read.
+        OSError: it is not a regular file, too large, or cannot be read.
     """
     return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, max_bytes=_MAX_BYTES))
 
 
 def why_undecoded(error: Exception) -> str:
-    """Say why an image's file cannot be read; every decoder behind Pillow fails in its own way."""
+    """Return the reason for a failed decoding; every decoder of Pillow has its own exceptions."""
     from PIL import UnidentifiedImageError
 
     if isinstance(error, UnidentifiedImageError):
-        return "it is no image"
+        return "it is not an image"
     return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
 
 
 def mean_colour(texture: Texture) -> Rgba | None:
-    """The colour of an image seen from afar, opaque; None where it cannot be read."""
+    """Return an image's mean colour, opaque; None if it cannot be read."""
     try:
         return _mean(texture, 0 if isinstance(texture, bytes) else texture.stat().st_mtime_ns)
-    except Exception:  # every decoder behind Pillow fails in its own way
+    except Exception:  # every decoder of Pillow has its own exceptions
         return None
 
 
@@ -74,23 +74,23 @@ def _mean(texture: Texture, _changed_ns: int) -> Rgba:
 
 
 def png_of(texture: Texture) -> bytes | None:
-    """An image file as the bytes of a PNG; None where it cannot be decoded."""
+    """Return an image file as PNG bytes; None if it cannot be decoded."""
     from PIL import Image
 
     try:
         with Image.open(image_file(texture)) as image:
             return as_png(image)
-    except Exception:  # every decoder behind Pillow fails in its own way
+    except Exception:  # every decoder of Pillow has its own exceptions
         return None
 
 
 def as_png(image: "Image") -> bytes | None:
-    """An image as the bytes of a file; None where it cannot be decoded."""
+    """Return an image as PNG bytes; None if it cannot be encoded."""
     buffer = io.BytesIO()
     try:
         _check_size(image)
         image.convert("RGBA").save(buffer, "PNG", compress_level=1)
-    except Exception:  # every decoder behind Pillow fails in its own way
+    except Exception:  # every decoder of Pillow has its own exceptions
         return None
     return buffer.getvalue()
 

@@ -1,4 +1,4 @@
-"""Polygons with holes as triangles, by cutting off ears."""
+"""Triangulation of polygons with holes by ear clipping."""
 
 from collections.abc import Sequence
 from typing import TypeAlias
@@ -8,7 +8,7 @@ Triangle: TypeAlias = tuple[Point, Point, Point]
 
 
 def triangulate(outlines: Sequence[Sequence[Point]]) -> list[Triangle]:
-    """Cut the area within an odd number of outlines into triangles; what crosses itself comes out as far as it can."""
+    """Triangulate the area within an odd number of outlines; self-intersecting outlines give an approximation."""
     rings = [_cleaned(outline) for outline in outlines]
     rings = [ring for ring in rings if len(ring) >= 3 and _area(ring) != 0.0]
     depth = [sum(_is_inside(ring[0], other) for other in rings if other is not ring) for ring in rings]
@@ -26,13 +26,13 @@ def triangulate(outlines: Sequence[Sequence[Point]]) -> list[Triangle]:
 
 
 def _cleaned(outline: Sequence[Point]) -> list[Point]:
-    """Without corners that are there twice in a row."""
+    """Return the outline without repeated corners."""
     ring = [point for point, before in zip(outline, [outline[-1], *outline[:-1]], strict=True) if point != before]
     return ring if ring else list(outline[:1])
 
 
 def _area(ring: Sequence[Point]) -> float:
-    """Signed; positive counter-clockwise."""
+    """Return the signed area, positive counter-clockwise."""
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)) / 2
 
 
@@ -46,7 +46,7 @@ def _is_inside(point: Point, ring: Sequence[Point]) -> bool:
 
 
 def _bridged(ring: list[Point], holes: list[list[Point]]) -> list[Point]:
-    """One ring around everything: each hole is joined to it by a cut there and back, from its rightmost corner."""
+    """Connect each hole to the outer ring by a cut from its rightmost corner, and return one ring."""
     ring = ring if _area(ring) > 0 else ring[::-1]
     for hole in sorted(holes, key=lambda h: -max(x for x, _ in h)):
         hole = hole if _area(hole) < 0 else hole[::-1]
@@ -73,7 +73,7 @@ def _is_cut(a: Point, b: Point, rings: Sequence[Sequence[Point]]) -> bool:
 
 
 def _orientation(a: Point, b: Point, c: Point) -> float:
-    """Positive where a, b, c turn left."""
+    """Return a positive value if a, b, c turn left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
@@ -88,7 +88,7 @@ def _clip_ears(ring: list[Point]) -> list[Triangle]:
                 del left[i]
                 break
         else:
-            # Nothing sticks out: corners in a line, or lines that cross.
+            # No ear: collinear corners or crossing lines.
             flat = min(
                 range(len(left)), key=lambda i: abs(_orientation(left[i - 1], left[i], left[(i + 1) % len(left)]))
             )

@@ -1,1 +1,1 @@
-"""COLLADA files: scene, skeletons, animations and skins."""
+"""Readers of COLLADA scenes, skeletons, animations and skins."""

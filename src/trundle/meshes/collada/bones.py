@@ -1,4 +1,4 @@
-"""COLLADA's skeletons and animations: nodes with their transforms, and channels that change those as time passes."""
+"""COLLADA skeletons and animations: nodes with transforms, and channels that animate them."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -19,11 +19,11 @@ _MAX_BONES, _MAX_KEYS = 1000, 100_000
 _COUNTS = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
 _COMPONENTS = {"X": 0, "Y": 1, "Z": 2, "ANGLE": 3}
 _Change: TypeAlias = tuple[_Array, _Array, int | None]
-"""Times (T,), values (T, n), and which single number of a transform they are."""
+"""Times (T,), values (T, n), and the index of the component that is animated (None: all)."""
 
 
 class _Step(Struct, frozen=True, eq=False):
-    """One of the transforms that a node's is the product of."""
+    """Elementary transform of a node."""
 
     kind: str
     sid: str
@@ -31,10 +31,10 @@ class _Step(Struct, frozen=True, eq=False):
 
 
 def read_bones(root: XmlNode, metres: float) -> tuple[Bone, ...]:
-    """Every node of the file's first scene, parents first; lengths become metres.
+    """Return every node of the file's first scene, parents first, in metres.
 
     Raises:
-        MeshError: there is no end to them.
+        MeshError: too many nodes.
     """
     return tuple(
         Bone(
@@ -49,7 +49,7 @@ def read_bones(root: XmlNode, metres: float) -> tuple[Bone, ...]:
 
 
 def read_motion(root: XmlNode, metres: float) -> Motion:
-    """All of the file's channels together, by the nodes that they move.
+    """Return all animation channels of the file, by node.
 
     Raises:
         MeshError: no channel moves a node of the file.
@@ -72,7 +72,7 @@ def read_motion(root: XmlNode, metres: float) -> Motion:
 
 
 def metres_of(root: XmlNode) -> float:
-    """How long the file's unit is [m]."""
+    """Return the length of the file's unit [m]."""
     unit = (asset := root.find("asset")) and asset.find("unit")
     numbers = parse_numbers((unit.attribute("meter") if unit else None) or "1") or [1.0]
     return numbers[0] if math.isfinite(numbers[0]) and numbers[0] > 0.0 else 1.0
@@ -103,7 +103,7 @@ def _steps(node: XmlNode) -> list[_Step]:
 
 
 def _changes(root: XmlNode) -> dict[str, dict[str, list[_Change]]]:
-    """Node id → transform sid → what changes it."""
+    """Return the animations: node id → transform sid → changes."""
     library = root.find("library_animations")
     pending = library.all("animation") if library is not None else []
     elements: dict[str, XmlNode] = {}
@@ -124,7 +124,7 @@ def _changes(root: XmlNode) -> dict[str, dict[str, list[_Change]]]:
 
 
 def _component(path: str) -> tuple[str, int | None]:
-    """`rotateX.ANGLE` and `transform(0)(3)` change one number alone."""
+    """Return sid and component; `rotateX.ANGLE` and `transform(0)(3)` animate one component."""
     if "." in path:
         sid, _, name = path.partition(".")
         return sid, _COMPONENTS.get(name)
@@ -155,7 +155,7 @@ def _floats(source: XmlNode | None) -> _Array | None:
 
 
 def _at(steps: list[_Step], changes: dict[str, list[_Change]], time: float) -> list[tuple[str, _Array]]:
-    """A node's transforms at a time."""
+    """Return a node's transforms at a time."""
     found: list[tuple[str, _Array]] = []
     for step in steps:
         values = step.values.copy()

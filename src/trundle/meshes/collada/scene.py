@@ -1,4 +1,4 @@
-"""COLLADA, through pycollada: the scene's nodes with their transforms, each material's triangles apart."""
+"""Reader of COLLADA scenes through pycollada: transformed triangles per material."""
 
 import io
 from collections.abc import Iterator
@@ -18,27 +18,28 @@ from .skin import read_skin
 
 _DEEPEST = 64
 _MAX_NODES = 100_000
-"""Nodes may be named again and again by others: a small file can ask for any number."""
+"""Most nodes visited; nodes can be instantiated repeatedly, so a small file can expand without bound."""
 _Material = tuple[Rgba | None, str | None]
 _Corners = NDArray[np.float32] | None
 _Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], _Corners, _Corners, NDArray[np.int64]]]
-"""Of each material: its symbol, vertices (N, 3), faces (M, 3), of their corners the uv (M, 3, 2) and normals (M, 3, 3),
-and which of the geometry's vertices those are (N,)."""
+"""Per material: symbol, vertices (N, 3), faces (M, 3), corner uv (M, 3, 2) and normals (M, 3, 3), and indices of the
+vertices in the geometry (N,).
+"""
 
 
 def read_collada(data: bytes, *, skins: bool = False) -> list[RawPart]:
-    """Read a COLLADA file; lengths are made metres by its <unit>.
+    """Read a COLLADA file; lengths are converted to metres by its <unit>.
 
-    Its <up_axis> is left alone: Gazebo (gazebo-classic#1305) and RViz (rviz#1045) never read that tag, and published
-    robots are made to look right in them.
+    Its <up_axis> is ignored: Gazebo (gazebo-classic#1305) and RViz (rviz#1045) never read it, and published robots look
+    right in them.
 
     Args:
         data: the file.
-        skins: tell how vertices hang on bones, too, in the file's own unit.
+        skins: read the vertices' bone weights, too, in the file's own unit.
 
     Raises:
         MeshError: it is not well-formed, or has no scene.
-        Exception: pycollada's own, in its own words.
+        Exception: any other exception of pycollada.
     """
     import collada
     from collada.common import DaeError, DaeMalformedError
@@ -58,7 +59,7 @@ def read_collada(data: bytes, *, skins: bool = False) -> list[RawPart]:
 
 
 def read_tree(data: bytes) -> XmlNode:
-    """The elements of a COLLADA file.
+    """Parse a COLLADA file to XML elements.
 
     Raises:
         MeshError: it is not well-formed.
@@ -70,7 +71,7 @@ def read_tree(data: bytes) -> XmlNode:
 
 
 class _SceneWalk(Struct):
-    """Everything met on the way down."""
+    """Traversal of a scene with its totals."""
 
     metres: float
     skins: bool
@@ -81,7 +82,7 @@ class _SceneWalk(Struct):
     def parts(self, node: Any, world_from_parent: NDArray[np.float64], name: str, depth: int) -> Iterator[RawPart]:
         self.nodes += 1
         if depth > _DEEPEST or self.nodes > _MAX_NODES:
-            raise MeshError("nodes that hold themselves, or more of them than any robot has")
+            raise MeshError("recursive nodes, or too many of them")
         if hasattr(node, "geometry"):
             yield from self._geometry(node.geometry, node.materials, world_from_parent, name)
         elif hasattr(node, "controller"):
@@ -154,7 +155,7 @@ def _corners(
 
 
 def _material(material: Any) -> _Material:
-    """The colour that is seen, and the texture's path."""
+    """Return the visible colour and the texture's path."""
     effect = getattr(material, "effect", None)
     if effect is None:
         return None, None
@@ -172,7 +173,7 @@ def _material(material: Any) -> _Material:
 
 
 def _opacity(effect: Any) -> float:
-    """By COLLADA's two rules; nothing at all is what some exporters write for opaque."""
+    """Return the opacity by COLLADA's two rules; 0 is what some exporters write for opaque."""
     transparent = effect.transparent
     if transparent is None or not hasattr(transparent, "__len__") or len(transparent) < 3:
         return 1.0

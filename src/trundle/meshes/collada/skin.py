@@ -1,4 +1,4 @@
-"""COLLADA's <skin>: which bones the vertices of a geometry follow, and how much."""
+"""Reader of COLLADA's <skin>: bone weights of a geometry's vertices."""
 
 from typing import Any
 
@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 from ..raw import RawSkin
 
 _MAX_INFLUENCES = 8
-"""Of one vertex; the largest are kept."""
+"""Most influences of a vertex; the largest are kept."""
 
 
 def read_skin(skin: Any, vertices: NDArray[np.float64], used: NDArray[np.int64]) -> RawSkin | None:
-    """Read pycollada's `Skin`, for some of its geometry's vertices; None where it says nothing of one of them.
+    """Read pycollada's `Skin` for some of its geometry's vertices; None if it lacks one of them.
 
     Args:
         skin: with its bind_shape_matrix.
-        vertices: (N, 3) of the geometry that are used.
-        used: (N,) their numbers in the geometry.
+        vertices: (N, 3) used vertices of the geometry.
+        used: (N,) their indices in the geometry.
     """
     names = [str(name) for name in skin.sourcebyid[skin.joint_source]]
     if not names or (len(used) and int(used[-1]) >= len(skin.joint_index)):
