@@ -18,7 +18,7 @@ def read(file: Path, text: str) -> LaunchPlan:
 
 @pytest.mark.parametrize(("name", "language"), [("a.launch.py", "in Python"), ("a.launch.yaml", "in YAML")])
 def test_a_file_in_another_language_is_one_of_ros_2(tmp_path: Path, name: str, language: str) -> None:
-    what = f"{name}: error: a launch file {language} is one of ROS 2; those of ROS 1 are read here"
+    what = f"{name}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported"
     with pytest.raises(DescriptionError, match=f"{re.escape(what)}$"):
         read(tmp_path / name, "def generate_launch_description(): ...")
     with pytest.raises(DescriptionError, match=f"{re.escape(what)}; included at .*top.launch:1$"):
@@ -35,7 +35,8 @@ def test_a_file_in_another_language_is_one_of_ros_2(tmp_path: Path, name: str, l
     ],
 )
 def test_xml_of_ros_2_is_named(tmp_path: Path, body: str, shown: str) -> None:
-    what = rf"a.launch.xml:1: error: {re.escape(shown)}: this is a launch file of ROS 2; those of ROS 1 are read here$"
+    what = rf"a.launch.xml:1: error: {re.escape(shown)}: this is a launch file of ROS 2; only ROS 1 launch files are "
+    what += "supported$"
     with pytest.raises(DescriptionError, match=what):
         read(tmp_path / "a.launch.xml", f"<launch>{body}</launch>")
 
@@ -47,7 +48,7 @@ def test_commands_that_take_no_launch_file_say_the_same(
     file = tmp_path / name
     file.write_text("launch: []")
     language = "in Python" if file.suffix == ".py" else "in YAML"
-    said = f"{file}: error: a launch file {language} is one of ROS 2; those of ROS 1 are read here\n"
+    said = f"{file}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported\n"
     for command in (
         ["run", str(file), "--headless"],
         ["render", str(file), "-o", str(tmp_path / "a.png")],

@@ -202,7 +202,7 @@ def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp
             "write model://ground_plane, which is here",
         ),
         ("http://example.org/cup.dae", "nothing is fetched from the network; copy the file beside this one"),
-        ("ftp://example.org/cup.dae", "ftp:// is not known; package://, model://, file:// and relative paths are"),
+        ("ftp://example.org/cup.dae", "ftp:// is not supported; use package://, model://, file:// or relative paths"),
         ("meshes/lost.dae", "no such file .*meshes/lost.dae"),
         ("file:///nowhere/lost.dae", "no such file /nowhere/lost.dae"),
         ("model://", "no model ''"),

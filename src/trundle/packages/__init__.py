@@ -1,4 +1,4 @@
-"""Where files live: ROS packages, Gazebo models, worlds and what their URIs mean."""
+"""ROS packages, Gazebo models and worlds, and resolution of their URIs."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Programs that a package's CMakeLists.txt builds, as far as it says so plainly."""
+"""Programs that a package's CMakeLists.txt builds, as far as it is simple to read."""
 
 import re
 from dataclasses import dataclass, replace
@@ -11,47 +11,47 @@ _COMMAND = re.compile(r"\b(\w+)\s*\(([^()]*)\)")
 _WORD = re.compile(r'"([^"]*)"|([^\s";]+)')
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _ADDS = re.compile(r"(\w+_)?add_executable")
-"""rosbuild, catkin_simple and CUDA have commands of their own for it."""
+"""rosbuild, catkin_simple and CUDA have variants of the command."""
 _NO_SOURCES = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32"})
 _MAX_FOLDERS = 20
-"""A CMakeLists.txt may add itself."""
+"""Most files read, because a CMakeLists.txt may add itself."""
 _MAX_CHARACTERS, _LONGEST = 1_000_000, 1000
-"""Length of the variables' values, together and each: a few lines of `set(A ${A}${A})` make any length."""
+"""Largest size of all variables and of one: a few lines of `set(A ${A}${A})` grow without bound."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CMakeProgram:
-    """A program that is to be compiled."""
+    """Executable target."""
 
     name: str
-    """File name of the program that is built."""
+    """File name of the built program."""
     target: str
     sources: tuple[str, ...]
-    """As written, with the variables replaced that are known."""
+    """As written, with known variables replaced."""
     file: Path
     line: int
 
 
 def cmake_programs(folder: Path) -> list[CMakeProgram]:
-    """Read the programs of a package, those of its subdirectories included."""
+    """Return the programs of a package, including those of its subdirectories."""
     reader = _Reader(folder.name)
     reader.read(folder)
     return [replace(program, name=reader.output_names.get(program.target, program.name)) for program in reader.programs]
 
 
 class _Reader:
-    """Goes through commands in order, as CMake does, without conditions and loops."""
+    """Reader of commands in order, as CMake, without conditions and loops."""
 
     def __init__(self, package: str) -> None:
         self.programs: list[CMakeProgram] = []
         self.output_names: dict[str, str] = {}
-        """Target → what its file is called instead."""
+        """Target → OUTPUT_NAME."""
         self._variables: dict[str, list[str]] = {"PROJECT_NAME": [package], "CMAKE_PROJECT_NAME": [package]}
         self._folders = 0
         self._budget = _MAX_CHARACTERS
 
     def read(self, folder: Path) -> None:
-        """Read a folder's CMakeLists.txt; one that is not there says nothing."""
+        """Read a folder's CMakeLists.txt, if it exists."""
         self._folders += 1
         file = folder / "CMakeLists.txt"
         try:
@@ -83,7 +83,7 @@ class _Reader:
                 pass
 
     def _expanded(self, word: str) -> list[str]:
-        """A word with known variables replaced; one that is a variable alone may stand for several."""
+        """Return a word with known variables replaced; a single variable may expand to several words."""
         if self._budget < 0:
             return [word]
         whole = _VARIABLE.fullmatch(word)

@@ -1,4 +1,4 @@
-"""Below which folders a file has to lie, whatever dots or links its path goes through."""
+"""Confinement of files to folders, with `..` and links resolved."""
 
 import os
 from collections.abc import Iterable, Mapping
@@ -6,10 +6,10 @@ from pathlib import Path
 
 
 class WideFolders:
-    """Folders that hold more than a robot, whatever else lies in them: a home, all above one, the root of a disk."""
+    """Folders that are never a robot's own: homes, their parents, roots of disks."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
-        """Take the home of an environment, and that of the user who runs this."""
+        """Take the homes of an environment and of the current user."""
         homes = {environment.get("HOME", ""), environment.get("USERPROFILE", ""), os.path.expanduser("~")}
         real = [Path(os.path.realpath(home)) for home in homes if os.path.isabs(home)]
         self._folders = {str(folder) for home in real for folder in (home, *home.parents)}
@@ -21,15 +21,15 @@ class WideFolders:
 
 
 class Confinement:
-    """A set of folders, none of them a wide one."""
+    """Set of folders that files may be read from, without wide folders."""
 
     def __init__(self, folders: Iterable[Path], *, wide: WideFolders, beside: Iterable[Path] = ()) -> None:
-        """Take folders with all that is in them; of those in `beside` only the files in sight are meant."""
+        """Allow folders with all their content, and the visible files directly in those of `beside`."""
         self._folders = {os.path.realpath(folder) for folder in folders if folder not in wide}
         self._beside = {os.path.realpath(folder) for folder in beside}
 
     def allows(self, path: Path) -> bool:
-        """Whether a file, or what it links to, is in one of the folders or below."""
+        """True if a file, with links resolved, is in one of the folders or below."""
         try:
             inner, real = "", os.path.realpath(path)
         except ValueError:  # no file can have this name

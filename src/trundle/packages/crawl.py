@@ -1,4 +1,4 @@
-"""Folders below a folder, as rospack looks for packages in them."""
+"""Folder walk for packages, as rospack does."""
 
 import os
 from collections import deque
@@ -7,33 +7,33 @@ from pathlib import Path
 
 MANIFESTS = ("package.xml", "manifest.xml")
 _DEEPEST = 8
-"""How far below a package path packages are looked for; rospack has no bound, real workspaces need five."""
+"""Largest depth below a package path; rospack has no limit, real workspaces need five."""
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
 _IGNORED_BY = "CATKIN_IGNORE"
-"""The only mark of its kind that ROS 1 knows: robots for both keep their ROS 1 packages in folders with the others."""
+"""ROS 1's only marker file: robots for both ROS versions keep ROS 1 packages beside the others."""
 _ALONE_BY = frozenset({*MANIFESTS, "rospack_nosubdirs"})
-"""Below a folder with one of these there are no packages."""
+"""Marker files of folders without packages below."""
 
 
 class Crawl:
-    """A way through the folders below one; it passes over what cannot be listed."""
+    """Breadth-first walk of folders; folders that cannot be listed are skipped."""
 
     def __init__(self, root: Path, *, max_folders: int | None = None, deepest: int = _DEEPEST) -> None:
-        """Get ready.
+        """Create a walk.
 
         Args:
-            root: where it starts.
-            max_folders: folders that are looked at; None: all.
-            deepest: how far below `root`.
+            root: start folder.
+            max_folders: most folders visited; None: all.
+            deepest: largest depth below `root`.
         """
         self._root = root
         self.most = max_folders
         self._deepest = deepest
         self.skipped: list[tuple[Path, str]] = []
-        """Folders that cannot be listed and links that lead nowhere, and why."""
+        """Unreadable folders and broken links, with the reason."""
 
     def __iter__(self) -> Iterator[tuple[Path, set[str]]]:
-        """Every folder and the names in it, the nearest first; what lies inside a package is not looked at."""
+        """Yield every folder and the names in it, nearest first; folders inside a package are not visited."""
         waiting = deque([(self._root, 0)])
         entered: set[tuple[int, int]] = set()
         looked_at = 0
@@ -52,7 +52,7 @@ class Crawl:
             if _IGNORED_BY in names:
                 continue
             yield folder, names
-            same = (status.st_dev, status.st_ino)  # a link to a folder above leads into it again, and again
+            same = (status.st_dev, status.st_ino)  # a link to a parent folder would repeat it
             if depth < self._deepest and names.isdisjoint(_ALONE_BY) and same not in entered:
                 entered.add(same)
                 waiting.extend((Path(entry.path), depth + 1) for entry in entries if self._may_hold_packages(entry))

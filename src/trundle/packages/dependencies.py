@@ -1,4 +1,4 @@
-"""What a package says it needs."""
+"""Dependencies of a package."""
 
 import os
 import re
@@ -7,12 +7,12 @@ from pathlib import Path
 from trundle.xmlnode import XmlNode, read_xml
 
 _RUN_DEPENDS = ("run_depend", "exec_depend", "depend")
-"""Rospack's, and in its order: what a package needs when it is built or tested is left out."""
+"""rospack's order; dependencies for building and testing are ignored."""
 _FOR_VERSION = re.compile(r"\$ROS_VERSION\s*==\s*['\"]?(\d)")
 
 
 def run_dependencies(folder: Path) -> list[str]:
-    """Names of packages, and of what the system provides, that a package needs to run, in order.
+    """Return the names of packages and system dependencies that a package needs to run, in order.
 
     Raises:
         DescriptionError: its manifest cannot be read.
@@ -28,6 +28,6 @@ def run_dependencies(folder: Path) -> list[str]:
 
 
 def _is_for_ros_1(child: XmlNode) -> bool:
-    """Tell by `condition="$ROS_VERSION == 2"`, with which one package serves both."""
+    """True unless `condition="$ROS_VERSION == 2"`, with which one package serves both versions."""
     match = _FOR_VERSION.search(child.attribute("condition") or "")
     return match is None or match[1] == "1"

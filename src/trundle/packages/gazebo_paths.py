@@ -1,4 +1,4 @@
-"""Where Gazebo's models, worlds and media live: its two path variables, what packages export, and our own."""
+"""Gazebo's paths of models, worlds and media: its two environment variables, package exports, and Trundle's own."""
 
 import os
 from collections.abc import Iterator, Mapping
@@ -14,29 +14,29 @@ from .ros_packages import RosPackages
 from .workspace import ancestor_folders, distinct_folders
 
 SHIPPED = Path(__file__).parent
-"""Has `models`, `stand_ins` and `worlds` of our own, laid out as /usr/share/gazebo is."""
+"""Folder of Trundle's `models`, `stand_ins` and `worlds`, laid out as /usr/share/gazebo."""
 _CHECKOUT_EXAMPLES = [path for path in [Path(__file__).parents[3] / "examples"] if os.path.isdir(path / "rp2w")]
-"""What a wheel has among SHIPPED."""
+"""Examples of a checkout, which a wheel has in SHIPPED."""
 _FUEL_CACHES = (".gz/fuel", ".ignition/fuel")
-"""Below HOME: where the tools of newer Gazebos keep what they fetched."""
+"""Folders below HOME with downloads of newer Gazebo's tools."""
 _SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
-"""What Gazebo tries below a resource path, and `worlds`, for a name without one."""
+"""Folders that Gazebo tries below a resource path, and `worlds`."""
 
 
 def is_stand_in(path: Path) -> bool:
-    """Whether a file belongs to a model that stands in for one of the public database.
+    """True if a file belongs to a substitute for a model of the public database.
 
-    Its meshes have the originals' names but for the suffix, .obj, and the originals' frame and unit: a world that
-    Gazebo saved has their URIs and scales where its <include> was.
+    Its meshes have the originals' names with the suffix .obj, and the originals' frame and unit, because worlds saved
+    by Gazebo contain their URIs and scales in place of an <include>.
     """
     return SHIPPED / "stand_ins" in path.parents
 
 
 class GazeboPaths:
-    """The folders of one environment, around one file."""
+    """Gazebo paths of one environment and start file."""
 
     def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages, cache: PackageCache) -> None:
-        self._home = Path(environment.get("HOME") or os.devnull)  # in /tmp all could put models, and their plugins
+        self._home = Path(environment.get("HOME") or os.devnull)  # not /tmp, which any user can write
         self._start = start
         self._ros = ros
         self._cache = cache
@@ -45,7 +45,7 @@ class GazeboPaths:
 
     @cached_property
     def model_folders(self) -> list[Path]:
-        """Folders of models in Gazebo's order, then ours."""
+        """Model folders in Gazebo's order, then Trundle's."""
         return distinct_folders(
             [
                 self._home / ".gazebo" / "models",
@@ -68,7 +68,7 @@ class GazeboPaths:
         ]
 
     def find_model(self, name: str) -> Path | None:
-        """The folder of a model: along the path, then near the file, then a stand-in of ours."""
+        """Return a model's folder: on the path, then near the file, then a substitute."""
         if not name or name in (".", ".."):
             return None
         along = (folder / name for folder in self.model_folders)
@@ -78,14 +78,14 @@ class GazeboPaths:
         return next((each for each in candidates if os.path.isdir(each) and each not in self._cache.wide), None)
 
     def find_resource(self, name: str) -> Path | None:
-        """A file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
+        """Return a file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
         if os.path.isabs(name) or ".." in Path(name).parts:
             return None
         tries = (folder / suffix / name for folder in self.resource_folders for suffix in _SUFFIXES)
         return next((path for path in tries if os.path.exists(path)), None)
 
     def find_downloaded(self, url: str) -> Path | None:
-        """The folder that `gz fuel download` or `ign fuel download` made of a model's or world's URL."""
+        """Return the folder in which `gz fuel download` or `ign fuel download` saved a URL."""
         try:
             parts = urlsplit(url)
         except ValueError:  # a bracket that is not closed
@@ -93,7 +93,7 @@ class GazeboPaths:
         words = [unquote(word) for word in parts.path.split("/") if word]
         if len(words) < 4 or ".." in words:
             return None
-        owner, kind, name, *rest = words[1:]  # the first is the interface's version, such as 1.0
+        owner, kind, name, *rest = words[1:]  # the first word is the API version, such as 1.0
         for cache in _FUEL_CACHES:
             folder = self._home / cache / parts.netloc / owner.lower() / kind / name.lower()
             versions = sorted((int(sub.name), sub) for sub in _folders(folder) if sub.name.isdecimal())
@@ -104,7 +104,7 @@ class GazeboPaths:
         return None
 
     def _exported(self, attribute: str) -> Iterator[Path]:
-        """What `<export><gazebo_ros …>` of the packages here adds, as libgazebo_ros_paths_plugin reads it."""
+        """Yield paths from `<export><gazebo_ros …>` of all packages, as libgazebo_ros_paths_plugin does."""
         for prefix, attributes in self._exports:
             for value in _paths(attributes.get(attribute, "").replace("${prefix}", str(prefix))):
                 yield prefix / value

@@ -1,4 +1,4 @@
-"""model.config: which SDF file of a model folder to read."""
+"""Selection of a model folder's SDF file by model.config."""
 
 import os
 from pathlib import Path
@@ -9,15 +9,15 @@ from trundle.xmlnode import XmlNode, read_xml
 from .gazebo_paths import SHIPPED
 
 NEWEST = (1, 12)
-"""The newest SDF there is rules for."""
+"""Newest supported SDF version."""
 _TEMPLATES = frozenset({".erb", ".rsdf"})
 
 
 def model_file(folder: Path, report: Diagnostics) -> Path:
-    """The SDF file that a model folder's model.config names: the newest version that can be read.
+    """Return the SDF file of a model folder's model.config with the newest supported version.
 
     Raises:
-        DescriptionError: no model.config, or it names no file that is there.
+        DescriptionError: no model.config, or its file is missing.
     """
     config = folder / "model.config"
     if not os.path.exists(config):
@@ -44,10 +44,10 @@ def model_file(folder: Path, report: Diagnostics) -> Path:
 
 
 def refuse_template(path: Path) -> None:
-    """Stop at the Ruby templates that some worlds are generated from.
+    """Refuse Ruby templates, from which some worlds are generated.
 
     Raises:
-        DescriptionError: it is one.
+        DescriptionError: it is a template.
     """
     if path.suffix in _TEMPLATES:
         made = path.with_suffix("").name if path.suffix == ".erb" else f"{path.stem}.sdf"
@@ -63,12 +63,12 @@ _TOO_NEW = (-2,)
 def _rank(node: XmlNode, report: Diagnostics) -> tuple[int, ...]:
     text = node.attribute("version")
     if text is None:
-        report.warn(node.at, "<sdf> without a version; it is taken only where there is no other")
+        report.warn(node.at, "<sdf> without a version; it is used only if there is no other")
         return _NO_VERSION
     try:
         version = tuple(int(part) for part in text.split("."))
     except ValueError:
-        report.warn(node.at, f"<sdf version={text!r}> is no version; it is taken only where there is no other")
+        report.warn(node.at, f"<sdf version={text!r}> is not a version; it is used only if there is no other")
         return _NO_VERSION
     return version if version <= NEWEST else _TOO_NEW
 

@@ -1,4 +1,4 @@
-"""Cache of walks and manifests, kept for all files that one environment reads, as rospack keeps one."""
+"""Cache of package walks and manifests, shared by all files of one environment, as in rospack."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,19 +7,19 @@ from typing import TypeAlias
 from .confinement import WideFolders
 
 Folder: TypeAlias = tuple[Path, str | None]
-"""A folder that may be meant by its own name, and the name that its manifest gives it, if it has one."""
+"""Package folder, and the name in its manifest, if any."""
 
 
 class PackageCache:
-    """Folders walked and manifests read."""
+    """Results of folder walks and manifests."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
         self.wide = WideFolders(environment)
         self.crawls: dict[tuple[Path, int | None], list[Folder]] = {}
-        """By where a walk starts and the most folders it looks at."""
+        """(start, most folders) → folders found."""
         self.installed: list[tuple[Path, str]] | None = None
-        """The system's packages; None: not looked for yet."""
+        """System packages; None: not searched yet."""
         self.skipped: dict[Path, str] = {}
-        """Folders that could not be looked into, and why."""
+        """Unreadable folders, with the reason."""
         self.exports: dict[Path, list[dict[str, str]]] = {}
-        """Package folder → the attributes of each <gazebo_ros> that it exports."""
+        """Package folder → attributes of each exported <gazebo_ros>."""

@@ -1,4 +1,4 @@
-"""Where files live: package://, model://, file:// and relative URIs become paths, or one sentence that says why not."""
+"""Resolution of package://, model://, file:// and relative URIs to paths."""
 
 import os
 from collections.abc import Mapping
@@ -18,25 +18,25 @@ from .stock import DESCRIPTIONS, STOCK
 from .workspace import own_confinement
 
 ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
-"""Set to 1, a description may read any file; `--allow-outside` sets it."""
+"""Environment variable; 1 allows descriptions to read any file; set by `--allow-outside`."""
 LENIENT = "TRUNDLE_LENIENT"
-"""Set to 1, a robot is read without what packages that are not there would add; `--lenient` sets it."""
+"""Environment variable; 1 ignores parts from missing packages; set by `--lenient`."""
 
 _LONGEST = 200
-"""Characters of a name or URI in a sentence."""
+"""Longest name or URI in a message."""
 _MAX_NAMED = 3
 
 
 class Packages:
-    """Everything a description may refer to, as one environment has it."""
+    """Resources that descriptions may refer to, in one environment."""
 
     def __init__(self, environment: Mapping[str, str], *, start: Path, known: "Packages | None" = None) -> None:
-        """Look with these variables, around a file or folder.
+        """Search with an environment, around a file or folder.
 
         Args:
             environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
-            start: whose package and workspace are searched too.
-            known: others whose walks and manifests need not be read again.
+            start: its package and workspace are searched too.
+            known: another instance whose cache is shared.
         """
         start = start.absolute()
         self._environment = environment
@@ -44,30 +44,30 @@ class Packages:
         self._cache = PackageCache(environment) if known is None else known._cache
 
     def around(self, file: Path) -> "Packages":
-        """The same, searched around another file."""
+        """Return the same resources, searched around another file."""
         if file.absolute() == self._start:
             return self
         return Packages(self._environment, start=file, known=self)
 
     def find_package(self, name: str) -> Path | None:
-        """The folder of a ROS package, or None."""
+        """Return the folder of a ROS package, or None."""
         return self._ros.find(name)
 
     def find_folder(self, name: str) -> Path | None:
-        """Folder that `$(find name)` stands for.
+        """Return the folder of `$(find name)`.
 
-        Of a stock package that is not installed it is one that is not there; of a package that describes a sensor, our
-        stand-in.
+        For a stock package that is not installed it does not exist; for a sensor description package it is Trundle's
+        substitute.
         """
         found = self._ros.find(name) or DESCRIPTIONS.get(name)
         return found or (SHIPPED / "ros" / name if name in STOCK else None)
 
     def stand_in_package(self, path: Path) -> str | None:
-        """The package that a file of ours stands in for, or would if it were there; None: it is no file of ours."""
+        """Return the package that a shipped file, existing or not, substitutes; None for other files."""
         return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
 
     def is_absent(self, file: Path) -> bool:
-        """Whether a file is not there because its package is not: what stands in for that has no such file."""
+        """True if a file is missing because its package is, whose substitute lacks it."""
         is_ours = self.stand_in_package(file) is not None or any(
             file.is_relative_to(SHIPPED / "ros" / n) for n in STOCK
         )
@@ -75,24 +75,24 @@ class Packages:
 
     @property
     def is_lenient(self) -> bool:
-        """Whether descriptions are read without what packages that are not there would add."""
+        """True if parts from missing packages are ignored."""
         return self._environment.get(LENIENT) == "1"
 
     def workspace_of(self, package: Path) -> Path | None:
-        """The workspace around the start that a package's folder is in, where ROS_PACKAGE_PATH does not name it."""
+        """Return the workspace around the start that contains a package, unless ROS_PACKAGE_PATH does."""
         return self._ros.workspace_of(package)
 
     def skipped_folders(self) -> Mapping[Path, str]:
-        """Folders that no package was looked for in, and why."""
+        """Return the folders skipped by the search, with the reason."""
         self._ros.all()
         return self._cache.skipped
 
     def ros_packages(self) -> Mapping[str, Path]:
-        """Every ROS package there is, by name."""
+        """Return every ROS package by name."""
         return self._ros.all()
 
     def why_not_found(self, name: str) -> str:
-        """One sentence for a package that is not there."""
+        """Return a sentence about a missing package."""
         looked = ", ".join(str(folder) for folder in self._ros.searched())
         where = f"looked below {looked}" if looked else "ROS_PACKAGE_PATH is not set"
         passed_over = [f"{folder} ({why})" for folder, why in self._cache.skipped.items()]
@@ -103,10 +103,10 @@ class Packages:
         return f"no package {_shown(name)!r}; {where}{repository_hint(name)}"
 
     def find_model(self, name: str) -> Path:
-        """The folder of `model://name`.
+        """Return the folder of `model://name`.
 
         Raises:
-            UsageError: there is none, with where was looked.
+            UsageError: it is missing; the message lists the folders searched.
         """
         folder = self._gazebo.find_model(name)
         if folder is None:
@@ -114,31 +114,31 @@ class Packages:
         return folder
 
     def find_world(self, name: str) -> Path | None:
-        """A world file along GAZEBO_RESOURCE_PATH or of our own, as `gazebo worlds/empty.world` finds it."""
+        """Return a world file on GAZEBO_RESOURCE_PATH or of Trundle, as `gazebo worlds/empty.world` finds it."""
         path = self._gazebo.find_resource(name)
         return path if path is not None and os.path.isfile(path) else None
 
     def worlds(self) -> list[str]:
-        """The worlds of our own, by name."""
+        """Return the names of Trundle's worlds."""
         return sorted(path.name for path in (SHIPPED / "worlds").glob("*.world"))
 
     def material_folders(self) -> list[Path]:
-        """Where Gazebo looks for material scripts without being told."""
+        """Return the folders that Gazebo searches for material scripts by default."""
         tries = (
             folder / sub / "materials/scripts" for folder in self._gazebo.resource_folders for sub in (".", "media")
         )
         return [folder for folder in tries if os.path.isdir(folder)]
 
     def resolve(self, uri: str, *, beside: Path, at: Source) -> Path:
-        """The file that a URI in a description means.
+        """Return the file of a URI in a description.
 
         Args:
-            uri: package://, model://, file://, or a path relative to the file it stands in.
-            beside: the folder of that file.
-            at: where it stands.
+            uri: package://, model://, file://, or a path relative to the containing file.
+            beside: folder of the containing file.
+            at: position of the URI.
 
         Raises:
-            DescriptionError: nothing there, or outside what a description may read.
+            DescriptionError: it is missing, or outside the readable folders.
         """
         root, path = self._located(uri, beside, at)
         decoded = path.parent / unquote(path.name)
@@ -146,7 +146,7 @@ class Packages:
             path = decoded
         if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
             path = path.with_suffix(".obj")
-        named = "" if root is None else f"{_shown(uri)}: "  # a path says itself where it leads
+        named = "" if root is None else f"{_shown(uri)}: "  # a path is already in the message
         if not os.path.exists(path):
             raise DescriptionError(at, f"{named}no such file {_shown(str(path))}")
         if is_stream(path):
@@ -155,10 +155,10 @@ class Packages:
         return path
 
     def check_readable(self, path: Path, at: Source, *, told: str, root: Path | None = None) -> None:
-        """Refuse a file that is neither below `root` nor below what the user pointed at.
+        """Refuse a file that is neither below `root` nor in the folders given by the user.
 
         Raises:
-            DescriptionError: it lies elsewhere.
+            DescriptionError: it is elsewhere.
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
@@ -191,7 +191,7 @@ class Packages:
         return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders], wide=self._cache.wide)
 
     def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
-        """Where a URI leads, and the folder of the package or model it names."""
+        """Return the root folder of the URI's package or model, and the path."""
         scheme, separator, rest = uri.partition("://")
         if not separator:
             scheme, rest = "file", uri
@@ -206,11 +206,13 @@ class Packages:
                 found = None if os.path.exists(beside / rest) else self._gazebo.find_resource(rest)
                 return None, found or beside / rest
             case _:
-                known = "package://, model://, file:// and relative paths"
-                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not known; {known} are")
+                known = "package://, model://, file:// or relative paths"
+                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {known}")
 
     def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
-        """URDF says package://, its conversion to SDF model://; each stands for the other where it finds nothing."""
+        """Find a package or model; URDF has package://, its conversion to SDF model://, so each falls back to the
+        other.
+        """
         name, _, inside = rest.lstrip("/").partition("/")
         package = self.find_package(name) if scheme == "package" else None
         folder = package or self._gazebo.find_model(name) or self.find_package(name)

@@ -1,4 +1,4 @@
-"""Where well-known packages are published, for whom a file names one that is not there."""
+"""Repositories of well-known packages, for messages about missing ones."""
 
 _REPOSITORIES = {
     "ROBOTIS-GIT/open_manipulator": "open_manipulator_controller open_manipulator_description",
@@ -44,11 +44,11 @@ _REPOSITORIES = {
     "yujinrobot/kobuki": "kobuki_auto_docking kobuki_bumper2pc kobuki_description kobuki_keyop kobuki_node",
     "yujinrobot/kobuki_desktop": "kobuki_dashboard kobuki_gazebo kobuki_gazebo_plugins kobuki_rviz_launchers",
 }
-"""On GitHub: owner/name → packages."""
+"""GitHub owner/name → packages."""
 
 
 def repository_hint(package: str) -> str:
-    """Continue a sentence about a package that is not there: '; it is published at …', or nothing."""
+    """Return '; it is published at …' for a missing package, or nothing."""
     for repository, packages in _REPOSITORIES.items():
         if package in packages.split():
             return f"; it is published at https://github.com/{repository}"

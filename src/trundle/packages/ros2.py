@@ -1,4 +1,4 @@
-"""Launch files of ROS 2, which are not read: told by their endings, and by what only ROS 2 has."""
+"""Detection of ROS 2 launch files, which are not supported, by suffix and ROS 2 syntax."""
 
 import re
 from pathlib import Path
@@ -8,13 +8,13 @@ from trundle.xmlnode import XmlNode
 
 _IN_OTHER_LANGUAGES = {".py": "in Python", ".yaml": "in YAML", ".yml": "in YAML"}
 _NAME = re.compile(r"(.*[._])?launch\.\w+")
-"""By what ROS 2 asks of the names of such files; others of these endings may be anything."""
+"""ROS 2's pattern of launch file names; other files of these suffixes may be anything."""
 _SUBSTITUTION = re.compile(r"\$\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec)\s")
-_READ_HERE = "those of ROS 1 are read here"
+_READ_HERE = "only ROS 1 launch files are supported"
 
 
 def refuse_ros2_language(file: Path, *, is_launch: bool) -> None:
-    """Refuse a launch file in a language of ROS 2 alone; `is_launch`: it was named as a launch file, whatever its name.
+    """Refuse a launch file in Python or YAML; `is_launch`: it was given as a launch file, whatever its name.
 
     Raises:
         DescriptionError: it is one.
@@ -25,10 +25,10 @@ def refuse_ros2_language(file: Path, *, is_launch: bool) -> None:
 
 
 def refuse_ros2(node: XmlNode) -> None:
-    """Refuse what only ROS 2 has.
+    """Refuse ROS 2 syntax.
 
     Raises:
-        DescriptionError: at the first place that shows it.
+        DescriptionError: at its first occurrence.
     """
     if shown := _shown_by(node):
         raise DescriptionError(node.at, f"{shown}: this is a launch file of ROS 2; {_READ_HERE}")

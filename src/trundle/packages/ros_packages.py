@@ -1,4 +1,4 @@
-"""Where ROS packages live: by the name in package.xml, and by the name of the folder."""
+"""Index of ROS packages, by the name in package.xml and by folder name."""
 
 import os
 import re
@@ -13,27 +13,27 @@ from .package_cache import Folder, PackageCache
 from .workspace import PARTS, distinct_folders, own_package, workspaces
 
 _MAX_GUESSED = 5000
-"""Folders looked at where nobody said that packages are: a home folder has more than one wants to wait for."""
+"""Most folders visited where no path was given, such as in a home folder."""
 _MAX_RIGHT_BELOW = 500
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
 SHIPPED = Path(__file__).parent / "ros"
-"""Packages of our own: for the few stock ones that launch files only take a file from, and the examples."""
+"""Trundle's packages: substitutes for stock packages of which launch files use a file, and the examples."""
 _INSTALLED = Path("/usr/share")
-"""Debian's packages of ROS; its rospack looks there last, whatever ROS_PACKAGE_PATH says."""
+"""Folder of Debian's ROS packages, which its rospack searches last, whatever ROS_PACKAGE_PATH is."""
 _CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
 class RosPackages:
-    """An index of the packages below some folders, made when first asked."""
+    """Index of packages, built on first use."""
 
     def __init__(self, environment: Mapping[str, str], start: Path, cache: PackageCache) -> None:
-        """Look along ROS_PACKAGE_PATH, in the workspace around `start`, beside the package `start` is in, then in it.
+        """Search ROS_PACKAGE_PATH, the workspace around `start`, beside the package of `start`, then inside it.
 
         Args:
-            environment: says where packages are.
+            environment: with the search paths.
             start: a file or folder.
-            cache: what the same environment found before.
+            cache: earlier results of the same environment.
         """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
         start = self._start = _real(start)
@@ -41,18 +41,18 @@ class RosPackages:
         self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
         self._around = list(workspaces(start))
         self.roots = distinct_folders([*self._on_path, *self._around])
-        """Folders that are there to hold packages."""
+        """Folders of packages."""
         own = own_package(start, cache.wide)
         self._guessed = [] if own is None or own.parent in map(_real, self.roots) else [own, own.parent]
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
 
     def find(self, name: str) -> Path | None:
-        """The folder of a package: by its manifest's name, else by the folder's own name."""
+        """Return the folder of a package, by its manifest's name, else by folder name."""
         return self.all().get(name) or self._folders.get(name) or self._right_below.get(name)
 
     def all(self) -> Mapping[str, Path]:
-        """Every package that has a manifest, by name; the first of a name wins."""
+        """Return every package with a manifest, by name; the first of a name wins."""
         if self._by_name is None:
             self._by_name = {}
             for root in self.roots:
@@ -70,21 +70,23 @@ class RosPackages:
         return self._by_name
 
     def workspace_of(self, folder: Path) -> Path | None:
-        """The workspace around `start` that a package is from; None: it is from elsewhere, or ROS_PACKAGE_PATH."""
+        """Return the workspace around `start` that contains a package; None if it is elsewhere or on
+        ROS_PACKAGE_PATH.
+        """
         if any(folder.is_relative_to(root) for root in self._on_path):
             return None
         space = next((space for space in self._around if folder.is_relative_to(space)), None)
         return None if space is None else space.parent.parent if space.name == "share" else space.parent
 
     def searched(self) -> list[Path]:
-        """Where `find` looks, in order."""
+        """Return the folders that `find` searches, in order."""
         return [*self.roots, *self._guessed[1:]]
 
     @cached_property
     def _right_below(self) -> Mapping[str, Path]:
-        """Packages whose folders are in `start`, a plain folder, by their manifests' and by their folders' names.
+        """Packages directly in `start`, if it is a plain folder, by manifest and by folder name.
 
-        None of them is listed in `all`: only who asks for one by its name means it.
+        They are found by name only, and not part of `all`.
         """
         walk = Crawl(self._start, max_folders=_MAX_RIGHT_BELOW, deepest=1)
         found = [(folder, name) for folder, name in self._packages_below(walk) if name is not None]
@@ -105,7 +107,7 @@ class RosPackages:
             has_manifest = not names.isdisjoint(MANIFESTS)
             if (has_manifest or not names.isdisjoint(PARTS)) and folder not in self._cache.wide:
                 yield folder, _package_name(folder) if has_manifest else None
-        if walk.most is None:  # a folder to hold packages, by what the user says
+        if walk.most is None:  # a package folder given by the user
             self._cache.skipped.update(walk.skipped)
 
 
@@ -114,16 +116,16 @@ def _real(folder: Path) -> Path:
 
 
 def _installed() -> Iterator[tuple[Path, str]]:
-    """Those right below the system's folder: it holds much else, so none is looked for further down."""
+    """Yield the packages directly in the system's folder, without descending."""
     if os.path.isdir(_INSTALLED):
         folders = (Path(entry.path) for entry in os.scandir(_INSTALLED))
         yield from ((folder, _package_name(folder)) for folder in folders if os.path.isfile(folder / MANIFESTS[0]))
 
 
 def _package_name(folder: Path) -> str:
-    """What the manifest calls a package; of one in manifest.xml (rosbuild) the folder is the name.
+    """Return the name in the manifest; with manifest.xml (rosbuild) the folder name.
 
-    No XML is parsed: rospack's own reader minds little, and of a large workspace hundreds are read.
+    No XML is parsed: rospack's own reader is tolerant, and large workspaces have hundreds of manifests.
     """
     try:
         text = read_text(folder / MANIFESTS[0])

@@ -1,4 +1,4 @@
-"""Rule files for bags of old messages, which packages export as rosbag's plugins."""
+"""Migration rule files for bags, exported by packages as rosbag plugins."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,11 +12,11 @@ _EXPORTS = {
     "rosbag": "migration_rule_file",
     "rosbag_migration_rule": "rule_file",
 }
-"""What a package depends on, and has in its <export> → the attribute with the file's name, in rosbag's order."""
+"""Dependency and <export> tag → attribute with the file's name, in rosbag's order."""
 
 
 def exported_rules(packages: Mapping[str, Path]) -> list[tuple[str, Path]]:
-    """Packages with the rule files they export; a manifest that cannot be read exports none.
+    """Return packages and their exported rule files; unreadable manifests are skipped.
 
     Args:
         packages: folders by name.
@@ -45,6 +45,6 @@ def _exported(folder: Path, tag: str, attribute: str) -> Iterator[str]:
 
 
 def _depends(root: XmlNode) -> set[str]:
-    """What a package needs at any time; those of rosbuild name it in an attribute."""
+    """Return all dependencies of a package; rosbuild names them in an attribute."""
     nodes = [node for node in root.children if node.tag.endswith("depend")]
     return {node.attribute("package") or node.text.strip() for node in nodes}

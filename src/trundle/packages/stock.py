@@ -1,8 +1,8 @@
-"""The stock ROS packages whose programs, plugins or controllers Trundle stands in for.
+"""Stock ROS packages whose programs, plugins or controllers are built in.
 
-Launch files `$(find)` them for an argument's default, a command or a file; where none is installed, each is a folder
-with nothing in it, so that only the file that is truly asked for is missing. Of a few packages that describe sensors
-there are stand-ins: the same macros, which build the same links and sensors of boxes and cylinders.
+Launch files `$(find)` them for a default, a command or a file; if not installed, each is an empty folder, so that only
+a file really used is missing. Some sensor description packages have substitutes with the same macros, which create the
+same links and sensors from boxes and cylinders.
 """
 
 import os
@@ -31,4 +31,4 @@ _CONTROLLERS = """
 _DESCRIPTIONS = Path(__file__).parent / "descriptions"
 STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
 DESCRIPTIONS = {name: _DESCRIPTIONS / name for name in sorted(os.listdir(_DESCRIPTIONS))}
-"""Folders that stand in for packages that describe sensors, by name."""
+"""Substitutes for sensor description packages: name → folder."""

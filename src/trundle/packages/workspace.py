@@ -1,4 +1,4 @@
-"""What lies around a file: the package it is in, the workspace, the folders to look for its neighbours in."""
+"""Surroundings of a file: its package, its workspace, and the folders searched for neighbours."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
@@ -8,18 +8,18 @@ from .confinement import Confinement, WideFolders
 from .crawl import MANIFESTS, Crawl
 
 PARTS = frozenset({"launch", "urdf", "xacro", "meshes", "models", "worlds", "msg"})
-"""A published tutorial often has no package.xml: a folder with one of these in it is a package too."""
+"""Folders that mark a package without package.xml, as in many published tutorials."""
 _CONTENTS = PARTS | {"config", "materials", "media", "params", "textures"}
-"""The other folders that a file in one of such a package's folders may read."""
+"""Folders that files of such a package may read."""
 _SPACES = {"src": ("src", "devel/share", "install"), "devel": ("devel/share", "src"), "install": ("install", "src")}
-"""The folders of a catkin or colcon workspace, by the one that the file is in."""
+"""Folders of a catkin or colcon workspace, by the one that contains the file."""
 _DEEPEST = 3
-"""Below the `src` of a workspace, a package in a group in a repository."""
+"""Largest depth below a workspace's `src`: a package in a group in a repository."""
 _MAX_LOOKED_AT = 500
 
 
 def own_package(start: Path, wide: WideFolders) -> Path | None:
-    """The innermost package or model folder that a file or folder is in; of one without a manifest too."""
+    """Return the innermost package or model folder that contains a file or folder, with or without a manifest."""
     for folder in _with_parents(start):
         if any(os.path.exists(folder / name) for name in (*MANIFESTS, "model.config", *PARTS)) and folder not in wide:
             return folder
@@ -27,9 +27,9 @@ def own_package(start: Path, wide: WideFolders) -> Path | None:
 
 
 def own_confinement(start: Path, wide: WideFolders) -> Confinement:
-    """Return the folders that a file may read as its own: all of the package or model folder it is in.
+    """Return the folders that a file may read as its own: its package or model folder.
 
-    Without a manifest or model.config that is its own folder, and those such as `meshes` of the package as published.
+    Without a manifest or model.config these are its own folder, and the package's folders such as `meshes`.
     """
     folders = list(_with_parents(start)) or [start.parent]
     for folder in folders:
@@ -41,10 +41,10 @@ def own_confinement(start: Path, wide: WideFolders) -> Confinement:
 
 
 def workspaces(start: Path) -> Iterator[Path]:
-    """The package folders of the workspace that a file or folder is in, those of its own kind first."""
+    """Yield the package folders of the workspace that contains a file or folder, those of its own kind first."""
     for folder in _with_parents(start):
         if _has_manifest(folder):
-            continue  # its `src` holds programs
+            continue  # `src` of a package holds programs
         if folder.name in _SPACES and not _has_manifest(folder.parent):
             beside = (folder.parent / space for space in _SPACES[folder.name])
         elif _holds_packages(folder / "src"):
@@ -65,7 +65,7 @@ def _holds_packages(folder: Path) -> bool:
 
 
 def distinct_folders(folders: Iterable[Path]) -> list[Path]:
-    """Each folder by the first of its names, in order."""
+    """Return each folder once, with links resolved, under its first name."""
     named: dict[str, Path] = {}
     for folder in folders:
         named.setdefault(os.path.realpath(folder), folder)
@@ -73,12 +73,12 @@ def distinct_folders(folders: Iterable[Path]) -> list[Path]:
 
 
 def program_folders(package: str, folder: Path, environment: Mapping[str, str]) -> list[Path]:
-    """Where catkin and colcon put the programs of a package that they build: lib/PACKAGE of a prefix.
+    """Return the folders in which catkin and colcon place a package's programs: lib/PACKAGE of a prefix.
 
     Args:
         package: its name.
-        folder: where it lies, among sources or below a prefix's share.
-        environment: CMAKE_PREFIX_PATH names prefixes.
+        folder: its folder, in a source space or below a prefix's share.
+        environment: with CMAKE_PREFIX_PATH.
     """
     prefixes = [Path(entry) for entry in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if entry]
     if folder.parent.name == "share":
@@ -91,11 +91,11 @@ def program_folders(package: str, folder: Path, environment: Mapping[str, str]) 
 
 
 def ancestor_folders(start: Path, *, levels: int = 4) -> list[Path]:
-    """The folder of a file and those above it, as far as its neighbours may reasonably lie."""
+    """Return the folder of a file and its nearest parents, in which neighbours are searched."""
     return list(_with_parents(start))[:levels]
 
 
 def _with_parents(start: Path) -> Iterator[Path]:
-    """A folder, or a file's, and every folder above but the root of the disk."""
+    """Yield a folder, or a file's, and its parents except the root of the disk."""
     folder = start if os.path.isdir(start) else start.parent
     return (each for each in (folder, *folder.parents) if each.parent != each)
