@@ -1,1 +1,1 @@
-"""Worlds and models built in code, with SDF's names and defaults."""
+"""Builders of worlds and models in code, with SDF's names and defaults."""

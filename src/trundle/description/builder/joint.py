@@ -1,4 +1,4 @@
-"""A joint that is built."""
+"""Builder of a joint."""
 
 from typing import Self
 
@@ -13,12 +13,12 @@ from .names import BUILT, check_name
 from .sensors import make_sensor
 
 _AXES = {JointType.FIXED: 0, JointType.BALL: 0, JointType.UNIVERSAL: 2, JointType.REVOLUTE2: 2}
-"""Of each type; the others have one."""
+"""Number of axes per joint type; 1 for the others."""
 _BUILT = [kind for kind in JointType if kind not in (JointType.PLANAR, JointType.GEARBOX)]
 
 
 class Joint:
-    """A joint between two links, or one and the world; `Model.add_joint` makes it."""
+    """Joint between two links, or a link and the world; created by `Model.add_joint`."""
 
     def __init__(
         self,
@@ -30,7 +30,7 @@ class Joint:
         pose: Pose,
         axes: tuple[JointAxis | None, JointAxis | None],
     ) -> None:
-        """Check the type and its axes; see `Model.add_joint`."""
+        """Validate the type and its axes; see `Model.add_joint`."""
         known = {kind.value: kind for kind in _BUILT}
         if type not in known:
             raise UsageError(f"joint {name!r}: no type {type!r}; there are: {', '.join(known)}")
@@ -52,14 +52,14 @@ class Joint:
         always_on: bool = False,
         topic: str = "",
     ) -> Self:
-        """Measure what the joint carries.
+        """Add a force-torque sensor.
 
         Args:
             name: of the sensor.
             settings: axes, direction and noise.
             update_rate: [Hz]; 0: at every step.
-            always_on: measure even while nobody wants it.
-            topic: to publish on; empty: as Gazebo names it.
+            always_on: measure even without listeners.
+            topic: to publish on; empty: Gazebo's name.
 
         Raises:
             UsageError: the name is taken.
@@ -80,7 +80,7 @@ class Joint:
         return self
 
     def description(self, model_from_child: Pose) -> model.Joint:
-        """What was built, as a file's reader would give it; axes are turned into the model's frame."""
+        """Return the description, as a reader would, with axes in the model frame."""
         turn = (model_from_child @ self._pose).quaternion
         first, second = (*self._axes, None, None)[:2]
         return model.Joint(

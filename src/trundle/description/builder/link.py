@@ -1,4 +1,4 @@
-"""A link that is built: shapes, sensors, mass."""
+"""Builder of a link: shapes, sensors and mass."""
 
 from typing import Self
 
@@ -16,16 +16,16 @@ _ORIGIN = Pose()
 
 
 class Link(ShapeAdder["Link"]):
-    """One rigid body; its mass properties are those of its shapes, or as `set_inertial` says.
+    """Rigid body with the mass properties of its shapes, or of `set_inertial`.
 
     Without either they are SDF's defaults, 1 kg and 1 kg·m². Poses of shapes and sensors are in its frame.
     """
 
     def __init__(self, name: str, pose: Pose) -> None:
-        """Start an empty one; `Model.add_link` does."""
+        """Create an empty link; called by `Model.add_link`."""
         self.name = name
         self.pose = pose
-        """In the model's frame."""
+        """Pose in the model's frame."""
         self._shapes: list[Shape] = []
         self._sensors: list[Sensor] = []
         self._inertial: Inertial | None = None
@@ -38,13 +38,13 @@ class Link(ShapeAdder["Link"]):
         products: Vector3 = (0.0, 0.0, 0.0),
         center: Vector3 = (0.0, 0.0, 0.0),
     ) -> Self:
-        """Weigh this, whatever its shapes weigh.
+        """Set the mass properties, in place of those of the shapes.
 
         Args:
             mass: [kg]
             moments: ixx, iyy, izz about the centre of mass, along the link's axes [kg·m²].
             products: ixy, ixz, iyz [kg·m²].
-            center: of mass, in the link's frame [m].
+            center: centre of mass in the link's frame [m].
 
         Raises:
             UsageError: the mass or a moment is not above zero.
@@ -73,9 +73,9 @@ class Link(ShapeAdder["Link"]):
             settings: of its type, from `trundle.model`: `CameraOptics`, `RangeScan`, `ImuNoise`, …; None: SDF's own.
             pose: in the link's frame.
             update_rate: [Hz]; 0: at every step.
-            always_on: measure even while nobody wants it.
+            always_on: measure even without listeners.
             visualize: show its rays.
-            topic: to publish on; empty: as Gazebo names it.
+            topic: to publish on; empty: Gazebo's name.
 
         Raises:
             UsageError: there is no such type, its settings are of another kind, or the name is taken.
@@ -104,7 +104,7 @@ class Link(ShapeAdder["Link"]):
         return self
 
     def description(self) -> model.Link:
-        """What was built, as a file's reader would give it."""
+        """Return the description, as a reader would."""
         return model.Link(
             name=self.name,
             at=BUILT,

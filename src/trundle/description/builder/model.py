@@ -1,4 +1,4 @@
-"""A model that is built: links and joints."""
+"""Builder of a model: links and joints."""
 
 from pathlib import Path
 from xml.sax.saxutils import escape, quoteattr
@@ -21,16 +21,16 @@ _ORIGIN = Pose()
 
 
 class Model(ShapeAdder[Link]):
-    """Links joined by joints. A shape that is added to it becomes a link of its own, at the shape's pose."""
+    """Links joined by joints. A shape added to it becomes a link of its own, at the shape's pose."""
 
     def __init__(self, name: str, *, pose: Pose = _ORIGIN, static: bool = False, self_collide: bool = False) -> None:
-        """Start an empty model.
+        """Create an empty model.
 
         Args:
             name: of the model.
             pose: in the world.
             static: it never moves.
-            self_collide: its links touch one another.
+            self_collide: its links collide with one another.
         """
         check_name(name, (), "a model")
         self.name = name
@@ -65,7 +65,7 @@ class Model(ShapeAdder[Link]):
         axis: Vector3 | JointAxis = (0.0, 0.0, 1.0),
         axis2: Vector3 | JointAxis | None = None,
     ) -> Joint:
-        """Join two links, or one and the "world".
+        """Connect two links, or a link and the "world".
 
         Args:
             name: of the joint.
@@ -73,9 +73,8 @@ class Model(ShapeAdder[Link]):
             parent: link or its name, or "world".
             child: link or its name.
             pose: of the joint in the child's frame.
-            axis: direction in the joint's frame, without limits; with limits, damping and the like a
-                `trundle.model.JointAxis`.
-            axis2: likewise, of universal and revolute2 joints.
+            axis: direction in the joint's frame, without limits; with limits or damping a `trundle.model.JointAxis`.
+            axis2: second axis of universal and revolute2 joints.
 
         Raises:
             UsageError: there is no such type or link, with those there are; or the name is taken.
@@ -93,7 +92,7 @@ class Model(ShapeAdder[Link]):
         return joint
 
     def add_plugin(self, name: str, filename: str, **parameters: str | float) -> None:
-        """Have a plugin loaded with the model, as `trundle.load(…, plugins=True)` does.
+        """Add a plugin to the model, as loaded by `trundle.load(…, plugins=True)`.
 
         Args:
             name: of the plugin.
@@ -114,7 +113,7 @@ class Model(ShapeAdder[Link]):
         return name
 
     def description(self) -> model.Model:
-        """What was built, as a file's reader would give it."""
+        """Return the description, as a reader would."""
         poses = {link.name: link.pose for link in self._links}
         return model.Model(
             name=self.name,
@@ -129,7 +128,7 @@ class Model(ShapeAdder[Link]):
         )
 
     def to_sdf(self) -> str:
-        """The model as an SDF document."""
+        """Return the model as an SDF document."""
         return sdf_of(model.World(name=self.name, at=BUILT, models=(self.description(),)), is_world=False)
 
     def save(self, file: str | Path) -> None:

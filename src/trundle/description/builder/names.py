@@ -1,4 +1,4 @@
-"""Names of what is built: each once, and an error that lists what there is."""
+"""Validation of names and lengths in the builders."""
 
 import math
 from collections.abc import Iterable
@@ -15,10 +15,10 @@ class _Named(Protocol):
 
 
 def check_name(name: str, there: Iterable[_Named], owner: str) -> str:
-    """Return a name that is still free.
+    """Return the name if it is free.
 
     Raises:
-        UsageError: it is taken, empty, or has SDF's separator in it.
+        UsageError: it is taken, empty, or contains SDF's separator.
     """
     if not name or "::" in name:
         raise UsageError(f"{owner}: {name!r} is no name: it must not be empty or hold '::'")
@@ -29,10 +29,10 @@ def check_name(name: str, there: Iterable[_Named], owner: str) -> str:
 
 
 def check_positive(what: str, *values: float) -> None:
-    """Refuse lengths and masses that nothing can have.
+    """Check lengths and masses.
 
     Raises:
-        UsageError: one is not above zero, or endless.
+        UsageError: one is not above zero, or not finite.
     """
     if not all(value > 0.0 and math.isfinite(value) for value in values):
         raise UsageError(f"{what} must be above zero, got {', '.join(f'{value:g}' for value in values)}")

@@ -1,4 +1,4 @@
-"""Sensors of what is built: SDF's types, each with the settings that its type has."""
+"""Builder of sensors: SDF's types and their settings."""
 
 from typing import TypeAlias
 
@@ -38,7 +38,7 @@ SensorSettings: TypeAlias = (
     | Sonar
     | Transceiver
 )
-"""What a sensor is set to; each of `trundle.model`, with SDF's defaults."""
+"""Settings of a sensor, all from `trundle.model`, with SDF's defaults."""
 
 _SETTINGS: dict[str, type[SensorSettings]] = {
     **dict.fromkeys(CAMERA_TYPES, CameraOptics),
@@ -67,7 +67,7 @@ def make_sensor(
     visualize: bool,
     topic: str,
 ) -> Sensor:
-    """A sensor with the settings of its type.
+    """Return a sensor with the settings of its type.
 
     Raises:
         UsageError: there is no such type, or its settings are of another kind.

@@ -1,4 +1,4 @@
-"""Shapes of what is built, and what they weigh."""
+"""Builder of shapes with mass properties."""
 
 from abc import abstractmethod
 from pathlib import Path
@@ -22,7 +22,7 @@ Added = TypeVar("Added")
 
 
 class Shape(Struct, frozen=True, kw_only=True):
-    """One shape that is seen, touched, or both."""
+    """Shape with a visual, a collision, or both."""
 
     name: str
     geometry: Geometry
@@ -30,9 +30,9 @@ class Shape(Struct, frozen=True, kw_only=True):
     mass: float
     """[kg]"""
     center: Vector3
-    """Of mass, in the shape's frame [m]."""
+    """Centre of mass in the shape's frame [m]."""
     inertia: Tensor
-    """About the centre of mass, in the shape's axes [kg·m²]."""
+    """Inertia about the centre of mass, in the shape's axes [kg·m²]."""
     material: Material
     surface: Surface
     visual: bool
@@ -40,33 +40,33 @@ class Shape(Struct, frozen=True, kw_only=True):
 
 
 class ShapeOptions(TypedDict, total=False):
-    """What every shape may be given."""
+    """Options of every shape."""
 
     pose: Pose
-    """Relative to what it is added to; default: there."""
+    """Pose in the parent's frame; default: identity."""
     mass: float
-    """[kg]; default: by the density."""
+    """Mass [kg]; default: from the density."""
     density: float
-    """[kg/m³]; default: water's, which is SDF's."""
+    """Density [kg/m³]; default: water's, which is SDF's."""
     color: Rgba
     """Red, green, blue and opacity, each 0 to 1; default: Gazebo's grey."""
     surface: Surface
     """Friction and contact; default: SDF's."""
     visual: bool
-    """It is seen; default: true."""
+    """True for a visual; default: True."""
     collision: bool
-    """It is touched; default: true."""
+    """True for a collision; default: True."""
 
 
 class ShapeAdder(Generic[Added]):
-    """Adds shapes; what that makes, a model, a link or part of one, is up to what they are added to.
+    """Base of builders that shapes are added to, as models, links or parts of a link.
 
-    The name is that of what is made, and of its visual and collision; `ShapeOptions` has the other arguments.
+    The name is that of the result, and of its visual and collision; `ShapeOptions` has the other arguments.
     """
 
     @abstractmethod
     def add_shape(self, shape: Shape) -> Added:
-        """Add what the other methods made."""
+        """Add a shape created by the other methods."""
 
     def add_box(self, name: str, size: Vector3, **options: Unpack[ShapeOptions]) -> Added:
         """Add a box of full lengths `size` along x, y, z [m].
@@ -79,7 +79,7 @@ class ShapeAdder(Generic[Added]):
         return self.add_shape(_solid(name, Box((x, y, z)), options))
 
     def add_sphere(self, name: str, radius: float, **options: Unpack[ShapeOptions]) -> Added:
-        """Add a ball of a radius [m].
+        """Add a sphere of a radius [m].
 
         Raises:
             UsageError: the radius, mass or density is not above zero, or the name is taken.
@@ -97,7 +97,7 @@ class ShapeAdder(Generic[Added]):
         return self.add_shape(_solid(name, Cylinder(radius, length), options))
 
     def add_capsule(self, name: str, radius: float, length: float, **options: Unpack[ShapeOptions]) -> Added:
-        """Add a cylinder along its z with a half ball at each end; the length is the cylinder's [m], as in SDF.
+        """Add a capsule along its z; the length is that of the cylindrical part [m], as in SDF.
 
         Raises:
             UsageError: a length, mass or density is not above zero, or the name is taken.
@@ -108,7 +108,7 @@ class ShapeAdder(Generic[Added]):
     def add_mesh(
         self, name: str, file: str | Path, *, scale: Vector3 = (1.0, 1.0, 1.0), **options: Unpack[ShapeOptions]
     ) -> Added:
-        """Add the triangles of a .dae, .stl, .obj or .glb file, which enclose what weighs.
+        """Add the closed mesh of a .dae, .stl, .obj or .glb file.
 
         Raises:
             UsageError: the mesh encloses no volume, a mass or density is not above zero, or the name is taken.
@@ -130,7 +130,7 @@ def _solid(name: str, geometry: Box | Capsule | Cylinder | Sphere, options: Shap
 def _shape(
     name: str, geometry: Geometry, volume: float, per_mass: Tensor, options: ShapeOptions, *, center: Vector3 = ZERO
 ) -> Shape:
-    """A shape that weighs what the options say, or its volume [m³] does; inertia per unit of mass [m²]."""
+    """Return a shape with the mass of its options or of its volume [m³]; inertia per unit of mass [m²]."""
     unknown = options.keys() - ShapeOptions.__annotations__.keys()
     if unknown:
         there = ", ".join(ShapeOptions.__annotations__)
@@ -154,7 +154,7 @@ def _shape(
 
 
 def _enclosed(mesh: Mesh, scale: Vector3, file: str | Path) -> tuple[float, Vector3, Tensor]:
-    """Volume [m³], centre of mass [m] and inertia about it per unit of mass [m²] of what a closed mesh encloses.
+    """Return volume [m³], centre of mass [m] and inertia about it per unit of mass [m²] of a closed mesh.
 
     Sums over the tetrahedra of each face with the origin: ∫ x xᵀ dV = Σ det/120 (Σᵢ vᵢ vᵢᵀ + s sᵀ), s = Σᵢ vᵢ.
     """

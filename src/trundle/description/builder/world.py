@@ -1,4 +1,4 @@
-"""A world that is built: models and lights."""
+"""Builder of a world: models and lights."""
 
 from pathlib import Path
 
@@ -19,20 +19,20 @@ _UP: Vector3 = (0.0, 0.0, 1.0)
 
 
 class World(ShapeAdder[Model]):
-    """Everything that is simulated together; as in SDF, empty and dark until something is added.
+    """World, empty and dark like SDF's until something is added.
 
-    A shape that is added to it becomes a model with one link, "link", at the shape's pose.
+    A shape added to it becomes a model with one link, "link", at the shape's pose.
     """
 
     def __init__(
         self, name: str = "default", *, gravity: Vector3 = (0.0, 0.0, -9.8), max_step_size: float = 0.001
     ) -> None:
-        """Start an empty world.
+        """Create an empty world.
 
         Args:
             name: of the world.
             gravity: [m/s²]
-            max_step_size: of the simulation [s].
+            max_step_size: time step [s].
 
         Raises:
             UsageError: the time step is not above zero.
@@ -45,10 +45,10 @@ class World(ShapeAdder[Model]):
         self._has_ground = False
 
     def add_model(self, model: Model | str, *, pose: Pose | None = None) -> Model:
-        """Add a model that was built, or an empty one of this name.
+        """Add a model, or an empty one of this name.
 
         Args:
-            model: to add; it is the same object afterwards.
+            model: to add; the same object is returned.
             pose: in the world; None: the model's own.
 
         Raises:
@@ -63,7 +63,7 @@ class World(ShapeAdder[Model]):
         return added
 
     def add_ground_plane(self) -> None:
-        """Add Gazebo's ground_plane: endless at z = 0, drawn 100 m wide.
+        """Add Gazebo's ground_plane: infinite at z = 0, drawn 100 m wide.
 
         Raises:
             UsageError: there is a model of that name.
@@ -88,13 +88,13 @@ class World(ShapeAdder[Model]):
             name: of the light.
             type: directional, point or spot.
             pose: in the world.
-            direction: where it shines, in its own frame.
+            direction: of the light rays, in the light's frame.
             diffuse: colour.
             specular: colour of highlights.
-            cast_shadows: whether it does.
+            cast_shadows: True if it casts shadows.
 
         Raises:
-            UsageError: the name is taken, with those there are; or the direction is none.
+            UsageError: the name is taken, with those there are; or the direction has zero length.
         """
         check_name(name, self._lights, f"world {self.name!r}")
         along = normalized(direction)
@@ -120,7 +120,7 @@ class World(ShapeAdder[Model]):
         return made
 
     def description(self) -> model.World:
-        """What was built, as a file's reader would give it."""
+        """Return the description, as a reader would."""
         ground = (_ground_plane(),) if self._has_ground else ()
         return model.World(
             name=self.name,
@@ -131,7 +131,7 @@ class World(ShapeAdder[Model]):
         )
 
     def to_sdf(self) -> str:
-        """The world as an SDF document."""
+        """Return the world as an SDF document."""
         return sdf_of(self.description(), is_world=True)
 
     def save(self, file: str | Path) -> None:

@@ -1,4 +1,4 @@
-"""Writes what is built as SDF."""
+"""Writer of built worlds and models as SDF."""
 
 from pathlib import Path
 
@@ -10,10 +10,10 @@ from ..writing import write_sdf, written_uri
 
 
 def sdf_of(world: model.World, *, is_world: bool) -> str:
-    """An SDF document; all that can be built can be written.
+    """Return an SDF document.
 
     Raises:
-        DescriptionError: something could not.
+        DescriptionError: a part cannot be written.
     """
     return write_sdf(world, is_world=is_world, uri_of=written_uri, report=Diagnostics(strict=True))
 
