@@ -151,10 +151,10 @@ class Packages:
             raise DescriptionError(at, f"{named}no such file {_shown(str(path))}")
         if is_stream(path):
             raise DescriptionError(at, f"{named}{path} is a pipe, a device or a socket, not a file")
-        self.check_readable(path, at, told=uri, root=root)
+        self.check_readable(path, at, name=uri, root=root)
         return path
 
-    def check_readable(self, path: Path, at: Source, *, told: str, root: Path | None = None) -> None:
+    def check_readable(self, path: Path, at: Source, *, name: str, root: Path | None = None) -> None:
         """Refuse a file that is neither below `root` nor in the folders given by the user.
 
         Raises:
@@ -166,7 +166,7 @@ class Packages:
         if not (self._in_own.allows(path) or is_named or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
             raise DescriptionError(
                 at,
-                f"{told} leads to {path}; a description reads only below its own folders, the packages and the "
+                f"{name} leads to {path}; a description reads only below its own folders, the packages and the "
                 "resource paths; --allow-outside lifts that",
             )
 

@@ -94,7 +94,7 @@ def _texture(name: str, places: Iterable[Path], at: Source, packages: Packages, 
         for path in (folder / name, folder.parent / "textures" / name):
             if os.path.isfile(path):
                 try:
-                    packages.check_readable(path, at, told=f"texture {name!r}", root=folder.parent)
+                    packages.check_readable(path, at, name=f"texture {name!r}", root=folder.parent)
                 except DescriptionError as error:
                     report.warn(error.at, f"{error.what}; it is left out")
                     return None

@@ -151,7 +151,7 @@ def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, c
         report.warn(cursor.at, " ".join(map(str, words)))
 
     def open_readable(name: str) -> TextIO:
-        packages.check_readable(Path(name), cursor.at, told="load_yaml")
+        packages.check_readable(Path(name), cursor.at, name="load_yaml")
         try:
             return io.StringIO(_data(name).decode())
         except UnicodeDecodeError:
@@ -213,7 +213,7 @@ def _parse_for(
         if filename is None:
             return original(inp, filename)
         if filename not in known:
-            packages.check_readable(Path(filename), cursor.at, told="xacro:include")
+            packages.check_readable(Path(filename), cursor.at, name="xacro:include")
             _expect_stand_in(Path(filename), packages, cursor.at)
         data = known[filename] if filename in known else _data(filename)
         document = _parsed(data, filename, report)
