@@ -240,20 +240,20 @@ class ModelHandle:
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """One for each axis, in file order, which is the order of all arrays here.
+        """Joint name of each axis, in file order, which is the order of all arrays here.
 
-        A joint that cannot move has none; a universal joint's name stands there twice, a ball joint's three times.
+        A fixed joint has none, a universal joint two, a ball joint three.
         """
         return self._joint_space.names
 
     @property
     def joint_positions(self) -> NDArray[np.float64]:
-        """(axes,) [rad or m] in the order of `joint_names`; a ball joint's three are its rotation vector.
+        """Positions (axes,) [rad or m] in the order of `joint_names`; a ball joint's three are its rotation vector.
 
-        What is read is a copy; assigning sets the state at once, leaves velocities as they are, and switches no motor.
+        Reading returns a copy; assigning sets the state at once, keeps velocities, and switches no motor.
 
         Raises:
-            UsageError: what is assigned has another shape, or a number that is not finite.
+            UsageError: the assigned array has another shape, or a number that is not finite.
         """
         return self._joint_space.positions()
 
@@ -263,12 +263,13 @@ class ModelHandle:
 
     @property
     def joint_velocities(self) -> NDArray[np.float64]:
-        """(axes,) [rad/s or m/s] in the order of `joint_names`; a ball joint's three are along its child's axes.
+        """Velocities (axes,) [rad/s or m/s] in the order of `joint_names`; a ball joint's three are along its child's
+        axes.
 
-        What is read is a copy; assigning sets the state at once; nothing keeps it.
+        Reading returns a copy; assigning sets the state once.
 
         Raises:
-            UsageError: what is assigned has another shape, or a number that is not finite.
+            UsageError: the assigned array has another shape, or a number that is not finite.
         """
         return self._joint_space.velocities()
 
@@ -282,7 +283,7 @@ class ModelHandle:
     # velocity of that link's origin [m/s] and its angular velocity [rad/s], world axes; then `joint_names`' axes.
 
     def jacobian(self, link: str | LinkHandle, point: Vector3 = ZERO) -> NDArray[np.float64]:
-        """How a point of a link moves with the model's velocities, where the model is now.
+        """Return the Jacobian of a point of a link in the model's current state.
 
         Args:
             link: of this model.
@@ -299,21 +300,23 @@ class ModelHandle:
         return self._joint_space.jacobian(of.index, point)
 
     def mass_matrix(self) -> NDArray[np.float64]:
-        """(n, n) M(q) where the model is now, symmetric [kg, kg·m, kg·m²]; rows and columns as `jacobian`'s columns."""
+        """Return the (n, n) mass matrix M(q) of the current state [kg, kg·m, kg·m²], ordered as
+        `jacobian`'s columns.
+        """
         return self._joint_space.mass_matrix()
 
     def bias_forces(self) -> NDArray[np.float64]:
-        """(n,) h(q, v) as the model moves now: Coriolis, centrifugal and gravity forces [N·m or N].
+        """Return (n,) h(q, v) of the current state: Coriolis, centrifugal and gravity forces [N·m or N].
 
-        Joint damping, friction, springs, motors and contacts are not in it. Order as `jacobian`'s columns.
+        Joint damping, friction, springs, motors and contacts are excluded. Order as `jacobian`'s columns.
         """
         return self._joint_space.bias_forces()
 
     def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> NDArray[np.float64]:
-        """(n,) forces τ = M(q) a + h(q, v) that cause accelerations [N·m or N]; of a free link force and torque at its
-        origin, world axes.
+        """Return the (n,) forces τ = M(q) a + h(q, v) for accelerations [N·m or N]; for a free link force and torque at
+        its origin, world axes.
 
-        The world stays as it is; free links are where they are now.
+        The world does not change; free links have their current pose.
 
         Args:
             q: (axes,) joint positions [rad or m], as `joint_positions`.

@@ -109,7 +109,7 @@ class JointHandle(Handle):
         self._simulation.engine.writer.set_axis_positions(range(driven, driven + 1), (position,))
 
     def set_velocity(self, velocity: float, *, axis: int = 0) -> None:
-        """Set the velocity of an axis [rad/s or m/s] at once; nothing keeps it, and no motor is switched.
+        """Set the velocity of an axis [rad/s or m/s] once; no motor is switched.
 
         Raises:
             UsageError: there is no such axis.
@@ -121,38 +121,39 @@ class JointHandle(Handle):
     # -- motors: the last command holds until the next one
 
     def command_position(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Have a motor go to a position [rad or m], within the joint's limits, and stay there.
+        """Drive an axis to a position [rad or m] within the joint's limits, and hold it.
 
-        It closes in exponentially, a third of a second being its time constant, as far as its effort allows.
+        The approach is exponential with a time constant of a third of a second, as far as the effort allows.
 
         Args:
-            position: where to.
+            position: target.
             max_effort: of the motor [N·m or N]; the joint's own effort limit holds as well.
-            axis: which.
+            axis: axis index.
         """
         driven = self._driven(axis)
         self._simulation.loads.set_effort_expiry(self, axis, until=None)
         self._simulation.engine.motors.command_position(driven, self._within_limits(position, driven), max_effort)
 
     def command_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
-        """Have a motor keep a velocity [rad/s or m/s] with at most so much effort [N·m or N], as Gazebo's SetVelocity
-        with fmax does."""
+        """Drive an axis at a velocity [rad/s or m/s] with limited effort [N·m or N], as Gazebo's
+        SetVelocity with fmax.
+        """
         self._simulation.loads.set_effort_expiry(self, axis, until=None)
         self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort)
 
     def command_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
-        """Drive with this effort [N·m or N], within the joint's effort and velocity limits.
+        """Drive an axis with an effort [N·m or N], within the joint's effort and velocity limits.
 
         Args:
-            effort: replaces whatever drove the axis before.
-            axis: which.
+            effort: replaces the previous command.
+            axis: axis index.
             duration_s: simulation time; None: until the next command.
         """
         self._simulation.engine.motors.command_effort(self._axis(axis), effort)
         self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
 
     def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
-        """Move the child's side at this velocity [rad/s or m/s], at once; the parent's side feels its weight alone."""
+        """Drive an axis at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""
         self._simulation.loads.set_effort_expiry(self, axis, until=None)
         engine = self._simulation.engine
         engine.motors.drive_kinematically(self._driven(axis), velocity)

@@ -1,7 +1,7 @@
-"""All joints of a model at once: positions and velocities as arrays, and the equations of motion.
+"""Joint space of a model: positions and velocities as arrays, and the equations of motion.
 
-`joint_names` has the order: the file's, one entry for each axis. A joint that cannot move has none, a universal joint
-stands there twice, a ball joint three times.
+`joint_names` has the order: the file's, one entry per axis. A fixed joint has none, a universal joint two, a ball joint
+three.
 """
 
 from collections.abc import Sequence
@@ -19,13 +19,13 @@ _Array = NDArray[np.float64]
 
 
 class JointSpace:
-    """The axes of one model as they are now; made again when models come or go."""
+    """Axes of one model; created again when models are spawned or deleted."""
 
     def __init__(self, engine: Engine, model: str, *, links: Sequence[int], joints: Sequence[JointHandle]) -> None:
         """Find the axes.
 
         Args:
-            engine: that simulates the model.
+            engine: of the simulation.
             model: its name.
             links: indices of its links.
             joints: its joints, in file order.
@@ -36,35 +36,35 @@ class JointSpace:
         spans = [joint.axes for joint in joints]
         movable = [span for span in spans if span]
         self.axes = range(movable[0].start, movable[-1].stop) if movable else range(0)
-        """Indices into the engine's axes: those of a model follow one another."""
+        """Indices into the engine's axes, contiguous per model."""
         self.names = tuple(joint.name for joint, span in zip(joints, spans, strict=True) for _ in span)
 
     def positions(self) -> _Array:
-        """(axes,) [rad or m]; a ball joint's three are its rotation vector."""
+        """Return (axes,) positions [rad or m]; a ball joint's three are its rotation vector."""
         return np.array(self._engine.reader.positions_of_all(self.axes))
 
     def velocities(self) -> _Array:
-        """(axes,) [rad/s or m/s]"""
+        """Return (axes,) velocities [rad/s or m/s]."""
         return np.array(self._engine.reader.velocities_of(self.axes))
 
     def set_positions(self, positions: ArrayLike) -> None:
         """Set every position at once; velocities stay.
 
         Raises:
-            UsageError: there are more or fewer of them, or one is no finite number.
+            UsageError: their number is wrong, or one is not finite.
         """
         self._engine.writer.set_axis_positions(self.axes, self._array("joint_positions", positions, len(self.axes)))
 
     def set_velocities(self, velocities: ArrayLike) -> None:
-        """Set every velocity at once; nothing keeps them.
+        """Set every velocity once.
 
         Raises:
-            UsageError: there are more or fewer of them, or one is no finite number.
+            UsageError: their number is wrong, or one is not finite.
         """
         self._engine.writer.set_axis_velocities(self.axes, self._array("joint_velocities", velocities, len(self.axes)))
 
     def jacobian(self, link: int, point: Vector3) -> _Array:
-        """See `ModelHandle.jacobian`; the link by its index."""
+        """See `ModelHandle.jacobian`; `link` is an index."""
         state = JointState(*self._engine.reader.state())
         return self._engine.dynamics.jacobian(state, self._coordinates, link=link, point=point)
 

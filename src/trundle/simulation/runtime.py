@@ -9,21 +9,21 @@ from .applied_loads import AppliedLoads
 
 
 class Runtime(Protocol):
-    """The engine, what drives it, and its time."""
+    """Engine, loads and time of a running world."""
 
     @property
     def engine(self) -> Engine:
-        """Simulates the world of the moment."""
+        """Engine of the current world."""
         ...
 
     @property
     def world(self) -> World:
-        """As it was compiled."""
+        """World as compiled."""
         ...
 
     @property
     def loads(self) -> AppliedLoads:
-        """Wrenches and efforts that last for a while."""
+        """Timed wrenches and efforts."""
         ...
 
     @property
@@ -32,9 +32,9 @@ class Runtime(Protocol):
         ...
 
     def expiry_step(self, duration_s: float | None) -> int | None:
-        """The step at which what begins now and lasts so long is over; None: it lasts."""
+        """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
         ...
 
     def edit(self, world: World) -> None:
-        """Go on with an edited world of the same models, links and joints."""
+        """Continue with an edited world of the same models, links and joints."""
         ...
