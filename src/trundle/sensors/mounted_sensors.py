@@ -1,4 +1,4 @@
-"""Every sensor of a running world, found by name, as models come and go."""
+"""Sensors of a running world, by name, as models are spawned and deleted."""
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 
 class MountedSensors:
-    """The sensors of one simulation; those of models that come are mounted when somebody looks for one."""
+    """Sensors of one simulation; those of spawned models are mounted on the next lookup."""
 
     def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer]) -> None:
-        """Mount what there is.
+        """Mount the existing sensors.
 
         Args:
             simulation: with its sensors.
-            make: makes the renderer that cameras share.
+            make: creates the renderer that cameras share.
         """
         self._simulation = simulation
         self._make = make
@@ -38,28 +38,28 @@ class MountedSensors:
         self._update()
 
     def start(self) -> None:
-        """Have all measure at their rates as long as somebody listens, as a run's do."""
+        """Start all sensors; each measures at its rate while it has a listener."""
         for _, sensor in self._mounted:
             self._start(sensor)
 
     @property
     def cameras(self) -> "list[CameraSensor]":
-        """In file order."""
+        """Cameras in file order."""
         return [sensor for _, sensor in self._mounted if isinstance(sensor, CameraSensor)]
 
     @property
     def instruments(self) -> "list[InstrumentSensor]":
-        """All that are no cameras, in file order."""
+        """Sensors other than cameras, in file order."""
         return [sensor for _, sensor in self._mounted if not isinstance(sensor, CameraSensor)]
 
     def camera(self, name: str) -> CameraHandle:
-        """The camera of that name; see `Simulation.camera`."""
+        """Return a camera by name; see `Simulation.camera`."""
         full, sensor = _find(name, self._named(CameraSensor), "camera")
         assert isinstance(sensor, CameraSensor)
         return CameraHandle(self._simulation, sensor, full)
 
     def sensor(self, name: str) -> SensorHandle:
-        """The sensor of that name; see `Simulation.sensor`."""
+        """Return a sensor by name; see `Simulation.sensor`."""
         full, sensor = _find(name, self._named(object), "sensor")
         for each, handle in self._handles:
             if each is sensor:
@@ -71,11 +71,11 @@ class MountedSensors:
         return handle
 
     def names(self) -> tuple[str, ...]:
-        """`model::link::sensor` of each, in file order."""
+        """Return `model::link::sensor` of each sensor, in file order."""
         return tuple(self._named(object))
 
     def camera_names(self) -> tuple[str, ...]:
-        """Those of cameras."""
+        """Return the names of the cameras."""
         return tuple(self._named(CameraSensor))
 
     def _start(self, sensor: "CameraSensor | InstrumentSensor") -> None:
@@ -84,7 +84,7 @@ class MountedSensors:
             sensor.start(self._simulation)
 
     def _update(self) -> None:
-        """Mount the sensors of models that came, and leave those of models that went."""
+        """Mount the sensors of spawned models, and drop those of deleted ones."""
         models = self._simulation.models
         for model in models:
             if not any(model is known for known in self._known):
@@ -117,7 +117,7 @@ class MountedSensors:
 def _find(
     name: str, named: "Mapping[str, CameraSensor | InstrumentSensor]", kind: str
 ) -> "tuple[str, CameraSensor | InstrumentSensor]":
-    """The one whose scoped name is this, or ends in it, as Gazebo's SensorManager::GetSensor has it.
+    """Return the sensor whose scoped name is `name` or ends in it, as Gazebo's SensorManager::GetSensor does.
 
     Raises:
         UsageError: there is none, or there are several; with the names there are.

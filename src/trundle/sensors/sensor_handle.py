@@ -1,4 +1,4 @@
-"""A sensor of a running simulation, by name."""
+"""Handle of a sensor of a running simulation."""
 
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -37,33 +37,33 @@ if TYPE_CHECKING:  # a world loads the modules of the sensors that it has
 
 
 class SensorHandle:
-    """One sensor of any type; it belongs to the thread that owns the simulation."""
+    """Handle of a sensor of any type; it belongs to the thread that owns the simulation."""
 
     def __init__(self, simulation: Simulation, sensor: "CameraSensor | InstrumentSensor", name: str) -> None:
         self._simulation = simulation
         self._sensor = sensor
         self._latest: SensorReading | None = None
         self.name = name
-        """`model::link::sensor`; of a joint's: `model::joint::sensor`."""
+        """Name `model::link::sensor`, or `model::joint::sensor` on a joint."""
         if sensor.has_history:
             sensor.listen(self._keep)
             simulation.on_reset(self._forget)
 
     @property
     def type(self) -> str:
-        """SDF's word: camera, ray, imu, …"""
+        """SDF type: camera, ray, imu, …"""
         return self._sensor.sensor.type
 
     @property
     def rate_hz(self) -> float:
-        """How often it measures by itself; 0: at every step."""
+        """Update rate; 0: every step."""
         return self._sensor.rate_hz
 
     def read(self) -> "SensorReading":
-        """Measure now, with the sensor's noise.
+        """Return a reading of the current state, with the sensor's noise.
 
-        IMUs and contact sensors need what was before. From when they are first asked for by name they measure at their
-        own rate, and this is the latest they measured; before that, an IMU knows no acceleration but gravity.
+        IMUs and contact sensors depend on earlier states. From their first lookup by name they measure at their own
+        rate, and this is their latest reading; before that, an IMU has no acceleration other than gravity.
         """
         latest = self._latest
         if latest is not None and latest.time_ns <= self._simulation.time_ns:

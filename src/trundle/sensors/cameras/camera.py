@@ -149,12 +149,12 @@ class CameraSensor(LiveSensor[CameraReading]):
         return self.projection.compose(self.scene.fetch(request))
 
     def draw(self, snapshot: Snapshot, *, depth: bool, segmentation: bool) -> Picture:
-        """What the camera sees at an instant, whatever its kind wants to see of it."""
+        """Return a rendered image with the given passes, regardless of the camera's kind."""
         request = self.scene.request(snapshot, self._views(snapshot), depth=depth, segmentation=segmentation)
         return self.projection.compose(self.scene.fetch(request))
 
     def _views(self, snapshot: Snapshot) -> list[tuple[Pose, Intrinsics]]:
-        """The pinhole pictures that it needs, where they are at that instant."""
+        """Return the pinhole views to render, posed in the world."""
         eye = self.world_from_camera(snapshot)
         return [(eye @ face, lens) for face, lens in self.projection.pinhole_views]
 

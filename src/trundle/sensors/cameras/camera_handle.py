@@ -1,4 +1,4 @@
-"""A camera of a running simulation, by name."""
+"""Handle of a camera of a running simulation."""
 
 import numpy as np
 
@@ -9,13 +9,13 @@ from .camera_image import CameraImage
 
 
 class CameraHandle:
-    """One camera; it belongs to the thread that owns the simulation."""
+    """Handle of a camera; it belongs to the thread that owns the simulation."""
 
     def __init__(self, simulation: Simulation, sensor: CameraSensor, name: str) -> None:
         self._simulation = simulation
         self._sensor = sensor
         self.name = name
-        """`model::link::sensor`; of a multicamera's: `model::link::sensor/camera`."""
+        """Name `model::link::sensor`, or `model::link::sensor/camera` in a multicamera."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -23,9 +23,9 @@ class CameraHandle:
         return self._sensor.optics.width_px, self._sensor.optics.height_px
 
     def render(self) -> CameraImage:
-        """Draw what the camera sees now: colours, depths and segmentation at once, through its lens, without noise.
+        """Render colours, depths and segmentation of the current state at once, through the lens, without noise.
 
-        Whatever its type, a camera gives all three; `Simulation.sensor` reads what its type measures, with noise.
+        Cameras of every type return all three; `Simulation.sensor` reads what the type measures, with noise.
         """
         snapshot = self._simulation.snapshot()
         sensor = self._sensor

@@ -1,4 +1,4 @@
-"""One picture of one instant: colours, depths, and what each pixel shows."""
+"""Camera image: colours, depths and segmentation of one instant."""
 
 import io
 from collections.abc import Sequence
@@ -11,26 +11,27 @@ from trundle.diagnostics import UsageError
 
 
 class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
-    """What a camera sees, without noise. A notebook shows its colours."""
+    """Image without noise. A notebook shows its colours."""
 
     time_ns: int
     """Simulation time."""
     rgb: NDArray[np.uint8]
     """(height, width, 3)"""
     depth: NDArray[np.float32] | None
-    """(height, width) distance along the view axis [m]; infinite where nothing is. None: of a wide-angle camera, which
-    has no such axis."""
+    """(height, width) Depth along the view axis [m]; infinite in the background. None for a wide-angle camera, which
+    has no such axis.
+    """
     segmentation: NDArray[np.int32]
-    """(height, width) index into `names` of the visual that a pixel shows; −1, which leads to its last entry, where
-    nothing is."""
+    """(height, width) Index into `names` of the visual at a pixel; −1, its last entry, in the background."""
     names: tuple[str, ...]
-    """`model::link::visual` of each label; the last is empty."""
+    """Names `model::link::visual`; the last is empty."""
 
     def mask(self, name: str) -> NDArray[np.bool_]:
-        """(height, width) where a model, link or visual is seen, by `model`, `model::link` or `model::link::visual`.
+        """Return the (height, width) mask of a model, link or visual, by `model`, `model::link` or
+        `model::link::visual`.
 
         Raises:
-            UsageError: nothing in the world has that name; with the visuals there are.
+            UsageError: no visual has that name; with the visuals there are.
         """
         chosen = np.array([each == name or each.startswith(f"{name}::") for each in self.names])
         if not name or not chosen.any():
@@ -38,7 +39,7 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
         return chosen[self.segmentation]
 
     def _repr_png_(self) -> bytes:
-        """Colours as PNG, for notebooks."""
+        """Return the colours as PNG, for notebooks."""
         from PIL import Image
 
         file = io.BytesIO()
