@@ -101,7 +101,7 @@ class MeshSplit(Struct, frozen=True):
     """Mesh split into convex pieces and concave parts."""
 
     corners: list[_Points]
-    """(N, 3) of each convex piece [m]."""
+    """(N, 3) corners of each convex piece [m]."""
     concave: list[tuple[_Points, ConcavePart]]
     """(3,) lowest corner [m] and part, largest first."""
 

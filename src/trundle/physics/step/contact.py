@@ -31,54 +31,55 @@ class Contact(Struct, frozen=True, kw_only=True):
 
 
 class Contacts(Sequence[Contact]):
-    """Points where collisions meet, as the last step found them: N of them, one by one or as arrays."""
+    """Contact points of the last step, N of them, one by one or as arrays."""
 
     def __init__(self, collisions: Sequence[tuple[str, str]], columns: _Array, *, depths: _Array) -> None:
-        """Keep contacts.
+        """Store contacts.
 
         Args:
-            collisions: `model::link::collision` of the two of each.
-            columns: (N, 12) position [m], normal, force [N], torque [N·m] of each.
+            collisions: `model::link::collision` of both, per contact.
+            columns: (N, 12) position [m], normal, force [N], torque [N·m].
             depths: (N,) [m]
         """
         self.collisions = tuple(collisions)
-        """(N) `model::link::collision` of the two, for each."""
+        """Names (N) `model::link::collision` of both."""
         self._columns = columns
         self.depths = depths
-        """(N,) how far the two are in one another [m]."""
+        """Penetration depths (N,) [m]."""
 
     @property
     def bodies(self) -> tuple[tuple[str, str], ...]:
-        """(N) `model::link` of the two, for each."""
+        """Names (N) `model::link` of both."""
         return tuple((one.rpartition("::")[0], other.rpartition("::")[0]) for one, other in self.collisions)
 
     @property
     def positions(self) -> _Array:
-        """(N, 3) in the world [m]."""
+        """Positions (N, 3) in the world [m]."""
         return self._columns[:, 0:3]
 
     @property
     def normals(self) -> _Array:
-        """(N, 3) out of the first, into the second; unit, world axes."""
+        """Unit normals (N, 3) from the first into the second, world axes."""
         return self._columns[:, 3:6]
 
     @property
     def forces(self) -> _Array:
-        """(N, 3) what the first does to the second at the point [N], world axes."""
+        """Forces (N, 3) of the first on the second at the point [N], world axes."""
         return self._columns[:, 6:9]
 
     @property
     def torques(self) -> _Array:
-        """(N, 3) what the first does to the second about the point [N·m], world axes; of torsional and rolling
-        friction."""
+        """Torques (N, 3) of the first on the second about the point [N·m], world axes, from torsional and rolling
+        friction.
+        """
         return self._columns[:, 9:12]
 
     def among(self, collisions: frozenset[str]) -> "Contacts":
-        """Those of collisions of these names."""
+        """Return the contacts of the named collisions."""
         return self._select([i for i, two in enumerate(self.collisions) if not collisions.isdisjoint(two)])
 
     def __add__(self, others: "Contacts") -> "Contacts":
-        """These, then the others."""
+        """Return both, in order."""
         if not others:
             return self
         return Contacts(

@@ -1,8 +1,8 @@
 """Jacobians, mass matrices and inverse dynamics of some of a world's degrees of freedom.
 
-They are worked out beside the engine that goes on. Generalized velocities are in this order: for each link that moves
-freely the velocity of its frame's origin [m/s] and its angular velocity [rad/s], world axes; then the axes [rad/s or
-m/s]. Featherstone, Rigid Body Dynamics Algorithms (2008), has the terms: τ = M(q) a + h(q, v).
+They are evaluated on a scratch copy of the engine's data. Generalized velocities are ordered: for each free link the
+velocity of its frame's origin [m/s] and its angular velocity [rad/s], world axes; then the axes [rad/s or m/s].
+Featherstone, Rigid Body Dynamics Algorithms (2008), has the terms: τ = M(q) a + h(q, v).
 """
 
 import mujoco
@@ -20,36 +20,37 @@ _Array = NDArray[np.float64]
 
 
 class Coordinates(Struct, frozen=True):
-    """Which degrees of freedom, n = 6 for each free link and one for each axis."""
+    """Selected degrees of freedom, n = 6 per free link and one per axis."""
 
     free_links: tuple[int, ...]
     axes: range
 
 
 class JointState(Struct, frozen=True, eq=False):
-    """A state of the whole world, and what is to be different in it."""
+    """State of the whole world, with optional replacements."""
 
     qpos: _Array
     qvel: _Array
     axis_positions: _Array | None = None
-    """(axes,) [rad or m] in place of those of `qpos`."""
+    """Positions (axes,) [rad or m] that replace those of `qpos`."""
     velocities: _Array | None = None
-    """(n,) in place of those of `qvel`."""
+    """Velocities (n,) that replace those of `qvel`."""
 
 
 class Dynamics:
-    """Evaluates the equations of motion of one compiled world; for any thread."""
+    """Equations of motion of one compiled world; thread-safe."""
 
     def __init__(self, compiled: CompiledWorld, scratch: ScratchEngine) -> None:
         self._compiled = compiled
         self._scratch = scratch
 
     def jacobian(self, state: JointState, of: Coordinates, *, link: int, point: Vector3) -> _Array:
-        """(6, n) velocity of a point of a link [m/s] over its angular velocity [rad/s], world axes, per velocity.
+        """Return the (6, n) Jacobian: velocity of a point of a link [m/s] over its angular velocity [rad/s], world
+        axes.
 
         Args:
-            state: where everything is.
-            of: the velocities.
+            state: of the world.
+            of: generalized velocities.
             link: index of the link.
             point: in the link's frame [m].
         """
@@ -62,7 +63,7 @@ class Dynamics:
             return np.concatenate([linear, angular]) @ basis
 
     def mass_matrix(self, state: JointState, of: Coordinates) -> _Array:
-        """(n, n) M(q), symmetric: generalized force per generalized acceleration."""
+        """Return the (n, n) mass matrix M(q): generalized force per generalized acceleration."""
         with self._scratch.evaluate() as (model, data):
             basis = self._set_state(model, data, state, of)
             mujoco.mj_makeM(model, data)
@@ -72,7 +73,7 @@ class Dynamics:
             return velocities @ momenta.T
 
     def inverse_dynamics(self, state: JointState, of: Coordinates, accelerations: _Array) -> _Array:
-        """(n,) generalized forces that cause accelerations (n,) against inertia and gravity alone [N·m or N]."""
+        """Return the (n,) generalized forces for accelerations (n,) against inertia and gravity alone [N·m or N]."""
         with self._scratch.evaluate() as (model, data):
             basis = self._set_state(model, data, state, of)
             mujoco.mj_comVel(model, data)
@@ -82,7 +83,7 @@ class Dynamics:
             return basis.T @ forces
 
     def _set_state(self, model: mujoco.MjModel, data: mujoco.MjData, state: JointState, of: Coordinates) -> _Array:
-        """Put a state into the scratch data; return the engine's velocities per ours, (nv, n)."""
+        """Load a state into the scratch data; return the (nv, n) matrix from generalized to MuJoCo's velocities."""
         data.qpos[:], data.qvel[:] = state.qpos, state.qvel
         if state.axis_positions is not None:
             writer = StateWriter(self._compiled, data, wake=lambda _: None, changed=lambda: None)
@@ -96,7 +97,7 @@ class Dynamics:
         return basis
 
     def _basis(self, model: mujoco.MjModel, data: mujoco.MjData, of: Coordinates) -> _Array:
-        """The engine keeps a free body's angular velocity in the body's own axes."""
+        """Return the (nv, n) velocity map; MuJoCo's angular velocity of a free body is in the body's own axes."""
         basis = np.zeros((model.nv, 6 * len(of.free_links) + len(of.axes)))
         for i, link in enumerate(of.free_links):
             body = int(self._compiled.link_bodies[link])

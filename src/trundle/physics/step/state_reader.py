@@ -99,7 +99,7 @@ class StateReader:
         return [qpos.item(addresses[axis]) * signs[axis] for axis in axes]
 
     def positions_of_all(self, axes: range) -> list[float]:
-        """[rad or m] Of the axes of several joints that follow one another."""
+        """Return the positions of contiguous axes of several joints [rad or m]."""
         return self.axis_positions(self._data.qpos)[axes.start : axes.stop].tolist()
 
     def velocities_of(self, axes: range) -> list[float]:

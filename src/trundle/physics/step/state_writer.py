@@ -1,4 +1,4 @@
-"""Writes the state of a world into the engine's arrays: positions and velocities, at once."""
+"""Writer of the state of a world into MuJoCo's arrays: positions and velocities, at once."""
 
 from collections.abc import Callable, Sequence
 
@@ -13,17 +13,17 @@ from ..compile.compiled_world import CompiledWorld
 
 
 class StateWriter:
-    """Writes one `MjData`; nothing that it writes is kept up by a motor."""
+    """Writer of one `MjData`; no motor keeps what it writes."""
 
     def __init__(
         self, compiled: CompiledWorld, data: mujoco.MjData, *, wake: Callable[[int], None], changed: Callable[[], None]
     ) -> None:
-        """Take the engine's arrays.
+        """Bind the engine's arrays.
 
         Args:
             compiled: the world.
             data: its state.
-            wake: called with a degree of freedom that was moved.
+            wake: called with each degree of freedom moved.
             changed: called after each change.
         """
         self._compiled = compiled
@@ -33,13 +33,13 @@ class StateWriter:
         self._changed = changed
         self._balls = frozenset(compiled.ball_joints)
         self.was_teleported = True
-        """Anything was put somewhere, and may be inside something else now."""
+        """True if anything was teleported, and may penetrate something."""
         self._tree_has_shapes: list[bool] = np.isin(
             np.arange(self._model.ntree), self._model.body_treeid[self._model.geom_bodyid]
         ).tolist()
 
     def set_axis_positions(self, axes: range, positions: Sequence[float] | NDArray[np.float64]) -> None:
-        """Put axes to positions [rad or m]; velocities stay.
+        """Set the positions of axes [rad or m]; velocities stay.
 
         Args:
             axes: of whole joints; a ball joint's three take a rotation vector.
@@ -62,10 +62,10 @@ class StateWriter:
         mujoco.mju_axisAngle2Quat(self._data.qpos[address : address + 4], axis, angle)
 
     def set_axis_velocities(self, axes: range, velocities: Sequence[float] | NDArray[np.float64]) -> None:
-        """Set the velocities of axes [rad/s or m/s]; nothing keeps them.
+        """Set the velocities of axes [rad/s or m/s] once.
 
         Args:
-            axes: some of a joint's, or of several.
+            axes: of one joint or several.
             velocities: (axes,)
         """
         for axis, velocity in zip(axes, velocities, strict=True):
@@ -73,10 +73,10 @@ class StateWriter:
         self._changed()
 
     def set_tree_pose(self, link: int, pose: Pose) -> None:
-        """Put a link that hangs from nothing somewhere else, with all that hangs from it; velocities stay in the world.
+        """Teleport a free link with its tree; velocities stay in world axes.
 
         Raises:
-            UsageError: it hangs from a joint or the world.
+            UsageError: the link has a parent joint or is fixed.
         """
         joint = self._free_joint(link)
         first = int(self._model.jnt_qposadr[joint])
@@ -92,10 +92,10 @@ class StateWriter:
         self._changed()
 
     def set_tree_twist(self, link: int, twist: Twist) -> None:
-        """Give a link that hangs from nothing a velocity of its frame's origin and a spin, world axes.
+        """Set the velocity of a free link's origin and its angular velocity, world axes.
 
         Raises:
-            UsageError: it hangs from a joint or the world.
+            UsageError: the link has a parent joint or is fixed.
         """
         joint = self._free_joint(link)
         first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
@@ -106,12 +106,12 @@ class StateWriter:
         self._changed()
 
     def is_free(self, link: int) -> bool:
-        """Whether a link hangs from nothing."""
+        """True if a link has no parent joint and is not fixed."""
         first = int(self._model.body_jntadr[self._compiled.link_bodies[link]])
         return first >= 0 and self._model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE
 
     def _free_joint(self, link: int) -> int:
         if not self.is_free(link):
             name = self._compiled.link_names[link]
-            raise UsageError(f"link {name!r} cannot be put elsewhere: it hangs from a joint or from the world")
+            raise UsageError(f"link {name!r} cannot be moved: it has a parent joint or is fixed to the world")
         return int(self._model.body_jntadr[self._compiled.link_bodies[link]])
