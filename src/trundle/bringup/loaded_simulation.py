@@ -1,4 +1,4 @@
-"""What `trundle.load` gives: a simulation with its sensors by name, its plugins and its ROS graph."""
+"""Result of `trundle.load`: a simulation with its sensors by name, its plugins and its ROS graph."""
 
 import os
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from .realtime_pacer import STRIDE_FLAT_OUT_NS
 from .renderers import RENDERERS
 from .world_setup import LoadedWorld, load_built, load_world
 
-if TYPE_CHECKING:  # a simulation without a graph, or whose sensors nobody asks for, starts without their modules
+if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
     from trundle.description import Model, World
     from trundle.ros import Node
     from trundle.sensors import CameraHandle, MountedSensors, SensorHandle
@@ -101,10 +101,10 @@ class LoadedSimulation(Simulation):
 
     @property
     def ros_master_uri(self) -> str:
-        """Where the master of its ROS graph is.
+        """URI of its ROS master.
 
         Raises:
-            UsageError: it is part of none.
+            UsageError: it has no ROS graph.
         """
         return self._graph.graph.master_uri
 

@@ -49,7 +49,7 @@ class TagParameters(Parameters):
 
     @property
     def at(self) -> Source:
-        """Where the element starts."""
+        """Position of the start tag."""
         assert self.node is not None, "the element is there"
         return self.node.at
 
@@ -71,7 +71,7 @@ class TagParameters(Parameters):
                 self.warn(f"<{name}> is not supported", name)
 
     def report_unread(self) -> None:
-        """Name each parameter that nobody read."""
+        """Warn of each parameter that was not read."""
         if self.node is not None:
             self.node.report_unread(self.report)
 

@@ -72,7 +72,7 @@ class LinkAttacher(WorldPlugin):
 
 
 def _requested_links(request: Message) -> tuple[tuple[str, str], tuple[str, str]]:
-    """(model, link) of both; a link's name may have its model's as prefix."""
+    """Both as (model, link); a link's name may have its model's as prefix."""
     one, other = str(request.model_name_1), str(request.model_name_2)
     links = str(request.link_name_1).removeprefix(f"{one}::"), str(request.link_name_2).removeprefix(f"{other}::")
     return (one, links[0]), (other, links[1])

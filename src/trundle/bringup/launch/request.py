@@ -18,7 +18,7 @@ class LaunchRequest:
     files: tuple[Path, ...] = ()
     arguments: dict[str, str] = field(default_factory=dict[str, str])
     texts: tuple[tuple[str, str], ...] = ()
-    """(name, XML) of standard input and pipes."""
+    """Standard input and pipes as (name, XML)."""
     namespace: str = ""
     """`__ns:=`, the namespace of all nodes; empty: not given."""
 
