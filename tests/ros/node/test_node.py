@@ -381,7 +381,7 @@ def test_a_node_waits_for_a_master_that_comes_later(graph: Any, capfd: Any) -> N
     node = Node("early", loop=graph.loop, master_uri=f"http://127.0.0.1:{port}")
     node.advertise("a", STRING)
     said: list[str] = []
-    graph.until(lambda: said.append(capfd.readouterr().err) or "goes on trying" in "".join(said))
+    graph.until(lambda: said.append(capfd.readouterr().err) or "keeps trying" in "".join(said))
     graph.core = Core(graph.loop, port=port)
     graph.loop.run(graph.core.start())
     graph.ready(node)

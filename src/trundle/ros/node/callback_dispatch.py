@@ -1,4 +1,4 @@
-"""Has work done where a node's callbacks run, and waits for it on the loop."""
+"""Runs functions on a node's callback thread and awaits them on the loop."""
 
 import asyncio
 from collections.abc import Callable
@@ -10,12 +10,12 @@ from .loop import GraphLoop
 async def run_on_callback_thread(
     deliver: Callable[[Callable[[], None]], None] | None, loop: GraphLoop, work: Callable[[], Any]
 ) -> Any:
-    """Return what `work` returns, or raise what it raises; without `deliver` it is done here and now.
+    """Call `work` on the callback thread and return or raise its result; without `deliver`, call it directly.
 
     Args:
-        deliver: as of `Node`.
-        loop: that this is a coroutine of.
-        work: called once, maybe in another thread.
+        deliver: see `Node`.
+        loop: loop of the caller.
+        work: called once, possibly in another thread.
     """
     if deliver is None:
         return work()
@@ -32,7 +32,7 @@ async def run_on_callback_thread(
     def do() -> None:
         try:
             result, error = work(), None
-        except Exception as failure:  # travels to whoever waits
+        except Exception as failure:  # re-raised in the awaiting coroutine
             result, error = None, failure
         loop.call_soon(lambda: settle(result, error))
 

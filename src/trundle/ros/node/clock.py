@@ -1,4 +1,4 @@
-"""ROS time: the wall's, or a simulation's that stands still between two ticks."""
+"""ROS time: wall time, or simulated time that advances in ticks."""
 
 import asyncio
 import heapq
@@ -16,10 +16,10 @@ NS = 1_000_000_000
 
 
 class Clock(Protocol):
-    """Tells ROS time and waits for it."""
+    """Reads and awaits ROS time."""
 
     def now_ns(self) -> int:
-        """ROS time [ns]; simulated time is 0 until it is known."""
+        """ROS time [ns]; simulated time is 0 until first set."""
         ...
 
     async def sleep_until(self, ns: int) -> None:
@@ -27,28 +27,28 @@ class Clock(Protocol):
         ...
 
     async def sleep(self, seconds: float) -> None:
-        """Wait for so much ROS time."""
+        """Sleep in ROS time."""
         ...
 
 
 class WallClock:
-    """ROS time is the wall's, counted from 1970."""
+    """Clock of wall time, since 1970."""
 
     def now_ns(self) -> int:
         """Nanoseconds since 1970."""
         return time.time_ns()
 
     async def sleep_until(self, ns: int) -> None:
-        """Wait for a point in time."""
+        """Sleep until a point in time."""
         await asyncio.sleep(max(0, ns - time.time_ns()) / NS)
 
     async def sleep(self, seconds: float) -> None:
-        """Wait for so much time."""
+        """Sleep."""
         await asyncio.sleep(max(0.0, seconds))
 
 
 class SimClock:
-    """ROS time is whatever was last set, by a simulation in this process or from /clock."""
+    """Clock of simulated time, set by a simulation in this process or from /clock."""
 
     def __init__(self, loop: GraphLoop) -> None:
         self._loop = loop
@@ -58,14 +58,14 @@ class SimClock:
         self._listeners: list[Callable[[], None]] = []
         self._wakes = False
         self.jumps = 0
-        """How often time went back."""
+        """Number of jumps back in time."""
 
     def now_ns(self) -> int:
-        """ROS time [ns]; 0 until it is first set."""
+        """ROS time [ns]; 0 until first set."""
         return self._now_ns
 
     def set(self, ns: int) -> None:
-        """Set the time, from any thread; if it goes back, every sleeper wakes, as what it waited for may never come."""
+        """Set the time; thread-safe. A jump back wakes all sleepers, since their time may never come."""
         back = ns < self._now_ns
         self._now_ns = ns
         if back:
@@ -76,22 +76,22 @@ class SimClock:
             self._loop.call_soon(self._wake)
 
     def on_jump(self, callback: Callable[[], None]) -> None:
-        """Have a function called, on the loop, whenever time goes back."""
+        """Register a function to be called on the loop when time jumps back."""
         self._listeners.append(callback)
 
     async def sleep_until(self, ns: int) -> None:
-        """Wait until the time is at least `ns`, or goes back."""
+        """Wait until the time is at least `ns`, or jumps back."""
         if ns <= self._now_ns:
             await asyncio.sleep(0)
             return
         future = asyncio.get_running_loop().create_future()
         heapq.heappush(self._sleepers, (ns, next(self._order), future))
-        if ns <= self._now_ns:  # set() ran in its thread meanwhile and may not have seen this sleeper
+        if ns <= self._now_ns:  # set() in another thread may have missed this sleeper
             self._wake()
         await future
 
     async def sleep(self, seconds: float) -> None:
-        """Wait for so much simulated time; before the first tick, first for that."""
+        """Sleep in simulated time; waits for the first tick."""
         if self._now_ns == 0:
             await self.sleep_until(1)
         await self.sleep_until(self._now_ns + round(seconds * NS))
@@ -113,5 +113,5 @@ class SimClock:
 
 
 def to_nsec(stamp: "Time") -> int:
-    """Return a `time` or `duration` value as nanoseconds."""
+    """Convert a `time` or `duration` to nanoseconds."""
     return stamp.sec * NS + stamp.nanosec

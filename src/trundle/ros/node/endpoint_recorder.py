@@ -1,4 +1,4 @@
-"""What a thread has a node begin, so that it can be ended again before the node is."""
+"""Per-thread record of created publishers, subscriptions and services, for unregistering them together."""
 
 import threading
 from collections.abc import Generator
@@ -7,26 +7,26 @@ from typing import Protocol
 
 
 class Endpoint(Protocol):
-    """A node's end of a topic or a service."""
+    """A publisher, subscription or service of a node."""
 
     def unregister(self) -> None:
-        """Have no part in it any more."""
+        """Unregister at node and master."""
 
 
 class EndpointRecorder(threading.local):
-    """A list for each thread that asked for one."""
+    """Thread-local list of endpoints."""
 
     def __init__(self) -> None:
         self._ends: list[Endpoint] | None = None
 
     def add(self, end: Endpoint) -> None:
-        """Note what was begun, or asked for again, if this thread wants to know."""
+        """Record an endpoint that this thread created or requested again, if recording."""
         if self._ends is not None:
             self._ends.append(end)
 
     @contextmanager
     def record(self) -> Generator[list[Endpoint]]:
-        """Note what this thread begins from now on."""
+        """Record the endpoints this thread creates in the context."""
         self._ends = ends = list[Endpoint]()
         try:
             yield ends

@@ -1,6 +1,6 @@
 """Publishers, subscriptions and services of one node, and their registration at the master.
 
-Any thread may add and remove one, and does not wait; the rest is read on the loop.
+Adding and removing is thread-safe and does not block; everything else runs on the loop.
 """
 
 import threading
@@ -17,7 +17,7 @@ from .subscription import Subscription
 
 
 class NodeEndpoints:
-    """One node's ends of topics and services."""
+    """Publishers, subscriptions and services of one node."""
 
     def __init__(self, node: NodeContext, registrations: RegistrationQueue) -> None:
         self._node = node
@@ -27,13 +27,13 @@ class NodeEndpoints:
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._services: dict[str, Service] = {}
         self._unregistering: set[tuple[str, str]] = set()
-        """(method, name) of what the master has still to be told that it has ended."""
+        """(method, name) of unregistrations queued or in progress."""
         self._recorder = EndpointRecorder()
 
-    # -- adding and removing: any thread
+    # -- adding and removing: thread-safe
 
     def add_publisher(self, topic: str, type_name: str, make: Callable[[], Publisher]) -> Publisher:
-        """Return the publisher of a topic, which is made and registered unless it is there.
+        """Return the publisher of a topic; creates and registers it if missing.
 
         Raises:
             MessageError: the topic is already published with another type.
@@ -60,14 +60,14 @@ class NodeEndpoints:
         self._registrations.add(lambda: self._register_subscriber(subscription.topic, subscription.type))
 
     def add_service(self, service: Service) -> None:
-        """Register a service, in place of an earlier one of that name."""
+        """Register a service; replaces an earlier one of that name."""
         with self._lock:
             self._services[service.name] = service
         self._recorder.add(service)
         self._registrations.add(lambda: self._register_service(service.name))
 
     def remove_publisher(self, publisher: Publisher) -> None:
-        """Stop publishing a topic."""
+        """Remove and unregister a publisher."""
         with self._lock:
             if self._publishers.get(publisher.topic) is not publisher:
                 return
@@ -76,7 +76,7 @@ class NodeEndpoints:
         self._queue_unregister("unregisterPublisher", publisher.topic)
 
     def remove_subscription(self, subscription: Subscription) -> None:
-        """Stop listening; the master is told when nothing in this node listens to the topic any more."""
+        """Remove a subscription; unregisters at the master with the last one of the topic."""
         with self._lock:
             others = self._subscriptions.get(subscription.topic, [])
             if subscription not in others:
@@ -89,7 +89,7 @@ class NodeEndpoints:
             self._queue_unregister("unregisterSubscriber", subscription.topic)
 
     def remove_service(self, service: Service) -> None:
-        """Stop providing a service."""
+        """Remove and unregister a service."""
         with self._lock:
             if self._services.get(service.name) is not service:
                 return
@@ -98,19 +98,19 @@ class NodeEndpoints:
         self._queue_unregister("unregisterService", service.name)
 
     def record(self) -> AbstractContextManager[list[Endpoint]]:
-        """Note what this thread has the node advertise, subscribe or provide meanwhile."""
+        """Record the endpoints this thread creates in the context."""
         return self._recorder.record()
 
-    # -- what there is
+    # -- queries
 
     @property
     def publishers(self) -> list[Publisher]:
-        """What this node publishes."""
+        """Publishers of this node."""
         return list(self._publishers.values())
 
     @property
     def subscriptions(self) -> list[Subscription]:
-        """What this node subscribes to."""
+        """Subscriptions of this node."""
         return [subscription for subscriptions in self._subscriptions.values() for subscription in subscriptions]
 
     def publisher(self, topic: str) -> Publisher | None:
@@ -122,42 +122,42 @@ class NodeEndpoints:
         return self._services.get(name)
 
     def published_topics(self) -> list[tuple[str, str]]:
-        """Topics with the type this node publishes."""
+        """(topic, type) of all publishers."""
         return [(publisher.topic, publisher.type) for publisher in self._publishers.values()]
 
     def subscribed_topics(self) -> list[tuple[str, str]]:
-        """Topics with the type this node expects."""
+        """(topic, type) of all subscriptions."""
         return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
 
     def connections(self) -> list[list[object]]:
-        """All links, as getBusInfo tells them."""
+        """All links, as in getBusInfo."""
         return [link for end in (*self.publishers, *self.subscriptions) for link in end.connections()]
 
     def statistics(self) -> list[list[object]]:
-        """Bytes and messages, as getBusStats tells them."""
+        """Bytes and messages, as in getBusStats."""
         return [[p.statistics() for p in self.publishers], [s.statistics() for s in self.subscriptions], []]
 
     # -- on the loop
 
     def publishers_changed(self, topic: str, uris: list[str]) -> None:
-        """Follow what the master says about a topic's publishers."""
+        """Handle publisherUpdate: connect to the given publishers."""
         for subscription in self._subscriptions.get(topic, []):
             subscription.follow(uris)
 
     def unregister_all(self) -> list[Awaitable[None]]:
-        """Calls that take everything from the master's lists."""
+        """Master calls that unregister everything."""
         ended = {("unregisterService", name) for name in self._services} | self._unregistering
         ended |= {("unregisterSubscriber", topic) for topic in self._subscriptions}
         ended |= {("unregisterPublisher", topic) for topic in self._publishers}
         return [self._unregister(method, name) for method, name in ended]
 
     def close(self) -> None:
-        """Drop every peer."""
+        """Close all connections."""
         for end in (*self.publishers, *self.subscriptions, *self._services.values()):
             end.close()
 
     def _queue_unregister(self, method: str, name: str) -> None:
-        """Have the master told; if the node shuts down before, by then."""
+        """Queue an unregistration; done at shutdown if still queued."""
         self._unregistering.add((method, name))
 
         async def unregister() -> None:

@@ -1,4 +1,4 @@
-"""The nodes of one process, which hand each other message objects without serialising them."""
+"""Nodes of one process, which exchange message objects without serialization."""
 
 import asyncio
 from collections.abc import Callable
@@ -23,12 +23,12 @@ class LocalPublisher(Protocol):
 
     @property
     def md5sum(self) -> str:
-        """Checksum of the type."""
+        """md5 sum of the type."""
         ...
 
     @property
     def definition(self) -> str:
-        """The text of the type and of those it depends on."""
+        """Full definition of the type with dependencies."""
         ...
 
     @property
@@ -38,15 +38,15 @@ class LocalPublisher(Protocol):
 
     @property
     def latch(self) -> bool:
-        """Whether new subscribers get the last message."""
+        """True if new subscribers get the last message."""
         ...
 
     def attach(self, subscriber: "LocalSubscriber", name: str) -> None:
-        """Take a subscription of this process."""
+        """Connect a subscription of this process."""
         ...
 
     def detach(self, subscriber: "LocalSubscriber") -> None:
-        """Forget a subscription of this process."""
+        """Disconnect a subscription of this process."""
         ...
 
 
@@ -54,59 +54,59 @@ class LocalSubscriber(Protocol):
     """A subscription in this process."""
 
     is_raw: bool
-    """Whether it wants bytes."""
+    """True if it takes serialized messages."""
     needs_every_message: bool
-    """Whether each message counts; else the newest will do."""
+    """True if no message may be skipped; else the newest suffices."""
 
     def receive(self, message: Message) -> None:
-        """Take a message object."""
+        """Receive a message object."""
         ...
 
     def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
-        """Take a message as bytes."""
+        """Receive a serialized message."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LocalNode:
-    """A node in this process that listens."""
+    """A listening node of this process."""
 
     name: str
     closed: asyncio.Event
-    """Set when it has shut down."""
+    """Set after shutdown."""
     find_publisher: Callable[[str], LocalPublisher | None]
-    """Finds a publisher by its topic's global name."""
+    """Returns a publisher by its topic's global name."""
 
 
 class LoopMember(Protocol):
-    """A node that has begun and not ended."""
+    """A running node."""
 
     async def shutdown(self) -> None:
-        """Unregister everything and drop every peer."""
+        """Unregister everything and close all connections."""
         ...
 
 
 class LocalGraph:
-    """Registry of the nodes of one loop; touched on the loop only."""
+    """Registry of one loop's nodes; used on the loop only."""
 
     def __init__(self) -> None:
         self.members: set[LoopMember] = set()
-        """Nodes that have begun and not ended."""
+        """Running nodes."""
         self.nodes: dict[str, LocalNode] = {}
-        """Address → node that listens there."""
+        """XML-RPC address → node."""
         self.on_publisher: list[Callable[[LocalPublisher], None]] = []
         """Called on the loop with each new publisher."""
         self._service_change: set[asyncio.Future[None]] = set()
 
     async def wait_service_change(self, timeout_s: float) -> None:
-        """Wait until `notify_service_change` is called, or so long."""
+        """Wait for `notify_service_change`, or the timeout."""
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._service_change.add(future)
         await asyncio.wait([future], timeout=timeout_s)
         self._service_change.discard(future)
 
     def notify_service_change(self) -> None:
-        """A node of this process provides a service that was not there."""
+        """Wake those waiting for a service: a node of this process has registered one."""
         for future in self._service_change:
             if not future.done():
                 future.set_result(None)

@@ -1,4 +1,4 @@
-"""The loggers that a node lists for rosconsole and rqt_logger_level, each with its level."""
+"""Loggers of a node and their levels, for rosconsole and rqt_logger_level."""
 
 from collections.abc import Iterable
 from typing import Self, cast
@@ -10,9 +10,9 @@ _ROSCPP = ("ros.roscpp", "ros.roscpp.roscpp_internal", "ros.roscpp.roscpp_intern
 
 
 class Loggers:
-    """Levels by name; a logger without one of its own has that of the nearest name above it.
+    """Levels by logger name; a logger without a level inherits its nearest ancestor's.
 
-    All that a node says goes through one of them.
+    The node's own messages use one of them.
     """
 
     def __init__(self, own: str, others: Iterable[str]) -> None:
@@ -22,30 +22,30 @@ class Loggers:
 
     @classmethod
     def for_rospy(cls) -> Self:
-        """The loggers of a node in Python."""
+        """Loggers of a rospy node."""
         return cls("rosout", ("rosgraph", "rospy", *(f"rospy.{name}" for name in _ROSPY)))
 
     @classmethod
     def for_roscpp(cls, package: str) -> Self:
-        """The loggers of a node in C++ that says what it does in the name of its package."""
+        """Loggers of a roscpp node whose logger is named after its package."""
         loggers = cls(f"ros.{package}", ("ros", *_ROSCPP, "ros.roscpp.superdebug"))
         loggers.set("ros.roscpp.superdebug", "warn")
         return loggers
 
     @property
     def level(self) -> Level:
-        """What the node says at least."""
+        """Level of the node's own logger."""
         return self._level(self._own)
 
     def levels(self) -> list[tuple[str, Level]]:
-        """Every logger by name, with its level."""
+        """(name, level) of every logger."""
         return [(name, self._level(name)) for name in self._names]
 
     def set(self, name: str, level: str) -> None:
-        """Give a logger a level; one without a name is the node's own.
+        """Set the level of a logger; '' means the node's own.
 
         Raises:
-            ValueError: there is no such level.
+            ValueError: the level is unknown.
         """
         if level not in LEVELS:
             raise ValueError(f"no level {level!r}; levels: {', '.join(LEVELS)}")

@@ -1,4 +1,4 @@
-"""The thread everything between nodes happens in: one asyncio loop, shared by the nodes of this process."""
+"""asyncio loop in a thread of its own, shared by the nodes of this process."""
 
 import asyncio
 import contextlib
@@ -21,52 +21,53 @@ from .pending_work import PendingWork
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
 _LAST_CALLBACK_S = 8.0
-"""How much longer a callback at work may hold the thread: a loop that is left behind leaks its sockets."""
+"""Extra wait for a callback that blocks the thread at the end: an abandoned loop leaks its sockets."""
 _CALM_PASSES = 5
-"""Passes of the loop without a delivery after which `settle` calls it quiet; coroutine callbacks that wait for
-nothing outside the process get this many steps."""
+"""Passes without a delivery after which deliveries count as flushed; the steps of a coroutine callback that awaits
+nothing outside the process.
+"""
 _SPINS = 200
-"""Passes after which `rested` no longer hurries round."""
+"""Passes after which `idle` starts to sleep between passes."""
 _NAP_S = 0.001
 _SLICE_NS = 100_000
-"""Linux' shortest time slice: a message that comes then waits for no busy thread to finish a slice of 3 ms."""
+"""Linux' shortest time slice: the loop then preempts a busy thread instead of waiting for its 3 ms slice."""
 _GRACE_S = 5.0
 
 
 class GraphLoop:
-    """Owns the thread and the loop in it; nodes are made for one.
+    """Loop and its thread, on which nodes are created.
 
-    Nodes of one loop pass each other message objects without serialising them. Also a context manager.
+    Its nodes exchange message objects without serialization. Also a context manager.
     """
 
     def __init__(self, *, messages: Messages | None = None) -> None:
         self.messages = messages or Messages()
-        """Message types of all nodes here; loaded on first use."""
+        """Message types of all nodes; loaded on first use."""
         self.local = LocalGraph()
-        """Its nodes."""
+        """Nodes of the loop."""
         self.work = PendingWork()
         self._batch_thread: int | None = None
-        """The thread whose calls wait for `release`."""
+        """Thread whose calls are batched until `end_batch`."""
         self.own_threads: set[int | None] = set()
-        """The loop's, and the one that gathers: they gain nothing if they do a thing themselves that the loop can."""
+        """IDs of the loop's and the batching thread, for which sending directly has no advantage."""
         self._batch: list[Callable[[], object]] = []
         self._calls = 0
-        """By which `rested` knows that there are more."""
+        """Count of calls, for `idle`."""
         self._deliveries = 0
-        """Batches of published messages being handed on, by which `settle` knows that there are more."""
+        """Count of delivered batches, for `flush_deliveries`."""
         self._unsettled = False
-        """Whether the loop was given anything to do since `settle` was last called."""
+        """True if the loop was given work since the last flush."""
         self.selector = FastSelector()
-        """Takes sockets that are read without asyncio's help; used on the loop."""
+        """Selector with sockets that bypass asyncio; used on the loop."""
         self._loop = ClosingLoop(self.selector)
         self._thread = threading.Thread(target=self._run, name="trundle-graph", daemon=True)
         self._tasks: set[asyncio.Task[Any]] = set()
         self._unstarted: dict[Future[Any], Coroutine[Any, Any, Any]] = {}
-        """What was spawned and has no task yet."""
+        """Spawned coroutines without a task yet."""
         self.is_ending = False
-        """Whether no node begins here any more."""
+        """True once no new node may start."""
         self._has_stopped = False
-        """Whether nothing else begins, either."""
+        """True once nothing new may start."""
 
     def start(self) -> None:
         """Start the thread."""
@@ -74,7 +75,7 @@ class GraphLoop:
         self.own_threads.add(self._thread.ident)
 
     def stop(self, timeout_s: float = 2.0) -> None:
-        """Shut the nodes down, end what still runs, and end the thread."""
+        """Shut the nodes down, cancel remaining tasks, and join the thread."""
         if not self._thread.is_alive():
             return
         try:
@@ -93,14 +94,14 @@ class GraphLoop:
 
     @property
     def is_this_thread(self) -> bool:
-        """Whether the caller runs on the loop."""
+        """True if the caller runs on the loop."""
         return threading.get_ident() == self._thread.ident
 
     def run(self, coroutine: Coroutine[object, object, _T], timeout_s: float | None = 30.0) -> _T:
-        """Run a coroutine on the loop and wait for its answer, from another thread.
+        """Run a coroutine on the loop and wait for its result, from another thread.
 
         Raises:
-            TimeoutError: no answer in time; the coroutine is cancelled.
+            TimeoutError: timeout; the coroutine is cancelled.
         """
         assert not self.is_this_thread, "run() would wait for itself; await the coroutine"
         self.end_batch()
@@ -112,7 +113,7 @@ class GraphLoop:
             raise
 
     def spawn(self, coroutine: Coroutine[object, object, _T]) -> Future[_T]:
-        """Start a coroutine on the loop, from any thread; if it fails and nobody asks, the log says so."""
+        """Start a coroutine on the loop; thread-safe. A failure that is not retrieved is logged."""
         future: Future[_T] = Future()
         self._unstarted[future] = coroutine
 
@@ -131,7 +132,7 @@ class GraphLoop:
         return future
 
     def _drop_unstarted(self) -> None:
-        """Whoever waits for what the loop did not come to is told that it never will."""
+        """Cancel the futures of coroutines the loop never started."""
         with contextlib.suppress(KeyError):  # another thread may drop them, too
             while True:
                 future, coroutine = self._unstarted.popitem()
@@ -139,7 +140,7 @@ class GraphLoop:
                 future.cancel()
 
     def call_soon(self, function: Callable[[], object]) -> None:
-        """Have the loop call a function, from any thread; ignored once the loop has ended."""
+        """Call a function on the loop; thread-safe, ignored once the loop has ended."""
         self._unsettled = True
         if self.is_this_thread:
             self._calls += 1
@@ -153,11 +154,11 @@ class GraphLoop:
     def _call_soon_from_elsewhere(self, function: Callable[[], object]) -> None:
         try:
             self._loop.call_soon_threadsafe(function)
-        except RuntimeError:  # the loop is closed: nobody is left to hear of it
+        except RuntimeError:  # the loop is closed
             _log.debug("the graph has ended; %s is not called", function)
 
     def deliver_soon(self, function: Callable[[], object]) -> None:
-        """As `call_soon`, for handing on messages: `settle` waits until none of these was called for a while."""
+        """`call_soon` for message delivery, which `flush_deliveries` waits for."""
 
         def count() -> None:
             self._deliveries += 1
@@ -168,26 +169,25 @@ class GraphLoop:
     def flush_deliveries(self, timeout_s: float = 5.0) -> None:
         """Wait until every message published so far has reached its subscribers in this process.
 
-        Callbacks of nodes with `deliver` have then been handed over, not yet called. For flat-out runs, between
-        two strides.
+        Callbacks of nodes with `deliver` are then scheduled, not yet called. For runs at maximum speed, between steps.
         """
         if self._unsettled:
             self.run(self._quiet(), timeout_s)
             self._unsettled = False
 
     def begin_batch(self) -> None:
-        """From now on, give the loop what this thread has for it only when `release` says so: all at once, in order."""
+        """Batch this thread's calls to the loop until `end_batch`, which submits them in order."""
         self._batch_thread = threading.get_ident()
         self.own_threads.add(self._batch_thread)
 
     def end_batch(self) -> None:
-        """Give the loop what this thread gathered."""
+        """Submit the batched calls."""
         if self._batch and threading.get_ident() == self._batch_thread:
             gathered, self._batch = self._batch, []
             self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
 
     def wait_idle(self, timeout_s: float, *, unless: Callable[[], bool]) -> bool:
-        """Wait until nothing is under way; False: not in time, or `unless` came first."""
+        """Wait until no work is in progress; False on timeout, or if `unless` came true first."""
         self.end_batch()
         if self._unsettled or self.work.is_busy:
             if not self.run(self.idle(timeout_s, unless=unless), timeout_s + _GRACE_S):
@@ -198,7 +198,7 @@ class GraphLoop:
     async def idle(
         self, timeout_s: float, *, unless: Callable[[], bool] = lambda: False, passes: int = _CALM_PASSES
     ) -> bool:
-        """As `rest`, on the loop, where nothing must happen for so many passes."""
+        """`wait_idle` on the loop: idle for `passes` passes."""
         due = time.monotonic() + timeout_s
         calm, seen, spins = 0, self._calls, 0
         while calm < passes:
@@ -218,7 +218,7 @@ class GraphLoop:
             seen = self._deliveries
 
     async def _shutdown_nodes(self, timeout_s: float) -> None:
-        """Let the nodes say farewell."""
+        """Shut down all nodes."""
         self.is_ending = True
         farewells = [asyncio.create_task(node.shutdown()) for node in list(self.local.members)]
         if farewells:
@@ -238,7 +238,7 @@ class GraphLoop:
 
 
 def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
-    """Hand a task's outcome to a future that any thread may wait for."""
+    """Copy a task's outcome to a future."""
     if task.cancelled():
         future.cancel()
         return
@@ -246,7 +246,7 @@ def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
     if future.cancelled():
         return
     if error is not None:
-        if not isinstance(error, DescriptionError | UsageError):  # those are said by whoever waits, in a sentence
+        if not isinstance(error, DescriptionError | UsageError):  # reported by the caller in one sentence
             _log.error("a task of the graph failed: %s: %s", type(error).__name__, error, exc_info=error)
         future.set_exception(error)
     else:

@@ -1,4 +1,4 @@
-"""Calls of one node to the master."""
+"""Master API client of one node."""
 
 from typing import Any
 
@@ -8,11 +8,11 @@ from ..xmlrpc.xmlrpc import FaultError
 from .pending_work import PendingWork
 
 _MASTER_S = 5.0
-"""How long the master may take for an answer."""
+"""Timeout of a master call."""
 
 
 class MasterClient:
-    """The master's XML-RPC interface, called in the name of one node."""
+    """Calls the master's XML-RPC API with the node's caller ID."""
 
     def __init__(self, uri: str, caller: str, work: PendingWork) -> None:
         self._uri = uri
@@ -20,11 +20,11 @@ class MasterClient:
         self._work = work
 
     async def call(self, method: str, *arguments: object) -> Any:
-        """Call the master and return the value it answers with.
+        """Call a method and return the answer's value.
 
         Raises:
-            MasterUnreachableError: nobody answers.
-            MasterError: the master answers with a failure.
+            MasterUnreachableError: no answer.
+            MasterError: the answer's code is not 1.
         """
         try:
             with self._work.pending():

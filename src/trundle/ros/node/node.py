@@ -1,7 +1,7 @@
 """A node of the graph.
 
-It is made of parts: `endpoints`, `params`, `log` and `master`; its own are its name, its lifetime, and what it begins.
-Registering returns at once, from any thread. Whatever needs an answer is a coroutine of the loop.
+Parts: `endpoints`, `params`, `log` and `master`. Registration returns at once and is thread-safe; what needs an answer
+is a coroutine on the loop.
 """
 
 import asyncio
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..message_types import Time
 
 _FAREWELL_S = 1.0
-"""How long unregistering may take: a whole program must end within two seconds of Ctrl-C."""
+"""Timeout of unregistering: a program must end within two seconds of Ctrl-C."""
 _LINK_S = 0.01
 
 
@@ -53,21 +53,20 @@ class Node:
         rosout: bool = True,
         host: str | None = None,
     ) -> None:
-        """Make a node and have it start; returns at once.
+        """Create and start a node; returns at once.
 
         Args:
-            name: base name such as 'driver'; a name that starts with '/' is taken as it is.
-            loop: where it runs.
+            name: base name such as 'driver', or a global name.
+            loop: runs the node.
             master_uri: ROS_MASTER_URI by default.
-            namespace: where relative names live.
-            remappings: name → name, both as written on a command line.
-            params: private parameters, set before anything else happens.
-            clock: ROS time; the wall's by default.
-            deliver: called on the loop with a function for each message and request that has come in; it must
-                return at once, and somebody, in a thread of their choice, must call the function. By default
-                callbacks run on the loop.
-            rosout: whether to publish /rosout and provide the logger services.
-            host: address to listen at; loopback by default.
+            namespace: namespace of relative names.
+            remappings: name → name, as on a command line.
+            params: private parameters, set before anything else.
+            clock: ROS time; wall time by default.
+            deliver: called on the loop with a function per message and request, which must be called later, in any
+                thread; must not block. By default, callbacks run on the loop.
+            rosout: True: publish /rosout and advertise the logger services.
+            host: address to bind; loopback by default.
         """
         self.name = canonical_name("/" + join_names(namespace, name).lstrip("/"))
         self.loop = loop
@@ -75,11 +74,11 @@ class Node:
         self.clock: Clock = clock or WallClock()
         self.deliver = deliver
         self.profile = NOETIC
-        """How the distribution behaves that its graph is."""
+        """Distribution of the graph."""
         self.closed = asyncio.Event()
-        """Set when the node has shut down; awaited on the loop."""
+        """Set after shutdown; awaited on the loop."""
         self.written_remappings = dict(remappings or {})
-        """Name → name, both as written, not resolved."""
+        """Remappings as written, unresolved."""
         self._remappings = {
             resolve_name(a, self.name): resolve_name(b, self.name) for a, b in self.written_remappings.items()
         }
@@ -97,30 +96,30 @@ class Node:
         self._has_begun = False
         self.loop.call_soon(self._begin)
 
-    # -- who it is
+    # -- identity
 
     @property
     def uri(self) -> str:
-        """Address of its XML-RPC interface; empty before it has started."""
+        """URI of the slave API; '' before it listens."""
         return self._slave.uri
 
     @property
     def service_uri(self) -> str:
-        """Address at which its services are called."""
+        """rosrpc URI of its services."""
         return self._slave.service_uri
 
     @property
     def is_shut_down(self) -> bool:
-        """Whether it has begun to shut down."""
+        """True once shutdown has begun."""
         return self._is_down
 
     @property
     def remappings(self) -> Mapping[str, str]:
-        """Global name → the global name that it means."""
+        """Global name → remapped global name."""
         return self._remappings
 
     def resolve(self, name: str) -> str:
-        """Return the global name this node means by `name`, remapped."""
+        """Resolve and remap a name to a global name."""
         return resolve_name(name, self.name, self._remappings)
 
     @property
@@ -129,7 +128,7 @@ class Node:
         return self.loop.messages
 
     def new(self, type_name: str, fields: object = None) -> Message:
-        """Make a message; 'now' and 'auto' are this node's ROS time. See `Messages.new`."""
+        """Build a message; 'now' and 'auto' are this node's ROS time. See `Messages.new`."""
         return self.messages.new(type_name, fields, now_ns=self.clock.now_ns())
 
     def stamp(self) -> "Time":
@@ -148,18 +147,18 @@ class Node:
         on_connect: Callable[[Publisher], None] | None = None,
         raw_type: tuple[str, str] | None = None,
     ) -> Publisher:
-        """Publish a topic; a second call for the same topic returns the same publisher.
+        """Advertise a topic; repeated calls return the same publisher.
 
         Args:
             topic: resolved and remapped.
             type_name: such as 'geometry_msgs/Twist'.
-            latch: whether new subscribers get the last message.
-            queue_size: how many messages wait for a subscriber that reads too slowly; None: any number.
-            on_connect: called on the loop whenever a subscriber has connected.
-            raw_type: (md5 sum, definition) of a type that need not be known here; messages are given as bytes.
+            latch: True: new subscribers get the last message.
+            queue_size: messages queued per slow subscriber; None: unlimited.
+            on_connect: called on the loop with each new subscriber.
+            raw_type: (md5 sum, definition) of a possibly unknown type; messages are then published as bytes.
 
         Raises:
-            MessageError: no such type, or the topic is already published with another.
+            MessageError: unknown type, or the topic is already published with another.
         """
         name = self.resolve(topic)
         if raw_type is None:
@@ -195,12 +194,12 @@ class Node:
             topic: resolved and remapped.
             type_name: such as 'geometry_msgs/Twist', or '*' for messages of any type as `RawMessage`.
             callback: function or coroutine function of the message; what it raises is logged.
-            queue_size: how many messages wait for callbacks that are too slow; None: any number.
-            tcp_nodelay: whether to ask publishers for small delays rather than full packets.
-            on_loop: call back on the loop even if this node delivers elsewhere.
+            queue_size: messages queued for slow callbacks; None: unlimited.
+            tcp_nodelay: True: request TCP_NODELAY from publishers.
+            on_loop: True: run the callback on the loop, even if the node has `deliver`.
 
         Raises:
-            MessageError: no such type.
+            MessageError: unknown type.
         """
         name = self.resolve(topic)
         if type_name != ANY_TYPE:
@@ -219,17 +218,17 @@ class Node:
         return subscription
 
     def advertise_service(self, name: str, type_name: str, handler: ServiceCallback) -> Service:
-        """Provide a service.
+        """Advertise a service.
 
         Args:
             name: resolved and remapped.
             type_name: such as 'std_srvs/SetBool'.
-            handler: function or coroutine function of the request; returns the response or its fields as a
-                dictionary, or raises ServiceError for "no". A coroutine function runs on the loop even if this node
-                delivers elsewhere.
+            handler: function or coroutine function of the request; returns the response or its fields as a dictionary,
+                or raises ServiceError for failure. A coroutine function runs on the loop, even if the node has
+                `deliver`.
 
         Raises:
-            MessageError: no such type.
+            MessageError: unknown type.
         """
         service = Service(self, self.resolve(name), type_name, handler, unregister=self.endpoints.remove_service)
         self.endpoints.add_service(service)
@@ -246,48 +245,48 @@ class Node:
         """Call a service.
 
         Raises:
-            ServiceError: it is not there, says no, or does not answer in time.
-            MessageError: no such type, or a request that does not fit it.
+            ServiceError: the service is not available, fails or times out.
+            MessageError: unknown type, or a request that does not fit it.
         """
         return await call_service(self, self.resolve(name), type_name, request, timeout_s)
 
     async def wait_for_service(self, name: str, timeout_s: float | None = None) -> None:
-        """Wait until a node provides a service.
+        """Wait until a service is available.
 
         Raises:
-            ServiceError: none does in time.
+            ServiceError: timeout.
         """
         await wait_for_service(self, self.resolve(name), timeout_s)
 
-    # -- waiting for the beginning, and the end: on the loop
+    # -- startup and shutdown: on the loop
 
     async def wait_listening(self) -> None:
-        """Wait until the node has an address, or never will."""
+        """Wait until the node listens, or is shut down."""
         if not self._is_down:
             await self._listening.wait()
 
     async def wait_registered(self) -> None:
-        """Wait until everything asked for so far is registered at the master."""
+        """Wait until everything added so far is registered at the master."""
         await self._registrations.wait_done()
 
     async def wait_connected(self) -> None:
-        """Wait until every subscription hears the publishers there are, or knows that they do not answer."""
+        """Wait until every subscription is connected to its publishers, or has found them unreachable."""
         await self.wait_registered()
         while not all(subscription.is_settled for subscription in self.endpoints.subscriptions):
             await asyncio.sleep(_LINK_S)
 
     def on_shutdown(self, callback: Callable[[str], None]) -> None:
-        """Have a function called, on the loop and with the reason, when this node is told to shut down."""
+        """Register a function to be called on the loop, with the reason, on a shutdown request."""
         self._on_shutdown.append(callback)
 
     async def shutdown(self) -> None:
-        """Unregister everything and drop every peer."""
+        """Unregister everything and close all connections."""
         if self._is_down:
             await self.closed.wait()
             return
         self._is_down = True
         if self._has_begun:
-            await self._listening.wait()  # a server caught half made would stay open
+            await self._listening.wait()  # a partly created server would stay open
         await self._registrations.close()
         if self.uri:
             with contextlib.suppress(TimeoutError):
@@ -301,7 +300,7 @@ class Node:
         self.closed.set()
 
     def request_shutdown(self, reason: str) -> None:
-        """Obey the master or another node."""
+        """Handle a shutdown request of the master or another node."""
         if self._is_down:
             return
         self.log.warn(f"shutdown request: {reason}")
@@ -309,7 +308,7 @@ class Node:
             callback(reason)
         self.loop.spawn(self.shutdown())
 
-    # -- inside
+    # -- internals
 
     def _begin(self) -> None:
         if self._is_down or self.loop.is_ending:
@@ -333,7 +332,7 @@ class Node:
             self._start_rosout()
 
     def _start_rosout(self) -> None:
-        if self.name != "/rosout":  # that one would gather its own log for ever
+        if self.name != "/rosout":  # /rosout would aggregate its own messages endlessly
             rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
             self.log.publish_on(rosout, lambda: [publisher.topic for publisher in self.endpoints.publishers])
         self.advertise_service("~get_loggers", "roscpp/GetLoggers", self.log.get_loggers)

@@ -1,4 +1,4 @@
-"""Interface of a node as its parts see it: publishers, subscriptions, services, parameters and servers."""
+"""Interface of a node for its parts: publishers, subscriptions, services, parameters and servers."""
 
 from collections.abc import Callable, Mapping
 from typing import Protocol
@@ -19,62 +19,62 @@ class NodeContext(Protocol):
 
     @property
     def uri(self) -> str:
-        """Address of the XML-RPC interface; empty before the node listens."""
+        """URI of the slave API; '' before it listens."""
         ...
 
     @property
     def service_uri(self) -> str:
-        """Address at which its services are called."""
+        """rosrpc URI of its services."""
         ...
 
     @property
     def loop(self) -> GraphLoop:
-        """Loop it runs on."""
+        """Loop that runs the node."""
         ...
 
     @property
     def master(self) -> MasterClient:
-        """The master of its graph."""
+        """Client of the graph's master."""
         ...
 
     @property
     def master_uri(self) -> str:
-        """Address of the master."""
+        """URI of the master."""
         ...
 
     @property
     def log(self) -> NodeLog:
-        """Its log."""
+        """Log of the node."""
         ...
 
     @property
     def messages(self) -> Messages:
-        """Message types."""
+        """Message types of the loop."""
         ...
 
     @property
     def deliver(self) -> Callable[[Callable[[], None]], None] | None:
-        """Has callbacks called elsewhere; None: they run on the loop."""
+        """Schedules callbacks outside the loop; None: they run on the loop."""
         ...
 
     @property
     def written_remappings(self) -> Mapping[str, str]:
-        """Name → name, both as written, not resolved."""
+        """Remappings as written, unresolved."""
         ...
 
     @property
     def is_shut_down(self) -> bool:
-        """Whether it has begun to shut down."""
+        """True once shutdown has begun."""
         ...
 
     def resolve(self, name: str) -> str:
-        """Return the global name the node means by `name`, remapped."""
+        """Resolve and remap a name to a global name."""
         ...
 
     def new(self, type_name: str, fields: object = None) -> Message:
-        """Make a message stamped with the node's time."""
+        """Build a message stamped with the node's time."""
         ...
 
     async def wait_listening(self) -> None:
-        """Wait until the node has an address, or never will."""
+        """Wait until the node listens, or is shut down."""
         ...

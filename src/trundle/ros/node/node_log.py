@@ -1,4 +1,4 @@
-"""The log of a node: stderr, and /rosout once it is published. Any thread may write to it."""
+"""Log of a node: stderr, and /rosout once published; thread-safe."""
 
 import traceback
 from collections.abc import Callable, Mapping
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
 
 class LogTopic(Protocol):
-    """The publisher of /rosout."""
+    """Publisher of /rosout."""
 
     @property
     def has_subscribers(self) -> bool:
-        """Whether publishing reaches anybody now."""
+        """True if there are subscribers."""
         ...
 
     def publish(self, message: Mapping[str, object], /) -> None:
@@ -27,55 +27,55 @@ class LogTopic(Protocol):
 
 
 class NodeLog:
-    """The log of one node."""
+    """Log of one node."""
 
     def __init__(self, name: str, clock: Callable[[], Clock]) -> None:
-        """`clock` returns the node's clock of the moment."""
+        """`clock` returns the node's current clock."""
         self.name = name
         self.loggers = Loggers.for_rospy()
-        """Decide by level which messages are written."""
+        """Loggers, whose level filters messages."""
         self.quiet: TextIO | None = None
-        """Takes what is no warning in place of stderr; None: stderr has it all."""
+        """Stream for info and debug; None: stderr."""
         self._clock = clock
         self._rosout: LogTopic | None = None
         self._topics: Callable[[], list[str]] = list
 
     def debug(self, text: str) -> None:
-        """Say something for whoever looks into this node."""
+        """Log details for debugging."""
         self._write("debug", text)
 
     def info(self, text: str) -> None:
-        """Say something everyone may want to know."""
+        """Log information."""
         self._write("info", text)
 
     def warn(self, text: str) -> None:
-        """Say that something is not as it should be, and what is done instead."""
+        """Log a problem with its fallback."""
         self._write("warn", text)
 
     def error(self, text: str) -> None:
-        """Say that something failed."""
+        """Log a failure."""
         self._write("error", text)
 
     def fatal(self, text: str) -> None:
-        """Say why the node cannot go on."""
+        """Log a failure that ends the node."""
         self._write("fatal", text)
 
     def exception(self, what: str, error: Exception) -> None:
-        """Say that code of this node raised, with its traceback."""
+        """Log an exception with its traceback."""
         where = "".join(traceback.format_exception(error)).rstrip()
         self._write("error", f"{what}: {error}\n{where}")
 
     def publish_on(self, rosout: LogTopic, topics: Callable[[], list[str]]) -> None:
-        """Publish all that follows; `topics` names those that the node publishes."""
+        """Publish later messages on /rosout; `topics` returns the node's published topics."""
         self._rosout, self._topics = rosout, topics
 
     def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, object]:
-        """Answer roscpp/GetLoggers."""
+        """Handle roscpp/GetLoggers."""
         del request
         return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
 
     def set_logger_level(self, request: "roscpp.SetLoggerLevelRequest") -> dict[str, object]:
-        """Answer roscpp/SetLoggerLevel."""
+        """Handle roscpp/SetLoggerLevel."""
         try:
             self.loggers.set(request.logger, request.level.lower())
         except ValueError as error:

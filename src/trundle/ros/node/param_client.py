@@ -1,4 +1,4 @@
-"""Parameters as one node reads, sets and watches them; coroutines of the loop."""
+"""Parameter client of one node; its methods are coroutines on the loop."""
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
@@ -9,26 +9,26 @@ from .node_context import NodeContext
 from .registration_queue import RegistrationQueue
 
 ParamCallback: TypeAlias = Callable[[str, Any], None]
-"""Gets the name of what changed, without a slash at its end, and its new value; {} where it was deleted."""
+"""Called with the changed name, without trailing slash, and its new value; {} if deleted."""
 _UNSET: Any = object()
 
 
 class ParamClient:
-    """The parameter server, seen from one node: names are resolved and remapped."""
+    """Access to the parameter server; names are resolved and remapped."""
 
     def __init__(self, node: NodeContext, private: Mapping[str, object]) -> None:
-        """`private` parameters are set when the node starts; reading waits for that."""
+        """`private` parameters are set when the node starts; reads wait for that."""
         self._node = node
         self._private = dict(private)
         self._is_set = asyncio.Event()
         self._watched: dict[str, list[ParamCallback]] = {}
 
     async def get(self, name: str, default: Any = _UNSET) -> Any:
-        """Return a parameter, or a namespace as a dictionary.
+        """Get a parameter, or a namespace as a dictionary.
 
         Raises:
-            ParameterError: it is not set and there is no default.
-            MasterUnreachableError: nobody answers.
+            ParameterError: the parameter is not set and there is no default.
+            MasterUnreachableError: the master does not answer.
         """
         full = self._node.resolve(name)
         await self._wait_private()
@@ -44,7 +44,7 @@ class ParamClient:
 
         Raises:
             ParameterError: parameters cannot hold the value (integers have 32 bits).
-            MasterUnreachableError: nobody answers.
+            MasterUnreachableError: the master does not answer.
         """
         full = self._node.resolve(name)
         try:
@@ -56,7 +56,7 @@ class ParamClient:
         """Delete a parameter or a namespace.
 
         Raises:
-            ParameterError: it is not set.
+            ParameterError: the parameter is not set.
         """
         full = self._node.resolve(name)
         try:
@@ -65,12 +65,12 @@ class ParamClient:
             raise ParameterError(f"parameter {full} is not set") from None
 
     async def has(self, name: str) -> bool:
-        """Tell whether a parameter or a namespace is set."""
+        """True if a parameter or namespace is set."""
         await self._wait_private()
         return bool(await self._node.master.call("hasParam", self._node.resolve(name)))
 
     async def search(self, key: str) -> str | None:
-        """Find the full name of the nearest parameter upwards from this node; a remapped key is searched as written."""
+        """Full name of the nearest match upwards from this node; a remapped key is searched as written."""
         await self._wait_private()
         try:
             return str(await self._node.master.call("searchParam", self._node.written_remappings.get(key, key)))
@@ -78,10 +78,10 @@ class ParamClient:
             return None
 
     async def watch(self, name: str, callback: ParamCallback) -> object:
-        """Have a function called, on the loop, whenever a parameter or something below it changes.
+        """Subscribe to changes of a parameter or namespace; `callback` runs on the loop.
 
         Returns:
-            The value now; {} if it is not set.
+            The current value; {} if not set.
         """
         await self._node.wait_listening()
         full = self._node.resolve(name)
@@ -89,24 +89,24 @@ class ParamClient:
         return await self._node.master.call("subscribeParam", self._node.uri, full)
 
     def notify(self, key: str, value: object) -> bool:
-        """Tell those who watch a parameter; False: nobody does."""
+        """Handle paramUpdate; False if there is no subscriber."""
         name = key.rstrip("/") or "/"
-        told = [
+        matching = [
             callback
             for watched, callbacks in self._watched.items()
             if watched == "/" or name == watched or name.startswith(f"{watched}/")
             for callback in callbacks
         ]
-        for callback in told:
+        for callback in matching:
             callback(name, value)
-        return bool(told)
+        return bool(matching)
 
     def unwatch_all(self) -> list[Awaitable[object]]:
-        """Calls that tell the master that nothing is watched any more."""
+        """Master calls that unsubscribe all parameters."""
         return [self._node.master.call("unsubscribeParam", self._node.uri, name) for name in self._watched]
 
     async def set_private(self, registrations: RegistrationQueue) -> None:
-        """Set the parameters the node was made with, as soon as there is a master."""
+        """Set the private parameters as soon as a master answers."""
         for name, value in self._private.items():
             await registrations.retry(lambda name=name, value=value: self._set_private(name, value))
         self._is_set.set()
@@ -115,7 +115,7 @@ class ParamClient:
         try:
             await self.set(f"~{name}", value)
         except MasterUnreachableError:
-            self._is_set.set()  # whoever waits for them learns the reason by asking
+            self._is_set.set()  # waiting readers then get the same error
             raise
 
     async def _wait_private(self) -> None:

@@ -1,29 +1,29 @@
-"""What the nodes of this process have under way, so that a simulation in it can let them finish before time goes on."""
+"""Work in progress of this process's nodes, which a simulation in lockstep waits for."""
 
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 
 
 class PendingWork:
-    """Counts whatever ends without time passing: calls to the master, services, links being made; any thread."""
+    """Tracks work that finishes without time passing: master calls, service calls, connecting; thread-safe."""
 
     def __init__(self) -> None:
         self._under_way: set[object] = set()
         self._asked: list[Callable[[], bool]] = []
 
     def start(self) -> object:
-        """Count something; the result is handed to `end`."""
+        """Begin work; returns a token for `finish`."""
         token = object()
         self._under_way.add(token)
         return token
 
     def finish(self, token: object) -> None:
-        """Count it no more."""
+        """End work."""
         self._under_way.discard(token)
 
     @contextmanager
     def pending(self) -> Generator[None]:
-        """Count what happens inside."""
+        """Track the work in the context."""
         token = self.start()
         try:
             yield
@@ -31,14 +31,14 @@ class PendingWork:
             self.finish(token)
 
     def add_source(self, is_busy: Callable[[], bool]) -> None:
-        """Have somebody asked who counts for themselves."""
+        """Add a function that reports other work in progress."""
         self._asked.append(is_busy)
 
     @property
     def is_busy(self) -> bool:
-        """Whether anything is under way."""
+        """True if any work is in progress."""
         return bool(self._under_way) or any(is_busy() for is_busy in self._asked)
 
     def abandon(self) -> None:
-        """Wait no more for what is under way now."""
+        """Forget all current work."""
         self._under_way.clear()

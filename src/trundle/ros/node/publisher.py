@@ -1,4 +1,4 @@
-"""A topic as its publisher sees it: links to subscribers here and elsewhere, a queue for each."""
+"""Publisher of a topic: subscriber connections with a queue each."""
 
 import threading
 from collections import deque
@@ -17,14 +17,14 @@ from .node_context import NodeContext
 from .subscriber_links import SubscriberLinks
 
 _BATCH_MESSAGES, _BATCH_BYTES = 200, 1024 * 1024
-"""How much is handed on before others get their turn on the loop, whoever publishes however fast."""
+"""Batch size, so that a fast publisher does not starve the loop."""
 _BYTES = bytes, bytearray, memoryview
 _MAX_WARNINGS = 100
-"""About so many subscribers of another type, as their names are theirs to choose."""
+"""Limit of `_refused`, since peers choose their names."""
 
 
 class Publisher:
-    """Publishes one topic of one node; made by `Node.advertise`."""
+    """Publisher of one topic of a node; created by `Node.advertise`."""
 
     def __init__(
         self,
@@ -47,52 +47,52 @@ class Publisher:
         self._on_connect = on_connect
         self._unregister = unregister
         self._raw_type = raw_type
-        """(md5 sum, definition) of a type that need not be known here."""
+        """(md5 sum, definition) of a possibly unknown type."""
         self._subscriber_links = SubscriberLinks(topic)
         self._direct: tuple[SendQueue, ...] = ()
-        """Where whoever publishes sends by itself: to other processes, while nobody here listens."""
+        """Send queues that the publishing thread writes to: other processes, if there are no local subscribers."""
         self._refused: set[str] = set()
-        """Names of the subscribers that were warned about; they ask again and again."""
+        """Names of subscribers already warned about; they retry."""
         self._wanted = 0
         """Number of links; read by any thread."""
         self._outbox: deque[Any] = deque(maxlen=queue_size)
         self._lost = 0
-        """Messages that were replaced before the loop came round to them."""
+        """Messages dropped from the outbox before the loop took them."""
         self._flushes = False
         self._turn = threading.Lock()
-        """Held while a thread other than the loop's sends, and while somebody joins and gets what is latched."""
+        """Held while another thread than the loop's sends, and while a new subscriber gets latched messages."""
         self._latched: Any = None
         self.latched_for_others: tuple[bytes, ...] = ()
-        """What whoever joins gets before the last message: the last ones of all but one of those whom this repeats."""
+        """Latched messages of other original callers, which new subscribers get before the last message."""
         self._class: type[Message] | None = None
-        """Of the messages so far."""
+        """Class of the messages so far."""
         self._codec: Codec | None = None
         self._frame: Callable[[Any], Pieces | None] = self._framed
-        """The codec's quickest, which needs `_framed` for what is not as it should be."""
+        """Codec's fast path; raises for messages that need `_framed`."""
         self._has_header = False
         self._sequence = 0
         self.published = 0
-        """Messages handed to subscribers so far."""
+        """Number of published messages."""
 
     @property
     def subscribers(self) -> int:
-        """How many subscribers are connected."""
+        """Number of connected subscribers."""
         return self._wanted
 
     @property
     def has_subscribers(self) -> bool:
-        """Whether publishing reaches anybody now."""
+        """True if there are subscribers."""
         return self._wanted > 0
 
     @property
     def needs_every_message(self) -> bool:
-        """Whether each message counts to somebody; else, what is told again and again may be told less often."""
+        """True if a subscriber needs every message; else periodic messages may be skipped."""
         return self._wanted > 0 and self._subscriber_links.need_every_message
 
     def publish(self, message: TypedMessage | Mapping[str, object] | bytes) -> None:
-        """Publish a message, from any thread; never blocks. The message is read-only from now on.
+        """Publish a message; thread-safe, never blocks. The message must not be changed afterwards.
 
-        A header's `seq` is filled in. Subscribers that read too slowly lose the oldest messages.
+        Sets a header's `seq`. Slow subscribers lose the oldest messages.
 
         Args:
             message: a message of the topic's type, its fields as a dictionary, or its bytes.
@@ -115,19 +115,19 @@ class Publisher:
         self._flush_soon()
 
     def unregister(self) -> None:
-        """Stop publishing; any thread."""
+        """Stop publishing; thread-safe."""
         self._unregister(self)
 
     # on the loop
 
     @property
     def md5sum(self) -> str:
-        """What subscribers compare."""
+        """md5 sum of the type."""
         return self._raw_type[0] if self._raw_type else self._node.messages.md5(self.type)
 
     @property
     def definition(self) -> str:
-        """The text of the type and of those it depends on."""
+        """Full definition of the type with dependencies."""
         return self._raw_type[1] if self._raw_type else self._node.messages.definition(self.type)
 
     @property
@@ -136,7 +136,7 @@ class Publisher:
         return self._node.name
 
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
-        """Take a subscriber's connection, or refuse it with the reason the original gives."""
+        """Accept a subscriber's connection, or refuse it with the original's reason."""
         peer = header.get("callerid", "unknown")
         if (reason := self._mismatch(header, peer)) is not None:
             if peer not in self._refused and len(self._refused) < _MAX_WARNINGS:
@@ -165,18 +165,18 @@ class Publisher:
         self._count()
 
     def resume(self) -> None:
-        """Go on after all subscribers were too slow."""
+        """Continue after all subscribers were congested."""
         if self._outbox and not self._flushes:
             self._flush()
 
     def release(self, link: FrameProtocol) -> None:
-        """Forget a connection that has ended."""
+        """Remove a closed connection."""
         self._subscriber_links.remote.pop(link, None)
         self._count()
         self.resume()
 
     def attach(self, subscriber: LocalSubscriber, name: str) -> None:
-        """Take a subscription of this process."""
+        """Connect a subscription of this process."""
         if subscriber in self._subscriber_links.local:
             return
         with self._turn:
@@ -188,34 +188,34 @@ class Publisher:
             self._deliver(message, subscriber, None)
 
     def detach(self, subscriber: LocalSubscriber) -> None:
-        """Forget a subscription of this process."""
+        """Disconnect a subscription of this process."""
         self._subscriber_links.local.pop(subscriber, None)
         self._count()
 
     def close(self) -> None:
-        """Drop every link."""
+        """Close all connections."""
         self._subscriber_links.close()
         self._count()
 
     def connections(self) -> list[list[object]]:
-        """Links as getBusInfo tells them."""
+        """Links, as in getBusInfo."""
         return self._subscriber_links.connections()
 
     def statistics(self) -> list[object]:
-        """Bytes and messages as getBusStats tells them."""
+        """Bytes and messages, as in getBusStats."""
         return self._subscriber_links.statistics()
 
     @property
     def dropped(self) -> int:
-        """Messages that left the queue unsent: published too fast, or slow subscribers, connected now, lost them."""
+        """Dropped messages: from the outbox, or by slow subscribers still connected."""
         return self._lost + self._subscriber_links.dropped
 
     def _latched_messages(self) -> tuple[Any, ...]:
-        """What whoever joins gets."""
+        """Messages for a new subscriber."""
         return () if self._latched is None else (*self.latched_for_others, self._latched)
 
     def _mismatch(self, header: dict[str, str], peer: str) -> str | None:
-        """Why a subscriber cannot read what is published here, in the original's words."""
+        """Reason why a subscriber's type does not match, in the original's words."""
         wanted, theirs = header.get("md5sum", ""), header.get("type", self.type)
         if check_md5(wanted, self.md5sum):
             return None
@@ -227,8 +227,8 @@ class Publisher:
         )
 
     def _update_subscribers(self) -> None:
-        here, far = self._subscriber_links.local, self._subscriber_links.remote
-        self._direct = () if here else tuple(link.out for link in far)
+        local, remote = self._subscriber_links.local, self._subscriber_links.remote
+        self._direct = () if local else tuple(link.out for link in remote)
 
     def _count(self) -> None:
         self._update_subscribers()
@@ -237,9 +237,9 @@ class Publisher:
             self._on_connect(self)
 
     def _send_at_once(self, message: Any) -> bool:
-        """Spare the loop a message that goes to other processes only; False: nothing is done.
+        """Send to other processes from this thread; False if the loop must send.
 
-        Waking the loop's thread takes longer than sending.
+        Waking the loop takes longer than sending.
         """
         outs = self._direct
         if not outs or threading.get_ident() in self._loop_threads or not self._turn.acquire(blocking=False):
@@ -268,7 +268,7 @@ class Publisher:
     def _flush(self) -> None:
         frames: list[Pieces] = []
         count = size = 0
-        self._flushes = True  # nobody sends at once meanwhile
+        self._flushes = True  # prevents direct sending meanwhile
         try:
             while (
                 self._outbox
@@ -291,7 +291,7 @@ class Publisher:
                 for link in list(self._subscriber_links.remote):
                     link.out.send(frames, self._queue_size)
         finally:
-            # In this order: a message put in between is seen here or by its own publish().
+            # In this order: a message added in between is seen here or by its own publish().
             self._flushes = False
             if self._outbox and not self._subscriber_links.is_congested:
                 self._flush_soon()
@@ -310,7 +310,7 @@ class Publisher:
             subscriber.receive_bytes(b"".join((framed[0][LENGTH.size :], *framed[1:])), self)
 
     def _framed(self, message: Any) -> Pieces | None:
-        """Write a message with its length in front."""
+        """Serialize a message with its length prefix."""
         if isinstance(message, _BYTES):
             return LENGTH.pack(len(message)), bytes(message)
         assert self._codec is not None
@@ -321,7 +321,7 @@ class Publisher:
             return None
 
     def _checked(self, message: Message | dict[str, Any] | bytes) -> Any:
-        """What is handed on: bytes, or a message of the topic's type."""
+        """Message to send: bytes, or an object of the topic's type."""
         if isinstance(message, _BYTES):
             return message
         if isinstance(message, dict):

@@ -1,4 +1,4 @@
-"""What a node has to tell its master: one call after the other, on the loop, until the master has heard it."""
+"""Queue of a node's calls to the master, executed in order on the loop."""
 
 import asyncio
 from collections.abc import Awaitable, Callable
@@ -15,7 +15,7 @@ _RETRY_S = 0.5
 
 
 class RegistrationQueue:
-    """A queue of calls to the master, which goes on trying while no master answers."""
+    """Queue of master calls, retried while no master answers."""
 
     def __init__(self, loop: GraphLoop, *, log: NodeLog) -> None:
         self._loop = loop
@@ -27,21 +27,21 @@ class RegistrationQueue:
         self._waits_for_master = False
 
     def add(self, registration: Registration) -> None:
-        """Have something done after all that was added before; from any thread, without waiting."""
+        """Append a call; thread-safe, does not block."""
         token = self._loop.work.start()
         self._loop.call_soon(lambda: self._add(registration, token))
 
     def start(self, first: Registration) -> None:
-        """Start to work off the queue, on the loop, with what must be done before all else."""
+        """Start the queue with `first`; call on the loop."""
         token = self._loop.work.start()
         self._worker = asyncio.get_running_loop().create_task(self._run(first, token))
         self._worker.add_done_callback(lambda _: self._loop.work.finish(token))
         self._worker.add_done_callback(self._worker_ended)
 
     async def wait_done(self) -> None:
-        """Wait until everything added so far is done."""
+        """Wait until all calls added so far are done."""
         await self._is_started.wait()
-        await asyncio.sleep(0)  # what other threads added before is in the queue now
+        await asyncio.sleep(0)  # lets calls added by other threads enter the queue
         reached: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
         async def reach() -> None:
@@ -52,21 +52,21 @@ class RegistrationQueue:
         await reached
 
     async def close(self) -> None:
-        """Drop what is still to be done."""
+        """Drop the remaining calls."""
         self._has_ended = True
         if self._worker is not None:
             self._worker.cancel()
             await asyncio.gather(self._worker, return_exceptions=True)
 
     async def retry(self, registration: Registration) -> None:
-        """Do something at the master, as soon as there is one."""
+        """Execute a call, retrying until a master answers."""
         while True:
             try:
                 await registration()
             except MasterUnreachableError as error:
                 if not self._waits_for_master:
                     self._waits_for_master = True
-                    self._log.warn(f"{error}; {self._log.name} goes on trying")
+                    self._log.warn(f"{error}; {self._log.name} keeps trying")
                 await asyncio.sleep(_RETRY_S)
                 continue
             except (MasterError, ParameterError) as error:
@@ -75,7 +75,7 @@ class RegistrationQueue:
             return
 
     def _add(self, registration: Registration, token: object) -> None:
-        if self._has_ended or (self._worker is not None and self._worker.done()):  # nobody is left to do it
+        if self._has_ended or (self._worker is not None and self._worker.done()):  # the worker has ended
             self._loop.work.finish(token)
         else:
             self._queue.put_nowait((registration, token))

@@ -1,4 +1,4 @@
-"""A service as its provider sees it: the connections of its clients."""
+"""Service provider and its client connections."""
 
 import asyncio
 import contextlib
@@ -16,11 +16,11 @@ from .node_context import NodeContext
 ServiceCallback = Callable[[Message], object]
 """Takes the request; returns the response, its fields as a dictionary, or an awaitable of either."""
 _MAX_WAITING = 64
-"""Requests one client may send ahead of the answers; no client library sends more than one."""
+"""Requests a client may send ahead; no client library sends more than one."""
 
 
 class Service:
-    """Provides one service of one node; made by `Node.advertise_service`."""
+    """Provider of one service of a node; created by `Node.advertise_service`."""
 
     def __init__(
         self,
@@ -41,13 +41,13 @@ class Service:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def unregister(self) -> None:
-        """Stop providing; any thread."""
+        """Stop providing; thread-safe."""
         self._unregister(self)
 
     # on the loop
 
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
-        """Take a client's connection, or refuse it with the reason the original gives."""
+        """Accept a client's connection, or refuse it with the original's reason."""
         wanted = header.get("md5sum", "")
         if not check_md5(wanted, self.kind.md5sum):
             peer = header.get("callerid", "unknown")
@@ -75,20 +75,20 @@ class Service:
         task.add_done_callback(self._tasks.discard)
 
     def request(self, link: FrameProtocol, data: bytes | memoryview) -> None:
-        """Take a request."""
+        """Queue a request."""
         try:
             self._links[link].put_nowait(data)
         except (KeyError, asyncio.QueueFull):
             raise WireError("more requests than are accepted at once") from None
 
     def release(self, link: FrameProtocol) -> None:
-        """Forget a connection that has ended."""
+        """Remove a closed connection."""
         if (requests := self._links.pop(link, None)) is not None:
-            with contextlib.suppress(asyncio.QueueFull):  # one that is busy looks at the connection itself
+            with contextlib.suppress(asyncio.QueueFull):  # a busy task checks the connection itself
                 requests.put_nowait(None)
 
     def close(self) -> None:
-        """Drop every client."""
+        """Close all connections."""
         for task in list(self._tasks):
             task.cancel()
         for link in list(self._links):
@@ -105,7 +105,7 @@ class Service:
                 return
 
     async def _answer(self, data: bytes | memoryview) -> bytes:
-        """Answer one request: a byte that says whether it went well, then the response or the error's text."""
+        """Handle a request; returns the success byte, then the response or the error's text."""
         try:
             response = await self._handle(self._node.messages.deserialize(data, self.kind.request))
             if isinstance(response, dict) or response is None:

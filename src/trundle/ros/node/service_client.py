@@ -1,4 +1,4 @@
-"""Services as a client sees them: one connection for each call."""
+"""Service client: one connection per call."""
 
 import asyncio
 import contextlib
@@ -12,7 +12,7 @@ from ..xmlrpc.http import host_and_port
 from .node_context import NodeContext
 
 _POLL_S = 0.05
-"""Pause between two questions to the master whether a service is there."""
+"""Poll interval of the master for a missing service."""
 
 
 async def call_service(
@@ -25,8 +25,8 @@ async def call_service(
     """Call a service by its global name.
 
     Raises:
-        ServiceError: it is not there, says no, or does not answer in time.
-        MessageError: no such type, or a request that does not fit it.
+        ServiceError: the service is not available, fails or times out.
+        MessageError: unknown type, or a request that does not fit it.
     """
     kind = node.messages.service(type_name)
     if request is None or isinstance(request, dict):
@@ -44,10 +44,10 @@ async def call_service(
 
 
 async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None) -> None:
-    """Wait until a node provides a service, given by its global name.
+    """Wait until a service is available, by its global name.
 
     Raises:
-        ServiceError: none does in time.
+        ServiceError: timeout.
     """
     try:
         async with asyncio.timeout(timeout_s):
@@ -61,10 +61,10 @@ async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None
 
 
 async def probe_service(uri: str, name: str, caller: str) -> dict[str, str]:
-    """Ask a provider for its header, which names the type.
+    """Probe a provider for its connection header, which names the type.
 
     Raises:
-        ServiceError: the provider is not there.
+        ServiceError: the provider does not answer.
     """
     try:
         async with asyncio.timeout(5.0), _connection(uri) as (reader, writer):
@@ -77,10 +77,10 @@ async def probe_service(uri: str, name: str, caller: str) -> dict[str, str]:
 async def _exchange(
     messages: Messages, caller: str, uri: str, name: str, kind: ServiceType, request: Message
 ) -> Message:
-    """Send one request to a provider's address, in the name of the node `caller`, and return the response.
+    """Send a request to a provider as the node `caller`, and return the response.
 
     Raises:
-        ServiceError: the provider refuses or fails, or breaks the connection.
+        ServiceError: the provider refuses, fails or disconnects.
     """
     body = messages.serialize(request)
     try:
@@ -100,7 +100,7 @@ async def _exchange(
     try:
         return messages.deserialize(data, kind.response)
     except MessageError as error:
-        raise ServiceError(f"{name} answers with something else: {error}") from None
+        raise ServiceError(f"{name} sent an invalid response: {error}") from None
 
 
 @contextlib.asynccontextmanager
@@ -115,5 +115,5 @@ async def _connection(uri: str):
 async def _read_frame(reader: asyncio.StreamReader, limit: int) -> bytes:
     (size,) = struct.unpack("<I", await reader.readexactly(4))
     if size > limit:
-        raise WireError(f"a frame of {size} bytes is announced, more than is accepted")
+        raise WireError(f"a frame of {size} bytes is announced, more than the {limit} accepted")
     return await reader.readexactly(size)

@@ -1,4 +1,4 @@
-"""A node's own two servers: its XML-RPC interface, and the port topics and services connect to."""
+"""Servers of a node: slave API, and the TCPROS port of topics and services."""
 
 import asyncio
 import os
@@ -20,14 +20,14 @@ from .publisher import Publisher
 from .service import Service
 
 _BACKLOG = 512
-"""Connections waiting to be accepted: all subscribers of a big launch come at once, and one too many waits a second."""
+"""Accept queue: all subscribers of a big launch connect at once, and a rejected one retries after a second."""
 _URL = re.compile(r"\w[\w+.-]*://.")
 _MAX_NEWCOMERS = 512
-"""Connections that have not said yet what they want; the oldest makes room."""
+"""Limit of connections without a header; beyond it the oldest is closed."""
 
 
 class Slave:
-    """What other nodes and the master reach of a node."""
+    """Slave API and TCPROS server of one node."""
 
     def __init__(
         self,
@@ -38,7 +38,7 @@ class Slave:
         *,
         on_shutdown: Callable[[str], None],
     ) -> None:
-        """`on_shutdown` is called with the reason when the master or another node asks for it."""
+        """`on_shutdown` is called with the reason of a shutdown request."""
         self._node = node
         self._endpoints = endpoints
         self._params = params
@@ -47,14 +47,14 @@ class Slave:
         self._rpc = RpcServer(partial(answer_call, self._methods()))
         self._servers: list[asyncio.Server] = []
         self._unix_socket: list[str] = []
-        """Where nodes of this machine connect faster, if there is such a place."""
+        """Name of the Unix socket for local nodes, if supported."""
         self._links: set[_Inbound] = set()
         self._pending_peers: dict[_Inbound, None] = {}
         self.uri = ""
         self.tcp_port = 0
 
     async def start(self) -> None:
-        """Listen at two free ports, and nearby."""
+        """Listen on two free ports and on a Unix socket."""
         await self._rpc.start(self._address.bind, 0)
         self.uri = f"http://{self._address.at(self._rpc.port)}/"
         loop = asyncio.get_running_loop()
@@ -68,11 +68,11 @@ class Slave:
 
     @property
     def service_uri(self) -> str:
-        """Where this node's services are called."""
+        """rosrpc URI of the node's services."""
         return f"rosrpc://{self._address.at(self.tcp_port)}"
 
     async def stop(self) -> None:
-        """Stop listening and drop every peer."""
+        """Stop listening and close all connections."""
         for server in self._servers:
             await close_server(server)
         for link in list(self._links):
@@ -144,7 +144,7 @@ def _reply(text: str, value: Callable[[], object]) -> Callable[[str], Answer]:
 
 
 class _Inbound(FrameProtocol):
-    """A peer that connected: its header says whether it wants a topic or a service."""
+    """Inbound connection, whose header names a topic or a service."""
 
     def __init__(
         self,
@@ -164,11 +164,11 @@ class _Inbound(FrameProtocol):
         self._links.add(self)
         self._pending_peers[self] = None
         if len(self._pending_peers) > _MAX_NEWCOMERS:
-            next(iter(self._pending_peers)).close("others wait, too")
+            next(iter(self._pending_peers)).close("too many connections without a header")
         assert self.transport is not None
         if self.out.is_local and not is_of_this_user(self.transport.get_extra_info("socket")):
-            self.close("it is another user's")
-        if self._node.is_shut_down:  # accepted in the same moment
+            self.close("the peer runs as another user")
+        if self._node.is_shut_down:  # accepted during shutdown
             self.close("the node shuts down")
 
     def header_received(self, header: dict[str, str]) -> None:

@@ -1,4 +1,4 @@
-"""A subscription's connection to one publisher of another process."""
+"""Connection of a subscription to a publisher of another process."""
 
 import asyncio
 import contextlib
@@ -16,7 +16,7 @@ from ..transport.tcpros import FrameProtocol
 
 
 class MessageReceiver(Protocol):
-    """The subscription that a connection belongs to."""
+    """Subscription that owns a connection."""
 
     @property
     def type(self) -> str:
@@ -25,25 +25,25 @@ class MessageReceiver(Protocol):
 
     @property
     def md5sum(self) -> str:
-        """Checksum of the type."""
+        """md5 sum of the type."""
         ...
 
     @property
     def is_raw(self) -> bool:
-        """Whether it takes bytes."""
+        """True if it takes serialized messages."""
         ...
 
     def receive(self, message: Message) -> None:
-        """Take a message."""
+        """Receive a message."""
         ...
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
-        """Take a message as bytes, with its publisher's header."""
+        """Receive a serialized message with its publisher's connection header."""
         ...
 
 
 class SubscriberLink(FrameProtocol):
-    """Asks for a topic, then hands on what comes; read past asyncio once both headers are there."""
+    """Connection that requests a topic and forwards its messages; bypasses asyncio after the handshake."""
 
     def __init__(
         self, subscription: MessageReceiver, request: dict[str, str], selector: FastSelector, codec: Codec | None
@@ -77,7 +77,7 @@ class SubscriberLink(FrameProtocol):
     def note_received(self, note: bytes, /) -> bytes | None:
         if self._shared_ring is None:
             assert self.transport is not None
-            with contextlib.suppress(OSError):  # not to be seen from here: all goes on over the socket
+            with contextlib.suppress(OSError):  # the ring cannot be mapped: keep using the socket
                 self._shared_ring = SharedRingReader(self.transport.get_extra_info("socket"), note)
                 self.out.send([(self._shared_ring.seen_note(),)], None)
             return None
@@ -88,24 +88,24 @@ class SubscriberLink(FrameProtocol):
         return content
 
     def _readable(self) -> None:
-        """As of any connection, but a message that comes alone is taken in one step."""
+        """Read; a single whole message is received and deserialized in one step."""
         if (room := self.frames.get_frame_buffer()) is None:
             super()._readable()
             return
         assert self._socket is not None
         try:
-            come, count = self._receive(self._socket.recv_into, room)
+            received, count = self._receive(self._socket.recv_into, room)
         except OSError as error:
             self._cannot_read(error)
             return
-        if come is None:
+        if received is None:
             self._bytes_received(count)
             return
         self.bytes_received += count
         if self._subscription.is_raw:
-            self._subscription.receive_data(come, self.header or {})
+            self._subscription.receive_data(received, self.header or {})
         else:
-            self._subscription.receive(come)
+            self._subscription.receive(received)
 
     def closed(self, reason: str, /) -> None:
         if self._shared_ring is not None:

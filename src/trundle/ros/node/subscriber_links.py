@@ -1,4 +1,4 @@
-"""Who listens to a publisher: connections to other processes, subscriptions of this one."""
+"""Subscribers of a publisher: connections to other processes, and subscriptions of this one."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from .local_graph import LocalSubscriber
 
 
 class SubscriberLinks:
-    """The subscribers of one topic of one node, with the names of their nodes; changed on the loop only."""
+    """Subscribers of one topic of a node, with their nodes' names; changed on the loop only."""
 
     def __init__(self, topic: str) -> None:
         self.remote: dict[FrameProtocol, str] = {}
@@ -19,40 +19,42 @@ class SubscriberLinks:
 
     @property
     def is_congested(self) -> bool:
-        """Whether nobody can take a message now."""
+        """True if no subscriber can take a message now."""
         return bool(self.remote) and not self.local and all(link.out.is_congested for link in self.remote)
 
     @property
     def need_every_message(self) -> bool:
-        """Whether each message counts to one of them; what those of other processes want is not known."""
+        """True if a subscriber needs every message; assumed for other processes."""
         return bool(self.remote) or any(subscriber.needs_every_message for subscriber in list(self.local))
 
     @property
     def dropped(self) -> int:
-        """Messages that those connected now were too slow for."""
+        """Messages dropped for slow subscribers still connected."""
         return sum(link.out.dropped for link in list(self.remote))
 
     def close(self) -> None:
-        """Drop them all."""
+        """Close all links."""
         for link in list(self.remote):
             link.close("the topic is no longer published")
         self.remote.clear()
         self.local.clear()
 
     def connections(self) -> list[list[Any]]:
-        """Links as getBusInfo tells them."""
-        far = [
+        """Links, as in getBusInfo."""
+        remote = [
             [_number(link), name, "o", link.kind, self._topic, True, link.description]
             for link, name in self.remote.items()
         ]
-        return far + [[_number(s), name, "o", "INTRAPROCESS", self._topic, True, ""] for s, name in self.local.items()]
+        return remote + [
+            [_number(s), name, "o", "INTRAPROCESS", self._topic, True, ""] for s, name in self.local.items()
+        ]
 
     def statistics(self) -> list[object]:
-        """Bytes and messages as getBusStats tells them; our header is the first frame."""
+        """Bytes and messages, as in getBusStats; the first frame is the connection header."""
         links = [[_number(link), link.out.bytes_sent, link.out.frames_sent - 1, True] for link in self.remote]
         return [self._topic, sum(link.out.bytes_sent for link in self.remote), links]
 
 
 def _number(link: object) -> int:
-    """A connection's id as XML-RPC carries it."""
+    """Connection ID for XML-RPC."""
     return id(link) % 2**31

@@ -1,4 +1,4 @@
-"""A topic as its subscriber sees it: a link to each publisher, kept up as publishers come and go."""
+"""Subscription of a topic: a link to each publisher, maintained as publishers come and go."""
 
 import asyncio
 import contextlib
@@ -21,12 +21,12 @@ from .subscriber_link import SubscriberLink
 
 Callback = Callable[[Message], "Awaitable[None] | None"]
 _RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
-"""Waits between attempts to reach a publisher that the master still names."""
+"""Intervals of retries to reach a publisher still registered."""
 _CONNECT_S = 10.0
 
 
 class Subscription:
-    """Subscribes one node to one topic; made by `Node.subscribe`."""
+    """Subscription of one node to a topic; created by `Node.subscribe`."""
 
     def __init__(
         self,
@@ -43,12 +43,12 @@ class Subscription:
         self.topic = topic
         self.type = type_name
         self.is_raw = type_name == ANY_TYPE
-        """Whether the callback gets bytes."""
+        """True if the callback takes serialized messages."""
         self.needs_every_message = queue_size != 1
-        """Whether each message counts; else the newest will do."""
+        """True if no message may be skipped; else the newest suffices."""
         self.received = 0
         self.dropped = 0
-        """Messages thrown away because callbacks were too slow."""
+        """Messages dropped because callbacks were too slow."""
         self._node = node
         self._messages = node.messages
         self._codec: Codec | None = None
@@ -62,33 +62,33 @@ class Subscription:
         self._queue_size = queue_size
         self._worker: asyncio.Task[None] | None = None
         self._tasks: dict[str, asyncio.Task[None]] = {}
-        """Publisher's address → the task that keeps its link."""
+        """Publisher's URI → task that maintains its link."""
         self._links: dict[str, FrameProtocol | LocalPublisher] = {}
         self._complained: set[str] = set()
 
     @property
     def publishers(self) -> int:
-        """How many publishers are connected."""
+        """Number of connected publishers."""
         return len(self._links)
 
     @property
     def is_settled(self) -> bool:
-        """Whether each publisher that the master named is connected, or known not to answer."""
+        """True if each registered publisher is connected, or found unreachable."""
         return all(uri in self._links or uri in self._complained for uri in list(self._tasks))
 
     def unregister(self) -> None:
-        """Stop listening; any thread."""
+        """Stop subscribing; thread-safe."""
         self._unregister(self)
 
     # on the loop
 
     @property
     def md5sum(self) -> str:
-        """What publishers compare."""
+        """md5 sum of the type; '*' for any."""
         return ANY_TYPE if self.is_raw else self._messages.md5(self.type)
 
     def follow(self, uris: list[str]) -> None:
-        """Keep links to exactly these publishers."""
+        """Connect to exactly these publishers."""
         for uri in [uri for uri in self._tasks if uri not in uris]:
             self._tasks.pop(uri).cancel()
         for uri in uris:
@@ -96,14 +96,14 @@ class Subscription:
                 self._tasks[uri] = asyncio.get_running_loop().create_task(self._maintain_link(uri))
 
     def close(self) -> None:
-        """Drop every link."""
+        """Close all links."""
         self.follow([])
         if self._worker is not None:
             self._worker.cancel()
         self._queue.clear()
 
     def receive(self, message: Message) -> None:
-        """Take a message: call back at once, or queue it for whoever runs the callbacks."""
+        """Receive a message: call back directly, or queue it for the callback thread."""
         self.received += 1
         if self._is_called_at_once:
             try:
@@ -111,8 +111,7 @@ class Subscription:
             except Exception as error:
                 self._log_failed_callback(error)
             return
-        # Whoever runs the callbacks has been asked once for each message in the queue; the one that takes a dropped
-        # message's place needs no new asking.
+        # `deliver` was called once per queued message; one that takes a dropped message's place needs no new call.
         replaced = self._queue_size is not None and len(self._queue) >= self._queue_size and self._drop_oldest()
         self._queue.append(message)
         if self._is_async:
@@ -122,16 +121,16 @@ class Subscription:
             self._deliver(self._call_next)
 
     def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
-        """Take a message as bytes from a publisher of this process."""
+        """Receive a serialized message from a publisher of this process."""
         definition = publisher.definition if self.is_raw else ""
         try:
             header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
             self.receive_data(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
         except MessageError as error:
-            self._node.log.error(f"a message on {self.topic} is not taken: {error}")
+            self._node.log.error(f"a message on {self.topic} is dropped: {error}")
 
     def connections(self) -> list[list[object]]:
-        """Links as getBusInfo tells them."""
+        """Links, as in getBusInfo."""
         result: list[list[Any]] = []
         for uri, link in self._links.items():
             remote = isinstance(link, FrameProtocol)
@@ -140,15 +139,15 @@ class Subscription:
         return result
 
     def statistics(self) -> list[object]:
-        """Bytes and messages as getBusStats tells them."""
+        """Bytes and messages, as in getBusStats."""
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
-        """Take a message as bytes, with what its publisher said when it connected.
+        """Receive a serialized message with its publisher's connection header.
 
         Raises:
-            MessageError: the bytes are no such message.
+            MessageError: the bytes are not a message of this type.
         """
         if not self.is_raw:
             self.receive((self._codec or self._make_codec()).read(data))
@@ -171,7 +170,7 @@ class Subscription:
     # links
 
     async def _maintain_link(self, uri: str) -> None:
-        """Hold a link to one publisher, as long as the master names it."""
+        """Maintain the link to one publisher while it is registered."""
         attempt = 0
         while True:
             local = self._node.loop.local.nodes.get(uri)
@@ -187,7 +186,7 @@ class Subscription:
             attempt += 1
 
     async def _connect_local(self, local: LocalNode, uri: str) -> None:
-        """Be handed the messages of a publisher in this process until the task is cancelled."""
+        """Receive message objects from a publisher of this process until cancelled."""
         publisher = local.find_publisher(self.topic)
         if publisher is None:
             raise RosError(f"{local.name} does not publish {self.topic}")
@@ -209,7 +208,7 @@ class Subscription:
                 pass
             case _:
                 raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
-        if not self.is_raw:  # not on the loop: the first message of a type would hold up all others
+        if not self.is_raw:  # not on the loop: compiling a type would delay everything else
             await asyncio.to_thread(self._make_codec)
         async with asyncio.timeout(_CONNECT_S):
             link = await self._open(host, port, unix_address(more))
@@ -226,7 +225,7 @@ class Subscription:
         loop = asyncio.get_running_loop()
         link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
         if nearby is not None:
-            with contextlib.suppress(OSError):  # not so near, or gone
+            with contextlib.suppress(OSError):  # the socket is gone or not accessible
                 await loop.create_unix_connection(lambda: link, sock=await connect_unix(loop, nearby))
                 return link
         await loop.create_connection(lambda: link, host, port)
@@ -245,7 +244,7 @@ class Subscription:
         return header
 
     def _warn_unreachable(self, uri: str, reason: str, attempt: int) -> None:
-        """Say once what keeps a publisher from being heard; the first failures are usual while it comes or goes."""
+        """Warn once about an unreachable publisher, after the usual failures while it starts or ends."""
         if attempt >= 2 and uri not in self._complained:
             self._complained.add(uri)
             self._node.log.warn(f"no messages on {self.topic} from {uri}: {reason}")
@@ -264,14 +263,14 @@ class Subscription:
     def _drop_oldest(self) -> bool:
         try:
             self._queue.popleft()
-        except IndexError:  # another thread has just taken it
+        except IndexError:  # taken by another thread
             return False
         self.dropped += 1
         return True
 
     def _call_next(self) -> None:
-        """Called by whoever runs the callbacks, in any thread."""
-        with contextlib.suppress(IndexError):  # thrown away meanwhile
+        """Call back for the next queued message; runs on the callback thread."""
+        with contextlib.suppress(IndexError):  # dropped meanwhile
             self._call(self._queue.popleft())
 
     async def _call_in_turn(self) -> None:

@@ -1,13 +1,13 @@
-"""The clock that /use_sim_time asks for."""
+"""Clock selection by /use_sim_time."""
 
 from .clock import Clock, SimClock, WallClock, to_nsec
 from .node import Node
 
 
 async def follow_time(node: Node) -> Clock:
-    """Give a node the graph's clock: simulated time from /clock where /use_sim_time is true, else the wall's.
+    """Set a node's clock: simulated time from /clock if /use_sim_time is true, else wall time.
 
-    The parameter is read once, as the original libraries do.
+    The parameter is read once, as in rospy and roscpp.
     """
     if await node.params.get("/use_sim_time", False):
         clock = SimClock(node.loop)

@@ -1,4 +1,4 @@
-"""An event loop that closes what was opened in it, and its servers."""
+"""Event loop that closes everything opened in it, and orderly closing of servers."""
 
 import asyncio
 from collections.abc import Mapping
@@ -8,41 +8,41 @@ from weakref import WeakSet
 from .fast_selector import FastSelector
 
 _OPENING_S, _ENDING_S = 1.0, 1.0
-"""How long servers may take to open, and tasks to end, when the loop is left."""
+"""Timeouts at the loop's end: for servers being opened, and for tasks."""
 _ENDING_ROUNDS = 10
-"""How often the loop looks again for what came while the rest was ended."""
+"""Rounds of closing, for what is opened meanwhile."""
 _PASSES = 5
-"""Passes of the loop in which a transport has opened or closed its socket."""
+"""Passes of the loop in which a transport opens or closes its socket."""
 
 
 class ClosingLoop(asyncio.SelectorEventLoop):
-    """An event loop that can close whatever was opened in it, however far that had come."""
+    """Event loop that closes all servers, tasks and connections opened in it."""
 
     def __init__(self, selector: FastSelector) -> None:
         super().__init__(selector)
         self._servers: WeakSet[asyncio.Server] = WeakSet()
-        """Those that listen: the loop's readers keep them."""
+        """Listening servers."""
         self._opening: set[asyncio.Task[asyncio.Server]] = set()
 
     async def create_server(self, *args: Any, **options: Any) -> asyncio.Server:
-        """As asyncio's, but a server is closed in the end even if whoever asked for it is cancelled meanwhile."""
+        """Create a server that is closed at the end even if its creator is cancelled."""
         task = self.create_task(super().create_server(*args, **options))
         self._opening.add(task)
         task.add_done_callback(self._opened)
         return await asyncio.shield(task)
 
     async def close_all(self) -> None:
-        """Close servers, end tasks, drop connections; in this order, so that little new comes in between.
+        """Close servers, cancel tasks, abort connections; in this order, to limit what is opened meanwhile.
 
-        What does is ended in the next round, however slow the machine is; a task that will not end is left.
+        Repeats until nothing is left, up to a limit; tasks that do not end are abandoned.
         """
-        told: set[asyncio.Task[Any]] = set()
+        cancelled: set[asyncio.Task[Any]] = set()
         for _ in range(_ENDING_ROUNDS):
             await self._close_servers()
             others = self._others()
-            for task in others - told:
+            for task in others - cancelled:
                 task.cancel()
-            told |= others
+            cancelled |= others
             if others:
                 await asyncio.wait(others, timeout=_ENDING_S / _ENDING_ROUNDS)
             for transport in self._connected():
@@ -54,17 +54,17 @@ class ClosingLoop(asyncio.SelectorEventLoop):
     async def _close_servers(self) -> None:
         if self._opening:
             opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
-            for task in opened:  # their own callbacks may come only after this
+            for task in opened:  # their done callbacks may run later
                 self._opened(task)
         while self._servers:
             await close_server(self._servers.pop())
 
     def _others(self) -> "set[asyncio.Task[Any]]":
-        """Tasks beside the one that asks; half made, a server could not be closed."""
+        """Tasks other than the current one and servers being created, which could not be closed."""
         return asyncio.all_tasks() - self._opening - {asyncio.current_task()}
 
     def _connected(self) -> list[asyncio.Transport]:
-        # asyncio keeps the list to itself before Python 3.12.
+        # private in asyncio before Python 3.12
         transports: Mapping[int, asyncio.Transport] = getattr(self, "_transports", {})
         return [transport for transport in list(transports.values()) if not transport.is_closing()]
 
@@ -75,10 +75,10 @@ class ClosingLoop(asyncio.SelectorEventLoop):
 
 
 async def close_server(server: asyncio.Server) -> None:
-    """Close a server once nobody is at its door.
+    """Close a server after pending accepts.
 
-    A connection that was accepted just now becomes a transport in a pass of its own. asyncio forgets one whose server
-    is closed by then, with its socket open.
+    A connection just accepted becomes a transport in a later pass; if its server is closed by then, asyncio leaks its
+    socket.
     """
     loop = asyncio.get_running_loop()
     for socket in server.sockets:
@@ -88,6 +88,6 @@ async def close_server(server: asyncio.Server) -> None:
 
 
 async def _passes() -> None:
-    """Let the loop go round a few times: transports open and close their sockets in passes of their own."""
+    """Let the loop run some passes, in which transports open and close their sockets."""
     for _ in range(_PASSES):
         await asyncio.sleep(0)
