@@ -81,7 +81,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def run_command(command: Sequence[str], arguments: Sequence[str]) -> int:
-    """Be another command, in this process; of its arguments it gets the remappings if it has a use for them."""
+    """Run another command in this process; remapping arguments are passed only to commands that support them."""
     words = arguments if command[0] in REMAPPED else parse_arguments(arguments).rest
     return main([*command, *words])
 

@@ -1,4 +1,4 @@
-"""Options that several commands have."""
+"""Options shared by several commands."""
 
 import argparse
 from typing import TYPE_CHECKING
@@ -8,33 +8,33 @@ if TYPE_CHECKING:
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of every command that reads a description."""
+    """Declare the option of commands that read descriptions."""
     parser.add_argument(
         "--allow-outside", action="store_true", help="read files outside the packages and resource paths too"
     )
 
 
 def add_lenient(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of every command that reads robots as their authors wrote them."""
+    """Declare the option of commands that read robots."""
     parser.add_argument(
-        "--lenient", action="store_true", help="leave out xacro:includes of packages that are not there, and say so"
+        "--lenient", action="store_true", help="skip xacro:includes of missing packages, with a warning"
     )
 
 
 def add_page_access(parser: argparse.ArgumentParser) -> None:
-    """Declare the options of every command that serves a page."""
+    """Declare the options of commands that serve a page."""
     for option, metavar, what in (
-        ("--allow-host", "NAME", "serve the page at this name too, as behind a proxy; may be given again"),
-        ("--allow-origin", "ORIGIN", "let web pages of this origin in, such as https://robot.example:8443"),
+        ("--allow-host", "NAME", "also accept this host name, as behind a proxy; repeatable"),
+        ("--allow-origin", "ORIGIN", "accept web pages of this origin, such as https://robot.example:8443; repeatable"),
     ):
         parser.add_argument(option, action="append", default=[], metavar=metavar, help=what)
 
 
 def page_access(args: argparse.Namespace) -> "AllowedNames":
-    """Return what `add_page_access` declared.
+    """Return the options that `add_page_access` declared.
 
     Raises:
-        UsageError: a name is none.
+        UsageError: a name is invalid.
     """
     from trundle.page_address import AllowedNames
 
@@ -42,6 +42,6 @@ def page_access(args: argparse.Namespace) -> "AllowedNames":
 
 
 def add_renderer(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of every command that draws."""
-    what = "what draws: Trundle's own renderer, or OpenGL over EGL, without textures and fog (cpu)"
+    """Declare the option of commands that render."""
+    what = "renderer: Trundle's own, or OpenGL over EGL, without textures and fog (cpu)"
     parser.add_argument("--renderer", choices=("cpu", "egl"), default="cpu", help=what)

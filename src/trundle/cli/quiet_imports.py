@@ -1,4 +1,4 @@
-"""Ctrl-C while modules are imported."""
+"""Silent Ctrl-C during imports."""
 
 import signal
 from collections.abc import Generator
@@ -9,7 +9,7 @@ from trundle.garbage import no_garbage
 
 @contextmanager
 def quiet_imports() -> Generator[None]:
-    """Let Ctrl-C end the process without a word while modules are loaded: some turn it into errors of their own."""
+    """Let Ctrl-C end the process silently during imports, since some modules convert KeyboardInterrupt to errors."""
     before = signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         with no_garbage():

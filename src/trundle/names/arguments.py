@@ -20,7 +20,7 @@ class Arguments:
     log: str | None = None
     master_uri: str | None = None
     host: str | None = None
-    """From `__ip` or `__hostname`."""
+    """Value of `__ip` or `__hostname`."""
     rest: tuple[str, ...] = ()
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 _TYPE = "tf2_msgs/TFMessage"
 _QUEUE = 100
-"""As in tf2_ros."""
+"""Queue size of tf2_ros."""
 
 
 class TransformBroadcaster:

@@ -62,7 +62,7 @@ class Definitions:
             self._read(package, folder)
 
     def load_from_path(self, package: str) -> None:
-        """As `load_package`, from the package path; known definitions are kept."""
+        """Read a package on the package path, once; known definitions are kept."""
         if package not in self._looked_up:
             self._looked_up.add(package)
             if (folder := self.on_path.get(package)) is not None:
