@@ -1,4 +1,4 @@
-"""Look at transforms: print, draw and measure them, as tf's tools do."""
+"""Print, draw and measure transforms, as tf's tools do."""
 
 import argparse
 from collections.abc import Callable
