@@ -82,7 +82,7 @@ def _sdformat(folder: Path) -> Reader | None:
 
 
 def _yourdfpy(folder: Path) -> Reader | None:
-    """Installed for the run, beside what Trundle's own environment has of what it needs."""
+    """Reader by yourdfpy, installed for the run on top of Trundle's own environment."""
     install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--target", str(folder)]
     done = subprocess.run([sys.executable, *install, "yourdfpy==0.0.60", "six"], capture_output=True, check=False)
     if done.returncode != 0:

@@ -2,7 +2,7 @@
 
 usage: python -m bench.load [SECONDS]   (600; the tests take a few)
 
-Says how it goes twenty times, then how many messages came, how old /clock was, whether a newcomer missed the latched
+Prints progress twenty times, then how many messages came, how old /clock was, whether a newcomer missed the latched
 message, how memory grew, and whether that is well: 1 is the exit code where it is not.
 """
 

@@ -1,4 +1,4 @@
-"""Stepping the RP2W: what the simulation costs over the engine's bare loop on the same compiled model.
+"""Stepping the RP2W: cost of the simulation over the engine's bare loop on the same compiled model.
 
 Times are of this process' CPU, all its threads together, which others on the machine change least.
 """
@@ -40,7 +40,7 @@ def run() -> list[Row]:
         mujoco.mj_step(model, bare, nstep=_STEPS)
 
     def as_the_command(robot: Path) -> float:
-        """`trundle run --headless --speed max --no-sensors`, ROS graph on; what starting costs is taken off."""
+        """`trundle run --headless --speed max --no-sensors`, ROS graph on; less the time of starting."""
         return _STEPS / (_cost(robot, 1.0 + _STEPS / 1000) - _cost(robot, 1.0))
 
     rows: list[Row] = []

@@ -31,7 +31,7 @@ class Graph:
         return Node(name, loop=self.loop, master_uri=self.core.uri, **options)
 
     def ready(self, *nodes: Node) -> None:
-        """Wait until all that the nodes asked for is known to the master."""
+        """Wait until all registrations of the nodes are at the master."""
         for node in nodes:
             self.loop.run(node.wait_registered(), PATIENCE_S)
 

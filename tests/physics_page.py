@@ -1,4 +1,4 @@
-"""The figures of docs/physics.md: its rows, and what the worlds of examples/physics do."""
+"""Figures of docs/physics.md: its rows, and measurements of the worlds of examples/physics."""
 
 import math
 import os

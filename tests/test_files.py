@@ -80,7 +80,7 @@ def test_a_stream_without_end_is_bounded(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_what_this_process_has_open_is_a_stream_even_where_it_is_a_file(tmp_path: Path) -> None:
-    """`trundle check /dev/stdin < robot.urdf`: what that names lies beside the user, not in /dev."""
+    """`trundle check /dev/stdin < robot.urdf`: its files are relative to the working directory, not to /dev."""
     (tmp_path / "robot.urdf").write_text("<robot/>")
     with (tmp_path / "robot.urdf").open() as file:
         name = f"/dev/fd/{file.fileno()}"

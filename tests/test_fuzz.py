@@ -1,4 +1,4 @@
-"""Every reader of files, on damaged ones: what comes out is a result or one sentence.
+"""Every reader of files, on damaged ones: it returns a result or one sentence.
 
 Descriptions themselves are damaged in tests/description, bags in tests/ros; tests/launch and test_ogre make up files.
 """
@@ -155,7 +155,7 @@ CASES: dict[str, tuple[Callable[[Path], bytes], Callable[[Path], object]]] = {
     "l.launch": (lambda _: LAUNCH.encode(), _launch),
     "p.yaml": (lambda _: YAML.encode(), _yaml),
 }
-"""File → what is in it, and what reads it."""
+"""File → function that writes it, and its reader."""
 
 
 def _damaged(whole: bytes, edits: list[tuple[int, int, bytes]]) -> bytes:

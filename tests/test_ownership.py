@@ -41,7 +41,7 @@ class Stranger:
         return subprocess.Popen(words, cwd="/", stdin=pipe, stdout=pipe, stderr=pipe, text=True)
 
     def run(self, program: str, *arguments: object) -> tuple[str, str]:
-        """Return what a program says, and its complaints."""
+        """Return a program's stdout and stderr."""
         return self.start(program, *arguments).communicate(timeout=60)
 
 

@@ -28,7 +28,7 @@ CPP_TYPES = {
     "Solid", "Waiting",
 }  # fmt: skip
 VERBS = {"attend", "feel", "gather", "give", "heed", "hear", "lay", "look", "obey", "strike", "take", "tell", "told"}
-"""First words of functions; what a sensor does is `measure`, what a topic does is `publish`."""
+"""First words of functions; a sensor's verb is `measure`, a topic's `publish`."""
 
 TERMS = {"give_up", "look_ahead", "look_up"}
 """Terms that begin with such a word."""

@@ -1,4 +1,4 @@
-"""YAML of files: plain data, bounded, and one kind of error whatever is wrong."""
+"""YAML of files: plain data, bounded, and one type of error."""
 
 from pathlib import Path
 

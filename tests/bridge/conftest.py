@@ -32,7 +32,7 @@ Described = Callable[..., Simulation]
 
 @pytest.fixture
 def described(tmp_path: Path) -> Described:
-    """Read what is inside a <world>, from a file."""
+    """Read the content of a <world> from a file."""
 
     def described(world: str, *, seed: int = 0, version: str = "1.6") -> Simulation:
         file = tmp_path / "w.sdf"

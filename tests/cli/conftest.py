@@ -39,7 +39,7 @@ def no_master(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
-    """Debian's own ROS 1 tools on the same graph: `original("rostopic", "list")` is what they print.
+    """Debian's own ROS 1 tools on the same graph: `original("rostopic", "list")` is their output.
 
     They have to end with 0, or with the `code` that is given.
     """

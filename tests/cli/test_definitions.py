@@ -59,7 +59,7 @@ def test_what_is_not_there_is_said(capsys: pytest.CaptureFixture[str], arguments
 
 @pytest.mark.real_ros
 def test_every_line_is_rosmsgs(capsys: pytest.CaptureFixture[str], original: Any, tmp_path: Path) -> None:
-    """The originals read the definitions from packages: those written here from what Trundle knows."""
+    """The originals read definitions from packages, written here from Trundle's definitions."""
     messages = Messages()
     for folder, names, text in (
         ("msg", messages.type_names(), messages.text),

@@ -36,7 +36,7 @@ def packages(shared: Path) -> Packages:
 
 
 def through_sdf(loaded: LoadedDescription, folder: Path, packages: Packages) -> set[str]:
-    """The fields in which a description differs from what is read of it as SDF."""
+    """Fields in which a description differs from itself written and read as SDF."""
     is_world = loaded.kind == "world"
     report = Diagnostics()
     text = write_sdf(loaded.world, is_world=is_world, uri_of=written_uri, report=report)

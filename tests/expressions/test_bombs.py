@@ -217,7 +217,7 @@ def test_a_bomb_ends_in_a_sentence(text: str, words: str) -> None:
     ],
 )
 def test_a_budget_of_memory_is_what_is_taken(text: str) -> None:
-    """A part of the usual budget, for tracing is slow; twice that covers what is made and dropped."""
+    """A part of the usual budget, because tracing is slow; twice that includes temporary values."""
     budget = Budget(octets=4_000_000)
     tracemalloc.start()
     try:

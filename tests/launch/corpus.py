@@ -1,4 +1,4 @@
-"""The published launch files beside the checkout, and what roslaunch 1.15.9 made of each."""
+"""The published launch files beside the checkout, and roslaunch 1.15.9's result of each."""
 
 import gzip
 import json
@@ -132,5 +132,5 @@ def _here(file: str, root: str) -> str:
 
 
 def _plain(text: str, root: str) -> str:
-    """Text without what differs on every machine and in every run."""
+    """Text without parts that depend on the machine or the run."""
     return _ANONYMOUS.sub("_ANON", re.sub(r"(?<![\w/])dev/repos", "CORPUS/repos", text.replace(root, "CORPUS")))

@@ -1,4 +1,4 @@
-"""Every published launch file of the reference set, against what the real roslaunch made of it."""
+"""Every published launch file of the reference set, against the real roslaunch."""
 
 import re
 from pathlib import Path

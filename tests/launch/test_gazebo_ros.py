@@ -1,4 +1,4 @@
-"""The launch files of gazebo_ros that Trundle ships ask for what the originals ask for."""
+"""The launch files of gazebo_ros that Trundle ships have the originals' plans."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Every rule of the language, by files of a few tags each: what Trundle makes of them is what roslaunch does.
+"""Every rule of the launch language, by files of a few tags each, compared with roslaunch.
 
 Each line of `language.txt` is a file without its <launch>, in which <n/> stands for a node n; words before the colon
 go on the command line. `eval:` and `wrong:` are expressions; `name/other.launch:` is a file beside the one named so.
@@ -23,7 +23,7 @@ _LINES = Path(__file__).with_name("language.txt").read_text().splitlines()
 _EVAL = """<arg name="a" default="q"/><arg name="b" default="4"/><arg name="c" default="false"/>
 <arg name="d" default="1.50"/><param name="x" value="$(eval {})"/>"""
 _ANONYMOUS = re.compile(r"_[A-Za-z0-9.-]*_\d+_\d+")
-# Prints what Debian's roslaunch makes of each file, one JSON list of lines each; null where it refuses it.
+# Prints Debian's roslaunch's result of each file, one JSON list of lines each; null: refused.
 _REAL = """
 import json, signal, sys
 from contextlib import redirect_stderr, redirect_stdout

@@ -1,4 +1,4 @@
-"""Reading mesh files of the four formats, and saying what is wrong with the others."""
+"""Mesh files of the four formats, and errors of invalid ones."""
 
 import subprocess
 import sys

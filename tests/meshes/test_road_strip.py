@@ -1,4 +1,4 @@
-"""Strips along a line: as wide as they say, facing up, with an image that repeats."""
+"""Road strips: of constant width, facing up, with a repeated image."""
 
 import numpy as np
 import pytest

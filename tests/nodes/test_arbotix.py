@@ -1,4 +1,4 @@
-"""The simulated arbotix driver does what the original does, fault by fault."""
+"""The simulated arbotix driver behaves as the original, faults included."""
 
 import itertools
 import math

@@ -1,4 +1,4 @@
-"""The nodelet that a TurtleBot 2 hears its commands through."""
+"""cmd_vel_mux, the nodelet that passes a TurtleBot 2 its commands."""
 
 from pathlib import Path
 

@@ -130,7 +130,7 @@ def test_what_cannot_be_published_ends_it_with_a_sentence(params: dict[str, Any]
 
 
 class Page:
-    """A display that keeps what it is offered."""
+    """Display that keeps the sliders offered."""
 
     def __init__(self) -> None:
         self.sliders: Sequence[Slider] = ()

@@ -1,4 +1,4 @@
-"""Stand-ins as nodes that others may tell to go."""
+"""Stand-ins as nodes that others may shut down."""
 
 import pytest
 from tests.nodes.conftest import PATIENCE_S

@@ -117,7 +117,7 @@ def test_a_cloud_is_seen_from_another_frame(stage, messages) -> None:
 
 
 def test_a_cloud_waits_until_it_is_known_where_it_was(stage, messages) -> None:
-    """Points at the height of the frame or below count for nothing, unless min_height says so: as in the original."""
+    """Points at the height of the frame or below are ignored, unless min_height is lower: as in the original."""
     stage.start("pointcloud_to_laserscan/pointcloud_to_laserscan_node", target_frame="base")
     scans = stage.listen("/scan", "sensor_msgs/LaserScan")
     clouds = stage.speak("/cloud_in", "sensor_msgs/PointCloud2")

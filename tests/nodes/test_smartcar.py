@@ -1,4 +1,4 @@
-"""The published smartcar's launch on a real graph: item by item what real ROS showed.
+"""The published smartcar's launch on a real graph, compared with a recording of ROS item by item.
 
 What differs, and is meant to: names that the run gives (/run_id, /roslaunch/uris), the text around the elements of
 /robot_description, and the TFMessages without a transform that robot_state_publisher sends for every JointState of
@@ -34,7 +34,7 @@ TIMEOUT_S = 30.0
 
 @dataclass
 class Smartcar:
-    """The running launch, and an onlooker that keeps what it hears."""
+    """The running launch, and a node that records its messages."""
 
     master: MasterProxy
     onlooker: Node

@@ -86,7 +86,7 @@ def test_an_ignored_folder_holds_no_packages(tmp_path: Path) -> None:
 
 
 def test_packages_of_the_system_are_found_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Debian's rospack looks into /usr/share though ROS_PACKAGE_PATH says nothing of it."""
+    """Debian's rospack searches /usr/share, which ROS_PACKAGE_PATH does not name."""
     share, own = tmp_path / "share", tmp_path / "ws"
     monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", share)
     package(share / "hand")
@@ -224,7 +224,7 @@ def test_spaces_may_be_written_as_in_a_web_address(tmp_path: Path) -> None:
 
 
 class TestReadingOutside:
-    """A description reads below its package and what the user pointed at, and nowhere else."""
+    """A description reads only below its package and the path given by the user."""
 
     @pytest.fixture
     def robot(self, tmp_path: Path) -> Path:

@@ -53,7 +53,7 @@ def test_a_folder_whose_src_holds_programs_is_none(workspace: Path, tmp_path: Pa
 def test_a_package_right_below_where_the_user_is_is_found_by_its_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
-    """As it lies after a clone: no workspace, and nothing on the path."""
+    """As after a clone: no workspace, and nothing on the path."""
     folder = tmp_path / "robot-master"
     (folder / "launch").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>robot_description</name></package>")

@@ -114,7 +114,7 @@ def test_a_pendulum_swings_with_its_own_period(amplitude_deg: float) -> None:
     small = 2 * math.pi * math.sqrt((1.0 * 1.0**2 + 0.01) / (1.0 * G * 1.0))
     # Gauss: the period at any amplitude is the small one over agm(1, cos(amplitude / 2)).
     exact = small / arithmetic_geometric_mean(1.0, math.cos(amplitude / 2))
-    # 0.01 %: a fiftieth of a step over one period, far below what a wrong inertia or gravity would do.
+    # 0.01 %: a fiftieth of a step over one period, far below the effect of a wrong inertia or gravity.
     assert measured == pytest.approx(exact, rel=1e-4)
 
 
@@ -193,6 +193,6 @@ def test_a_dropped_ball_does_not_bounce() -> None:
     for _ in range(1000):
         sim.step()
         heights.append(sim["ball"].pose.position[2])
-    # Restitution is zero; what a soft contact gives back of 4.4 m/s may lift it 1 mm.
+    # Restitution is zero; the rebound of a soft contact at 4.4 m/s may lift it 1 mm.
     assert max(heights) < 0.1 + 0.001
     assert heights[-1] == pytest.approx(0.1, abs=1e-3)

@@ -31,7 +31,7 @@ def driven(folder: Path, shape: str, height: float) -> tuple[float, float]:
     return robot.pose.position[0], touched / 800
 
 
-# Before, 1.02 and 0.73 m instead of 1.10, and its front ball left the floor: a box was felt to a micrometre only.
+# Before, 1.02 and 0.73 m instead of 1.10, and its front ball left the floor: box contacts had an error of a micrometre.
 @pytest.mark.parametrize("size", [(20.0, 1.0), (10.0, 0.1)])
 def test_a_robot_drives_as_far_on_a_box_as_on_a_plane(tmp_path: Path, size: tuple[float, float]) -> None:
     width, height = size

@@ -67,7 +67,7 @@ def test_what_is_published_stays_sound(repository: str) -> None:
 
 
 def robots() -> dict[str, list[str]]:
-    """Repository → what xacro and Gazebo 11 make robots of there: names of their texts, each once."""
+    """Repository → names of the robots that xacro and Gazebo 11 read from it, each text once."""
     manifest = COLLECTION / "manifest.json"
     rows = json.loads(manifest.read_text())["urdf"] if manifest.is_file() else []
     known: dict[str, str] = {row["sha"]: row["repo"] for row in rows if row["accept_gz11"] and row["how"] != "raw urdf"}

@@ -1,4 +1,4 @@
-"""OpenGL's picture of a scene, and ours: the same but for what rasterising round things costs."""
+"""OpenGL's picture of a scene against Trundle's: equal, except at the edges of rasterised round shapes."""
 
 import math
 import os
@@ -72,7 +72,7 @@ def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -
     assert b.segmentation is not None
     assert np.abs(a.rgb.astype(float) - b.rgb).mean() <= 1.0
     other = a.segmentation != b.segmentation
-    assert other.mean() <= 0.001  # OpenGL draws round things with corners
+    assert other.mean() <= 0.001  # OpenGL draws round shapes as polyhedra
     both = np.isfinite(a.depth) & np.isfinite(b.depth) & ~other
     flat = both & np.isin(a.segmentation, (0, 1))
     assert both.mean() > 0.5

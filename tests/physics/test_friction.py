@@ -1,4 +1,4 @@
-"""Friction with directions, and against turning, from the file to the motion, beside what mechanics says."""
+"""Directional and torsional friction, from the file to the motion, against mechanics."""
 
 import math
 from collections.abc import Callable

@@ -115,7 +115,7 @@ def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
 
 
 def gate() -> str:
-    """A closed gate, 2 m wide, 1 m thick and 1.5 m high, with a passage of 1 x 1 m: two feet and what lies on them."""
+    """A closed gate, 2 m wide, 1 m thick and 1.5 m high, with a passage of 1 x 1 m: two feet and a beam on them."""
     corners = [(x, y, z) for z in (0.0, 1.0, 1.5) for y in (-0.5, 0.5) for x in (-1.0, -0.5, 0.5, 1.0)]
     cells = {(0, 0), (2, 0), (0, 1), (1, 1), (2, 1)}
     quads: list[list[int]] = []
@@ -161,7 +161,7 @@ def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: L
     sim.run(0.5)
     assert sim["m"].pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
     assert sim["m"].pose.quaternion == pytest.approx((1.0, 0.0, 0.0, 0.0), abs=1e-5)
-    # The passage is 1 m wide, 1 m deep and 1 m high: a ball rolls through it and meets nothing.
+    # The passage is 1 m wide, 1 m deep and 1 m high: a ball rolls through it without contact.
     sim["ball"].link("l").set_twist(Twist((0.0, 2.0, 0.0), (-20.0, 0.0, 0.0)))
     sim.run(0.9)
     assert sim["ball"].pose.position == pytest.approx((0.0, 0.8, 0.1), abs=0.01)

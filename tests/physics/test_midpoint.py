@@ -144,7 +144,7 @@ def test_a_double_pendulum_on_a_box_that_stands_keeps_its_energy(tmp_path: Path)
 
 
 def test_a_top_on_a_ball_joint_follows_the_truth(tmp_path: Path) -> None:
-    """At 6 rad/s for 3 s; what is left is the half step by which speeds are ahead (was: 163 mrad)."""
+    """At 6 rad/s for 3 s; the error left is the half step by which velocities are ahead (was: 163 mrad)."""
     sim = _load(tmp_path, _link("a", "0 0 2", 1.0, (0.02, 0.03, 0.01), "0.3 0 0") + _joint("j", "ball", "world", "a"))
     joint = sim["m"].joint("j")
     for axis, speed in enumerate((2.0, 3.0, 5.0)):

@@ -88,8 +88,8 @@ def collide(folder: Path, restitution: float, gap: float, speed: float, *, movin
     return [sim[f"b{i}"].twist.linear[0] / speed for i in range(5)]
 
 
-# Before, balls that had come as near as they touch, a gap of n steps' way, were stopped as if they did not bounce:
-# 0, 0, 0, 0.25, 0.75; and what touched from the start, was so at 3 m/s.
+# Before, balls whose gap is n steps' motion were stopped without bouncing: 0, 0, 0, 0.25, 0.75; so were touching ones
+# # at 3 m/s.
 @pytest.mark.parametrize("speed", [0.3, 1.0, 3.0])
 @pytest.mark.parametrize("gap", [0.0, 0.0001, 0.0003, 0.0015, 0.001, 0.002, 0.003, 0.0042, 0.005])
 def test_the_last_of_a_row_leaves_with_the_speed_of_the_first(tmp_path: Path, gap: float, speed: float) -> None:

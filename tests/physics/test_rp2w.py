@@ -74,7 +74,7 @@ def test_pushed_with_15_newton_it_rolls_as_a_rigid_body_would(world: World) -> N
     y = chassis.pose.position[1]
     chassis.apply_wrench(Wrench(force=(0.0, 15.0, 0.0)))
     sim.run(10.0)
-    # Rolling without slip against the wheels' joint friction comes to 0.4117 m; Gazebo 0.4225.
+    # Rolling without slip against the wheels' joint friction gives 0.4117 m; Gazebo 0.4225.
     assert chassis.pose.position[1] - y == pytest.approx(0.412, rel=0.02)
 
 

@@ -253,7 +253,7 @@ def test_whatever_a_vehicle_weighs_its_points_stay_on_the_floor(
     assert pushes[-1] == pytest.approx([p.load for p in points[wheels:] + points[:wheels]], rel=0.05)
 
 
-# Gazebo comes 1.03 m of 1.2 m far, and turns by 3.5 of 5.3 rad.
+# Gazebo drives 1.03 m of 1.2 m, and turns by 3.5 of 5.3 rad.
 @pytest.mark.parametrize("wait", [0.0, 0.2])
 @pytest.mark.parametrize(("left", "way", "turn"), [(3.0, 1.09, 0.0), (-2.0, 0.0, 4.9)])
 def test_the_robot_of_the_tutorials_drives_and_turns_with_a_torque_of_5(

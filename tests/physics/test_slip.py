@@ -82,7 +82,7 @@ def exact(slip: float, force: float = FORCE, *, seconds: float = 2.0) -> float:
 )
 @pytest.mark.parametrize("slip", [0.1, 0.01, 0.001])
 def test_a_force_makes_a_body_slip_whatever_it_touches_with(load: Load, slip: float, shape: str, pose: str) -> None:
-    """Gazebo 11 comes 0.594 m for 0.1 m/s/N; the last of them is a fifth of what the force changes within a step."""
+    """Gazebo 11 moves 0.594 m for 0.1 m/s/N; the last slip is a fifth of the velocity change by the force in a step."""
     sim = load(body(collision(shape, slips(slip)), pose=pose))
 
     assert way(sim, (FORCE, 0.0)) == pytest.approx((exact(slip), 0.0), rel=6e-3, abs=1e-6)

@@ -19,7 +19,7 @@ ARM = (
 
 
 class Wires:
-    """Stands for a node: keeps who listens, and what was said."""
+    """Stand-in for a node: keeps subscribers and log messages."""
 
     def __init__(self) -> None:
         self._types = Messages()
@@ -36,7 +36,7 @@ class Wires:
         return _Topic(self._types, kind, self.said.setdefault(topic, []))
 
     def tell(self, topic: str, **fields: Any) -> None:
-        """Have the listeners on a topic hear a message."""
+        """Pass a message to the subscribers of a topic."""
         for kind, call in self._heard_by[topic]:
             call(self.new(kind, fields))
 

@@ -43,7 +43,7 @@ def torus(rings: int = 24, sides: int = 12) -> Mesh:
 
 
 def shape(geometry: ShapeGeometry, x: float, y: float, z: float, rgba: Rgba, turn: float = 0.0) -> Shape:
-    """One thing."""
+    """One shape."""
     return Shape(
         name="s",
         body=0,

@@ -1,4 +1,4 @@
-"""Pictures stay what they were, to the byte, on every x86-64 machine and instruction set.
+"""Pictures are reproduced to the byte on every x86-64 machine and instruction set.
 
 Where a picture is to change, look at the new one and put it into `golden`.
 """

@@ -25,7 +25,7 @@ def bumpy(level: int) -> Mesh:
 
 
 def drawn(mesh: Mesh, away: float, *, every: bool = False) -> Picture:
-    """Distances are of every triangle, and so is a picture that comes with them."""
+    """Depths use every triangle, and so does an image with depths."""
     ground = Shape(name="g", body=0, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)), rgba=(0.6, 0.6, 0.5, 1.0))
     ball = Shape(name="m", body=1, geometry=mesh, rgba=(0.8, 0.5, 0.3, 1.0))
     made = NativeRenderer(Scene(bodies=("a", "b"), shapes=(ground, ball), lights=(SUN,), ambient=(0.3, 0.3, 0.3, 1.0)))

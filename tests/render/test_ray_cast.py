@@ -1,4 +1,4 @@
-"""Ray casts: ranges, and what is hit."""
+"""Ray casts: ranges, and the shapes hit."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The C++ keeps to its memory, whatever it is given."""
+"""The C++ has no memory errors on random input."""
 
 import shutil
 import subprocess

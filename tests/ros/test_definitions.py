@@ -101,7 +101,7 @@ def test_a_type_that_is_nowhere_is_named_with_what_there_is(workspace: Path) -> 
 def test_an_installed_definition_is_sent_along_with_its_comments(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, wanted: str
 ) -> None:
-    """`rosbag check` compares a bag's text with the installed one; md5 sums and fields stay what they are."""
+    """`rosbag check` compares a bag's text with the installed one; md5 sums and fields are unchanged."""
     monkeypatch.setattr("trundle.ros.messages.definition_search.DEBIAN_SHARE", "")
     known = Messages().definition("geometry_msgs/Pose")
     file = tmp_path / "geometry_msgs" / "msg" / "Pose.msg"

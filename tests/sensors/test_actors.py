@@ -75,7 +75,7 @@ def test_an_actor_without_a_way_is_carried_along_by_its_animation(tmp_path: Path
 
 
 def test_lidars_on_a_gpu_see_the_skin_and_not_a_box(tmp_path: Path) -> None:
-    """A ray 1.8 m up meets the upright column alone."""
+    """A ray at 1.8 m height hits only the upright column."""
     sim = world(tmp_path, "-6 0 1.8 0 0 0", _ACTOR.format("false", _WALK))
     (lidar,) = mount_sensors(sim)
 

@@ -1,4 +1,4 @@
-"""Imus and ray sensors against what geometry and mechanics say."""
+"""Instruments against geometry and mechanics."""
 
 import math
 from pathlib import Path
@@ -40,7 +40,7 @@ def imu(noise: str = "", pose: str = "0 0 0 0 0 0", rate: int = 100) -> str:
 
 
 def test_an_imu_at_rest_reads_g_upwards_in_its_own_frame(tmp_path: Path) -> None:
-    """The model hangs from the world; its imu lies on its side."""
+    """The model is fixed to the world; its imu is turned on its side."""
     still = '<joint name="j" type="fixed"><parent>world</parent><child>a</child></joint>'
     readings = read(load(tmp_path, imu(pose=f"0 0 0 {math.pi / 2} 0 0") + still), 1.0)
 
@@ -113,7 +113,7 @@ WALL = thing("wall", "2 0 0 0 0 0", "<box><size>0.2 20 20</size></box>")
 
 @pytest.mark.parametrize("type_", ["ray", "gpu_ray"])
 def test_a_scan_measures_a_wall_exactly(tmp_path: Path, type_: str) -> None:
-    """A wall 1.9 m ahead is 1.9 / cos(angle) away; what is beyond 5 m is not there, nor the sensor's own link."""
+    """A wall 1.9 m ahead is 1.9 / cos(angle) away; beyond 5 m nothing is hit, nor is the sensor's own link."""
     fan = f"<samples>181</samples><min_angle>{-math.pi / 2}</min_angle><max_angle>{math.pi / 2}</max_angle>"
     reading = read(load(tmp_path, ray(fan, type_=type_), others=WALL), 0.1)[-1]
 
@@ -270,7 +270,7 @@ def test_a_fix_is_where_the_tangent_plane_says(tmp_path: Path, latitude, longitu
 
 
 def test_a_bumper_carries_the_weight_of_what_rests_on_its_collisions(tmp_path: Path) -> None:
-    """A 2 kg cube stands on the floor: what the floor does to it sums to 19.6 N upwards."""
+    """A 2 kg cube stands on the floor: the floor's forces on it sum to 19.6 N upwards."""
     shape = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
     sensor = '<sensor name="b" type="contact"><contact><collision>m::a::foot</collision></contact></sensor>'
     body = BODY.replace("<mass>1</mass>", "<mass>2</mass>")

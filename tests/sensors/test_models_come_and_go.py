@@ -31,7 +31,7 @@ def world(tmp_path: Path, inside: str) -> tuple[Simulation, list[Any]]:
 
 @pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
 def test_every_sensor_measures_on_and_ends_with_its_model(tmp_path: Path, type_: str) -> None:
-    """One model before its own goes, another comes, then its own goes."""
+    """A model before its own is deleted, another spawned, then its own deleted."""
     sim, (sensor,) = world(tmp_path, BOX.format("first", 9) + of_type(type_))
     readings: list[Any] = []
     sensor.listen(readings.append)
@@ -49,7 +49,7 @@ def test_every_sensor_measures_on_and_ends_with_its_model(tmp_path: Path, type_:
 
 
 def test_a_camera_sees_what_came_and_from_its_own_link(tmp_path: Path) -> None:
-    """Boxes ahead come and go; a model before the camera's own in the world goes, too."""
+    """Boxes ahead come and go; a model before the camera's own in the world is deleted, too."""
     shape = "<camera><image><width>9</width><height>9</height></image></camera>"
     own = f'<sensor name="s" type="depth">{shape}</sensor>'
     eye = f'<model name="m"><static>1</static><link name="l">{own}</link></model>'

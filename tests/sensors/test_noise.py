@@ -1,4 +1,4 @@
-"""Noise against what statistics says of it."""
+"""Noise against its statistics."""
 
 import math
 

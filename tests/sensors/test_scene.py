@@ -1,4 +1,4 @@
-"""A camera in a published scene sees what Gazebo's camera saw there."""
+"""A camera in a published scene against Gazebo's image."""
 
 import math
 import re

@@ -67,7 +67,7 @@ def robot(sensors: str, *, on_joint: str = "") -> str:
 
 @pytest.fixture
 def load(tmp_path: Any) -> Any:
-    """Read what is inside a <world> and mount its sensors."""
+    """Read the content of a <world> and mount its sensors."""
 
     def load(inside: str) -> tuple[Simulation, list[Any]]:
         file = tmp_path / "w.sdf"

@@ -60,5 +60,5 @@ _COLLIDES = "<self_collide>1</self_collide>"
 def test_its_own_model_is_met_only_where_it_may_touch_itself(
     tmp_path: Path, arm: str, model: str, found: float
 ) -> None:
-    """Gazebo's sonar is a shape of its link, and meets what that link would: nothing across a joint either."""
+    """Gazebo's sonar is a shape of its link and collides as that link does: not across a joint."""
     assert range_of(tmp_path, wall=2.0, arm=arm, model=model) == pytest.approx(found, abs=1e-5)

@@ -27,7 +27,7 @@ def _load(folder: Path, text: str) -> Simulation:
 
 @pytest.mark.parametrize("speed", [0.5, 5.0, 50.0])
 def test_a_strong_motor_of_a_light_wheel_does_not_chatter(tmp_path, speed: float) -> None:
-    """10 N·m on 0.001 kg·m² change the speed by 10 rad/s in a step, past what is wanted and back."""
+    """10 N·m on 0.001 kg·m² change the speed by 10 rad/s in a step, past the set point and back."""
     simulation = _load(tmp_path, _LIGHT)
     axle = simulation["m"].joint("axle")
     for _ in range(50):

@@ -141,7 +141,7 @@ def test_a_required_job_ends_everything_however_cleanly_it_ends(tmp_path: Path) 
 
 @posix_only
 def test_jobs_are_stopped_in_reverse_order_by_interrupt(tmp_path: Path) -> None:
-    # Within the try: the interrupt may come right behind the print.
+    # Within the try: the interrupt may come right after the print.
     code = "import time\ntry:\n    print('up')\n    time.sleep(600)\nexcept KeyboardInterrupt: print('bye')"
 
     async def play(stage: Stage) -> None:

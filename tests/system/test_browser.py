@@ -88,7 +88,7 @@ def test_the_smartcar_is_shown_and_driven_from_the_page(chromium: Any, shared: P
 
         page.get_by_role("button", name="Forward", exact=True).click()
 
-        # It drives out of the picture; what stays blue is the z axis of odom.
+        # It drives out of the picture; only the z axis of odom stays blue.
         _until(page, lambda: len(_blue_columns(page)) < standing / 4, "the car never moved")
 
 

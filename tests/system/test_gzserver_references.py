@@ -77,7 +77,7 @@ def test_models_rest_where_gazebo_has_them(corpus: Path, tmp_path: Path) -> None
                     check_inertial(link, there)
                     links += 1
                 index += 1
-        # What is left comes from models that are not in the corpus.
+        # The rest comes from models that are not in the corpus.
         assert all("::" in name for name in theirs), (answer["file"], sorted(theirs))
         compared += 1
     assert (compared, links > 300) == (42, True)

@@ -360,7 +360,7 @@ def test_quiet_leaves_what_nodes_say_and_what_goes_wrong(launch: Launch, package
 def test_a_launch_is_like_the_distribution_asked_for(
     launch: Launch, trundle, package: Path, tmp_path: Path, distro: str, topic: str
 ) -> None:
-    """Fixed joints were sent again and again up to Indigo; every topic goes into the bag that is asked for."""
+    """Up to Indigo, transforms of fixed joints were sent repeatedly; --record has every topic."""
     (package / "main.launch").write_text(
         """<launch><param name="robot_description" textfile="$(dirname)/r.urdf"/>
         <node pkg="robot_state_publisher" type="robot_state_publisher" name="rsp"/></launch>"""
@@ -389,7 +389,7 @@ def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -
 
 @pytest.mark.slow
 def test_what_a_paused_world_says_is_the_same_in_every_bag(launch: Launch, package: Path, tmp_path: Path) -> None:
-    """However long its nodes took to start: the wall's time is nowhere in what is recorded flat out."""
+    """Whatever its nodes took to start: a flat-out recording has no wall time."""
     (package / "ball.sdf").write_text(_BALL)
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"><arg name="paused" value="true"/>'

@@ -1,4 +1,4 @@
-"""`trundle launch --child` runs what a roslaunch on another machine wants to run on this one."""
+"""`trundle launch --child` runs nodes for a roslaunch on another machine."""
 
 import subprocess
 import sys
@@ -17,7 +17,7 @@ _TALK = """#!/bin/sh
 echo "$ROS_NAMESPACE $GREETING $*" > "$OUT"
 case "$1" in stay) exec sleep 1000;; *) exit "$1";; esac
 """
-# As roslaunch writes what a child is to run.
+# XML of a child's nodes, as roslaunch writes it.
 _XML = """<?xml version="1.0" encoding="utf-8"?>
 <launch>
 <node pkg="p" type="talk" ns="/deep/" args="{}" output="screen" respawn="False" respawn_delay="0.0" name="one"

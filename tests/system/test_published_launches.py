@@ -70,7 +70,7 @@ def test_they_run_without_an_error(shared: Path, tmp_path: Path, loop: GraphLoop
 
 
 def _run(line: str, corpus: Path, folder: Path, loop: GraphLoop) -> str:
-    """Launch, listen until the time is over and everything is heard, and press Ctrl-C; return what was wrong."""
+    """Launch, listen until the time is over and all messages have come, and press Ctrl-C; return the faults."""
     command, _, topics = line.partition(" -> ")
     file, *arguments = command.replace("$(find urdf_tutorial)", str(corpus / "repos/ros+urdf_tutorial")).split()
     rows = json.loads((corpus / "manifest.json").read_text())["launch"]

@@ -52,7 +52,7 @@ def test_both_cameras_make_thirty_images_a_second(trundle) -> None:
 
 
 def test_a_model_is_found_as_gazebo_finds_it(trundle, seed, tmp_path) -> None:
-    """`~/.gazebo/models` first, then GAZEBO_MODEL_PATH, then what we ship."""
+    """`~/.gazebo/models` first, then GAZEBO_MODEL_PATH, then the shipped models."""
     shipped = trundle("run", "model://rp2w", *FLAT_OUT, "--duration", "0.01", "--no-ros", "--json", "--no-sensors")
     home = tmp_path / ".gazebo/models"
     home.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""Every kind of sensor, from the file to a subscriber of its topic: docs/sensors.md is what happens."""
+"""Every type of sensor, from the file to a subscriber of its topic, as docs/sensors.md lists them."""
 
 import re
 import threading

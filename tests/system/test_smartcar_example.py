@@ -52,7 +52,7 @@ def test_arbotix_imagines_it_driving(start, trundle, master, until) -> None:
     ids=["with a simulation", "without"],
 )
 def test_flat_out_it_writes_the_same_bag_every_time(trundle, tmp_path: Path, file: str, topics: set[str]) -> None:
-    """To the byte, whatever else the machine has to do and in whatever order Python keeps its sets."""
+    """To the byte, on a busy machine and with any order of Python's sets."""
     for number in (1, 2):
         bag = str(tmp_path / f"{number}.bag")
         words = ("smartcar", file, "--headless", "--speed", "max", "--duration", "3", "--record", bag)

@@ -157,7 +157,7 @@ def test_a_graph_that_runs_is_taken_and_cleared_when_asked(trundle, package: Pat
         said = alone.stdout + alone.stderr
         assert "the graph is at" in said
         assert f"the graph is at {graph.core.uri}" not in said
-        assert ":11311" not in said  # which the next roscore of a user wants
+        assert ":11311" not in said  # the port of a user's next roscore
         assert set(master.call("getParamNames")) == at_first
 
         reused = trundle("test", "p", "a.test", "-t", "-r", **where)
@@ -194,7 +194,7 @@ def test_a_test_is_alone_with_its_master(trundle, package: Path) -> None:
 def test_a_test_in_a_shells_background_is_stopped_with_its_nodes(
     start, until, package: Path, tmp_path: Path, number: int
 ) -> None:
-    """A shell starts its background jobs with SIGINT ignored, and what ignores it hands that on."""
+    """A shell starts its background jobs with SIGINT ignored, which children inherit."""
     mark = tmp_path / "mark"
     written(package, a_test("waits", f"waits {mark}"))
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,4 +1,4 @@
-"""`trundle view` beside whatever else is on the graph."""
+"""`trundle view` beside other nodes of the graph."""
 
 import contextlib
 import re

@@ -38,7 +38,7 @@ _READ = "url => fetch(url).then(answer => answer.text()).catch(() => 'unreadable
 
 
 class _Page(BaseHTTPRequestHandler):
-    """An empty page; `asked` counts what reaches its server."""
+    """An empty page; `asked` counts requests to its server."""
 
     asked: list[str]
 
@@ -57,7 +57,7 @@ class _Page(BaseHTTPRequestHandler):
 
 @pytest.fixture
 def foreign(chromium: Any) -> Iterator[Any]:
-    """Open a page of another port; its `asked` is what that port's server was asked for."""
+    """Open a page of another port; its `asked` counts that server's requests."""
     asked: list[str] = []
     server = ThreadingHTTPServer(("127.0.0.1", 0), type("Page", (_Page,), {"asked": asked}))
     threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -101,7 +101,7 @@ def test_it_neither_connects_to_the_page_nor_reads_nor_frames_it(foreign: Any, p
 
 
 def test_a_link_cannot_have_the_page_obey_another_server(chromium: Any, foreign: Any, viewer: Viewer) -> None:
-    """viser's client connects to wherever its address says; what comes from there would run as our page."""
+    """viser's client connects to the server in its address, whose messages would run as this page."""
     server = f"ws://{urlsplit(foreign.url).netloc}"
     page = chromium.new_page()
     page.goto(f"{viewer.url}/?websocket={server}")

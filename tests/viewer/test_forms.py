@@ -1,4 +1,4 @@
-"""The triangles have the volume and the place of the shapes they stand for."""
+"""Triangle meshes have the volume and position of the shapes that they replace."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The front door names what it lets through."""
+"""The front door lists its exports."""
 
 import trundle.viewer
 

@@ -223,7 +223,7 @@ def test_show_ends_when_the_page_dies(scenery: Scenery) -> None:
 
 
 def test_the_graph_and_numbers_over_time_are_drawn_beside(scenery: Scenery, browser_page: Any) -> None:
-    """rqt_graph and rqt_plot: what they draw is read back from the pictures on the page."""
+    """rqt_graph and rqt_plot: their figures are read back from the pictures on the page."""
     points = scenery.robot.advertise("/spot", "geometry_msgs/PointStamped", latch=True)
     points.publish({"point": {"x": 7.0, "y": 8.0}})
     scenery.loop.call_soon(lambda: scenery.page.plot(["/spot/point/x:y"]))

@@ -1,4 +1,4 @@
-"""The guard before the page, over real sockets: what a foreign page asks for is refused, its own is served."""
+"""The guard before the page, over real sockets: requests of a foreign page are refused, its own are served."""
 
 import urllib.error
 import urllib.request

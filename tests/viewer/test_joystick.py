@@ -17,7 +17,7 @@ REST = {"sticks": [0, 0, 0, 0], "buttons": [0] * 17}
 
 
 class Served:
-    """A server, and what it has taken."""
+    """A server, and the requests that it accepted."""
 
     def __init__(self) -> None:
         self.moved: list[MoveJoystick] = []

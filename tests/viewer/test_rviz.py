@@ -1,4 +1,4 @@
-"""rviz configurations: what the page can show is read, the rest is named once."""
+"""rviz configurations: supported displays are read, the rest is named once."""
 
 from pathlib import Path
 

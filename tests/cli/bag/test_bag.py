@@ -217,7 +217,7 @@ def _without_time(text: str) -> str:
 
 @pytest.mark.real_ros
 def test_a_recorded_topic_has_the_name_it_was_asked_for_by(graph: Any, original: Any, tmp_path: Path) -> None:
-    """`<remap from="scan" to="/robot/scan"/>` of a launch file changes what is heard, not what is written."""
+    """`<remap from="scan" to="/robot/scan"/>` of a launch file changes the topic subscribed to, not the one written."""
     node = graph.node("talker")
     node.advertise("/robot/scan", STRING, latch=True).publish({"data": "hello"})
     graph.ready(node)

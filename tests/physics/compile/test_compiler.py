@@ -208,7 +208,7 @@ def test_a_ball_rests_on_a_flat_mesh(tmp_path: Path) -> None:
 @pytest.mark.parametrize("radius", [0.001, 0.005])
 @pytest.mark.parametrize("plate", ["flat mesh", "thin box"])
 def test_a_small_ball_does_not_fall_through_a_thin_floor(tmp_path: Path, plate: str, radius: float) -> None:
-    """From 2 m it comes at 6.3 mm a step, and would stop 11 mm deep."""
+    """From 2 m it falls at 6.3 mm per step, and would stop 11 mm deep."""
     (tmp_path / "flat.obj").write_text(FLAT)
     mesh = MeshFile(path=tmp_path / "flat.obj", uri="flat.obj")
     floor = link("top", geometry=mesh if plate == "flat mesh" else Box((2.0, 2.0, 0.001)))
@@ -300,7 +300,7 @@ def test_a_crowd_meets_by_search_by_the_same_rules() -> None:
 
 
 def test_soft_and_deep_shapes_keep_their_ways_in_a_crowd() -> None:
-    """A ball of 1 kg on 2000 N/m sinks by g / 2000, one that may be 4 mm deeper so far, whatever else there is."""
+    """A ball of 1 kg on 2000 N/m sinks by g / 2000, one with min_depth 4 mm by that, beside any other shapes."""
     soft, deep = Surface(kp=2000.0, kd=40.0), Surface(kp=20000.0, min_depth=0.004)
     crowd = [model(link("l", x=3.0 * i), name=f"b{i}") for i in range(68)]
     odd = [
@@ -377,7 +377,7 @@ def test_the_wheels_that_are_named_are_those_that_roll_on_a_tread(
 
 
 def test_a_joint_held_at_an_angle_stands_there() -> None:
-    """lower = upper = a quarter turn: the child, and what hangs on it, stands turned."""
+    """lower = upper = a quarter turn: the child and its descendants are turned."""
     quarter = np.pi / 2
     held = hinge("a", "b", replace(X, lower=quarter, upper=quarter))
     arm = model(link("a"), link("b", x=1.0), link("c", x=2.0), joints=(held, hinge("b", "c")))

@@ -85,7 +85,7 @@ def extremes(heights: list[float]) -> tuple[float, float]:
     return deepest, max(heights[heights.index(deepest) :])
 
 
-# Gazebo: the first goes down to 0.0711 and comes back to 0.0974 m, of 0.0703 and 0.0985.
+# Gazebo: the first goes down to 0.0711 and returns to 0.0974 m; exact 0.0703 and 0.0985.
 @pytest.mark.parametrize(
     ("shape", "points", "mass", "kp", "kd", "height"),
     [

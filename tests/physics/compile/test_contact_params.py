@@ -1,4 +1,4 @@
-"""Surfaces and bodies, from the file to the motion, beside what mechanics says."""
+"""Surfaces and bodies, from the file to the motion, against mechanics."""
 
 from collections.abc import Callable
 from functools import partial
@@ -26,7 +26,7 @@ def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:
     assert sim["b"].pose.position[2] == pytest.approx(0.1 - 2.0 * G / 2000.0, rel=1e-3)
 
 
-# Gazebo: 3 mm where the body that moves says so, 0 where the floor does; what is put down hard stays where it was put.
+# Gazebo: 3 mm if the moving body has it, 0 if the floor has it; a body put down on hard contacts stays in place.
 @pytest.mark.parametrize(
     ("own", "floors", "kp", "start", "depth"),
     [
@@ -190,5 +190,5 @@ def test_stepping_through_python_changes_nothing(load: Load) -> None:
         sim["b"].apply_wrench(Wrench(force=(1.0, 0.0, 0.0)))
         sim.run(1.0)
         ends.append(sim.snapshot().poses[1].tolist())
-    # Not to the bit: what sleeps is solved island by island.
+    # Not to the bit: with sleeping bodies, islands are solved one by one.
     assert ends[0] == pytest.approx(ends[1], abs=1e-9)

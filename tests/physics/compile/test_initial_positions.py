@@ -1,4 +1,4 @@
-"""A world that was saved while it ran goes on from where its links were."""
+"""A world saved while running starts from its saved link poses."""
 
 from pathlib import Path
 

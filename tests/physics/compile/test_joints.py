@@ -1,4 +1,4 @@
-"""Every kind of joint, from the file to the motion, beside what mechanics says."""
+"""Every type of joint, from the file to the motion, against mechanics."""
 
 import json
 import math
@@ -60,7 +60,7 @@ def test_a_ball_joint_swings_and_turns_every_way(load: Load) -> None:
     sim = load(link("bob", com="0 0 -1"), joint("j", "ball", "world", "bob"))
     j = sim["m"].joint("j")
     assert len(j.axes) == 3
-    # A torque about x alone, then about y: the rotation vector says how far.
+    # A torque about x alone, then about y, against the rotation vector.
     j.command_effort(0.5, axis=0)
     sim.run(0.05)
     assert j.positions == pytest.approx((0.5 / 1.01 * 0.05**2 / 2, 0.0, 0.0), rel=0.03, abs=1e-9)
@@ -111,7 +111,7 @@ def test_a_screw_sinks_as_its_thread_lets_it(load: Load, version: str, tag: str,
 @pytest.mark.parametrize("nested", [False, True])
 @pytest.mark.parametrize("turned", [False, True])
 def test_gears_mesh_by_their_ratio(load: Load, nested: bool, turned: bool) -> None:
-    # Turned: the large wheel is the parent of what it turns on, and its joint says how that turns against it.
+    # Turned: the large wheel is the parent of the base, and its joint has the base's rotation relative to it.
     ends = ("large", "base") if turned else ("base", "large")
     gears = (
         link("base"),

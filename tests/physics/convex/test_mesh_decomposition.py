@@ -355,7 +355,7 @@ def test_a_degenerate_mesh_has_a_sentence_of_ours(
     assert captured.out + captured.err == ""
     assert not outcome.report.errors
     said = [warning for warning in outcome.report.warnings if "mesh" in warning or ".obj" in warning]
-    assert said or static  # what stands has a slab behind each face, as thick as those of any mesh
+    assert said or static  # static meshes have a slab behind each face, as thick as those of any mesh
     for warning in said:
         assert "w.world:1: warning: " in warning
         assert re.search(r"physics uses [0-9.]+ mm|the collision is left out", warning)

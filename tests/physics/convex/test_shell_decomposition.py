@@ -1,4 +1,4 @@
-"""Thin and hollow things that move, as walls along their surface."""
+"""Thin and hollow moving meshes, as walls along their surface."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Plugins that drive joints, against what a torque does to an inertia."""
+"""Plugins that drive joints, against the motion of an inertia under a torque."""
 
 import math
 from pathlib import Path

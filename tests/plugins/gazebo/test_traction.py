@@ -1,4 +1,4 @@
-"""Tracks and tyres, against the kinematics of what rolls and slips."""
+"""Tracks and tyres, against the kinematics of rolling and slipping."""
 
 import math
 from pathlib import Path

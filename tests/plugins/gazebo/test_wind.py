@@ -15,7 +15,7 @@ AT_ONCE = """<horizontal><magnitude><time_for_rise>0</time_for_rise>{}</magnitud
 
 
 def blow(folder: Path, plugin: str, *, wind: str = "6 8 1", filename: str = "libWindPlugin.so") -> Simulation:
-    """A light and a heavy body that feel the wind, in a nested model one, and a body that does not."""
+    """A light and a heavy body with <enable_wind>, one of them in a nested model, and a body without."""
     file = folder / "w.sdf"
     windy = "<enable_wind>1</enable_wind>"
     file.write_text(

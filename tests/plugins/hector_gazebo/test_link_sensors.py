@@ -42,7 +42,7 @@ def _xyz(vector: Any) -> list[float]:
 def test_an_imu_on_a_link_feels_a_push_in_its_own_axes(
     gazebo: Gazebo, filename: str, parameters: str, topic: str, up: float
 ) -> None:
-    """Turned by a quarter to the left, what pushes along the world's x is on its −y; only hector's feels weight."""
+    """Turned by a quarter to the left, a force along the world's x is on its −y; only hector's includes gravity."""
     parameters += "<updateRate>50</updateRate>"
     assert gazebo.spawn(_box(filename, parameters, pose=f"0 0 2 0 0 {math.pi / 2}"), "box").success
     told = gazebo.hear(topic, "sensor_msgs/Imu")

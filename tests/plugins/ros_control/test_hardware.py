@@ -129,7 +129,7 @@ def test_what_a_wall_stops_is_pushed_by_its_effort_limit(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("way", ["interface", "set_position"])
 def test_fingers_that_close_on_a_box_leave_it_where_it_is(tmp_path: Path, way: str) -> None:
-    """They are ordered 2 cm into it from either side, and one comes first."""
+    """They are commanded 2 cm into it from either side, and one arrives first."""
     limit = "<lower>-0.1</lower><upper>0.1</upper>"
     hand = f"""{_box("palm", "0 0 0.3", 5.0, (0.2, 0.1, 0.05))}{_box("left", "-0.08 0 0.23", 0.1, (0.02, 0.04, 0.1))}
     {_box("right", "0.08 0 0.23", 0.1, (0.02, 0.04, 0.1))}

@@ -1,4 +1,4 @@
-"""<transmission> as transmission_interface's parser takes it: what cannot be used is left out, and the others go on."""
+"""<transmission> by transmission_interface's parser: invalid ones are left out, the others are used."""
 
 import pytest
 
@@ -12,7 +12,7 @@ LAST = f'<transmission name="last">{TYPE}<joint name="z">{EFFORT}</joint>{MOTOR}
 
 
 def read(transmission: str, rest: str = "") -> tuple[list[str], list[str]]:
-    """Names of the joints that are driven, and what was warned of, of a robot of two transmissions."""
+    """Driven joints and warnings of a robot with two transmissions."""
     report = Diagnostics()
     found = read_transmissions(f'<robot name="r">\n{transmission}{LAST}{rest}</robot>', "r", report)
     return [driven.name for driven in found], report.warnings

@@ -1,4 +1,4 @@
-"""A quadrotor of RotorS' plugins against what its motors' constants say."""
+"""A quadrotor of RotorS' plugins against its motors' constants."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from trundle.simulation import Simulation
 
 
 def fly(folder: Path, more: str = "", motor: str = "", gravity: float = G) -> tuple[Simulation, Wires]:
-    """The quadrotor, and what its topics are heard through."""
+    """The quadrotor, and the stand-in for its node."""
     wires = Wires()
     return load(folder, quadrotor(more, motor), gravity=f"0 0 {-gravity}", wires=wires), wires
 

@@ -295,7 +295,7 @@ def test_playing_from_within_begins_with_a_message_and_with_what_was_latched(gra
 
 
 def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) -> None:
-    """A bag is played by the definition in it, whatever is known here by that name."""
+    """A bag is played by the definition in it, not by the installed one of that name."""
     old = BagConnection(topic="/a", type=STRING, md5sum="0123", definition="uint8 number\n")
     with create_bag(tmp_path / "x.bag") as out:
         out.write(BagMessage(old, 10**9, b"\x07"))

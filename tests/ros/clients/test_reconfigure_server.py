@@ -31,7 +31,7 @@ DYNPARAM = Path("/usr/lib/dynamic_reconfigure/dynparam")
 
 @pytest.fixture
 def camera(graph: Any) -> list[Options]:
-    """A node with options; what it was set to."""
+    """A node with options, and the values that it was set to."""
     node: Node = graph.node("camera")
     heard: list[Options] = []
 

@@ -51,7 +51,7 @@ def test_the_root_takes_only_a_dictionary() -> None:
 
 
 def test_all_parameters_together_are_bounded() -> None:
-    """Many values, each of them acceptable, must not fill the master's memory; what goes makes room."""
+    """Many values, each of them acceptable, must not fill the master's memory; deleting makes room."""
     tree = _tree(a="x" * (MAX_BYTES // 2))
     tree.set("/b", {"c": ["y" * (MAX_BYTES // 4)]})
     with pytest.raises(ParameterError, match=r"all parameters together would take \d+ bytes"):

@@ -1,4 +1,4 @@
-"""Messages as bytes: what fits is written, what does not is named, and nothing that comes in does harm."""
+"""Messages as bytes: valid values are written, invalid ones named, and any input is read safely."""
 
 import gc
 import mmap

@@ -102,7 +102,7 @@ def test_what_is_begun_while_the_loop_ends_is_ended_too(caplog: pytest.LogCaptur
 
 
 def test_nodes_that_begin_while_the_loop_ends_leave_nothing(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
-    """Nodes that a thread goes on making are neither begun nor waited for."""
+    """Nodes that a thread keeps making are neither started nor awaited."""
     loop, over = GraphLoop(messages=graph.loop.messages), threading.Event()
     loop.start()
 

@@ -113,7 +113,7 @@ def test_bytes_are_published_as_they_are(graph: Any, pair: tuple[Any, Any]) -> N
 
 
 def test_long_messages_come_whole_and_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
-    """Longer than the kernel holds, so that they are sent in many parts; something comes behind the array."""
+    """Longer than the kernel buffers, so that they are sent in many parts; a field follows the array."""
     talker, listener = pair
     kind, count = "sensor_msgs/PointCloud2", 12
     got: list[Any] = []

@@ -91,7 +91,7 @@ def test_a_subscriber_answers_when_half_of_it_is_taken(
 
 
 def test_clouds_of_depth_cameras_find_room(connected: socket.socket, new_shelf: Callable[[int], SharedRing]) -> None:
-    """928 x 800 points of 16 bytes, and what is around them."""
+    """928 x 800 points of 16 bytes, and the other fields."""
     content = bytes(928 * 800 * 16 + 300)
     size = LENGTH.size + len(content)
     shelf = new_shelf(size)
@@ -194,7 +194,7 @@ def _shared_here() -> int:
 
 
 def _pictures(graph: Any, far: Any, count: int, size: int) -> tuple[list[tuple[int, int]], int]:
-    """Publish pictures to another loop as fast as it goes; what came, and how often memory was mapped meanwhile."""
+    """Publish images to another loop flat out; return those received, and the number of mappings meanwhile."""
     talker, listener = graph.node("camera"), far.node("screen")
     publisher = talker.advertise("image", "std_msgs/UInt8MultiArray", queue_size=None)
     got: list[tuple[int, int]] = []

@@ -1,4 +1,4 @@
-"""XML-RPC text: what goes in comes out, and nothing a peer writes does harm."""
+"""XML-RPC text: values survive the round trip, and any input of a peer is read safely."""
 
 import xmlrpc.client
 from datetime import datetime

@@ -42,7 +42,7 @@ def look(folder: Path, shape: str, *, pose: str, type_: str, inside: str = "") -
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("kind", ["visible_2d", "full_2d"])
 def test_a_box_in_the_picture_is_as_large_as_the_thing(tmp_path: Path, shape: str, kind: str) -> None:
-    """To a pixel, however the thing lies: not the box round its own box."""
+    """To a pixel, in any pose: not the box around its bounding box."""
     pose = "0 0 0 0.7 0.5 0.3"
     labels = look(tmp_path, shape, pose=pose, type_="segmentation").labels
     (box,) = look(tmp_path, shape, pose=pose, type_="boundingbox", inside=f"<box_type>{kind}</box_type>").boxes

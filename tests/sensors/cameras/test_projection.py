@@ -119,7 +119,7 @@ def test_beyond_the_fold_of_a_distortion_nothing_is_seen() -> None:
 
 @pytest.mark.parametrize("center", [(0.5, 0.5), (0.4, 0.6)])
 def test_a_distorted_square_camera_sees_a_ray_where_opencv_s_model_puts_it(center: tuple[float, float]) -> None:
-    """About its own centre: what is there is not moved."""
+    """Distortion is about its centre, which does not move."""
     made = optics(distortion=replace(BENT, center=center), width_px=320, height_px=320)
     f = pinhole(made).focal_px
     cx, cy = 320 * center[0], 320 * center[1]
