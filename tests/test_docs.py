@@ -1,4 +1,4 @@
-"""What the documentation shows does what it says, and what it names is there."""
+"""Examples of the documentation work, and the files that it names exist."""
 
 import re
 from collections import Counter
@@ -18,7 +18,7 @@ REASONS = Counter(
         "the tutorial's files": 1,  # tests/system/test_smartcar.py has them
     }
 )
-"""Why blocks are not run, and how many."""
+"""Reason → number of blocks that are not run."""
 _FILE = re.compile(r"`((?:src|cpp|docs|tests|examples|bench|typings)/[\w./]+|[\w/]+\.(?:py|cc|h))(?::\w+)?`")
 
 
@@ -34,7 +34,7 @@ def test_every_block_does_what_it_says(page: Path, tmp_path: Path) -> None:
 
 
 def test_the_readme_holds_for_the_tutorial_s_own_model(shared: Path, tmp_path: Path) -> None:
-    """It goes before the one that comes with Trundle, and its model is called my_robot."""
+    """The tutorial's model precedes the one that comes with Trundle, and is called my_robot."""
     (tmp_path / ".gazebo/models").mkdir(parents=True)
     (tmp_path / ".gazebo/models/rp2w").symlink_to(shared / "seeds/rp2w")
     run_page(ROOT / "README.md", tmp_path)

@@ -1,4 +1,4 @@
-"""The site of the documentation: it builds without a warning, and asks nobody else for anything."""
+"""The site of the documentation builds without a warning and loads nothing from other servers."""
 
 import http.server
 import re
@@ -19,7 +19,7 @@ _LOADED = re.compile(
     r"|<link\b(?=[^>]*?rel=[\"']?(?:stylesheet|icon|preload|preconnect|prefetch|manifest))[^>]*?\shref=[\"']?([^\"'\s>]+)"
     r"|url\(\s*[\"']?([^\"')\s]+)|@import\s+[\"']([^\"']+)"
 )
-"""What a browser asks for without being told to."""
+"""Attributes of elements that a browser loads by itself."""
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""What is written about a release in more than one place says the same."""
+"""Statements about a release agree in all places."""
 
 import re
 from pathlib import Path
@@ -20,7 +20,7 @@ def test_the_citation_names_this_version() -> None:
 
 @pytest.mark.skipif(not (ROOT / ".dockerignore").is_file(), reason="the sdist has no hidden files")
 def test_the_container_has_all_that_the_build_reads() -> None:
-    """What CMake and the package's metadata name is let through by .dockerignore."""
+    """.dockerignore passes the files that CMake and the package's metadata name."""
     let_through = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
 
     assert {"src", "cpp", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= let_through

@@ -27,7 +27,7 @@ below, or a warning that names what is missing.
 
 
 def plugins_page() -> str:
-    """Model and world plugins, and those that publish what a sensor measures."""
+    """Model and world plugins, and sensor plugins."""
     decision = "../decisions/0014-where-plugins-and-controllers-are-not-the-originals.md"
     return "\n".join(
         [

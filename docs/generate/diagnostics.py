@@ -1,4 +1,4 @@
-"""The reference of diagnostics: every sentence about a file, from the calls that say it."""
+"""Reference of diagnostics: every message about a file, from the calls that report it."""
 
 import ast
 from collections.abc import Iterator, Mapping
@@ -63,7 +63,7 @@ def _sentences(tree: ast.AST) -> Iterator[tuple[int, str, str]]:
 
 
 def _assigned(function: ast.AST) -> dict[str, list[ast.expr]]:
-    """What each name of a function is set to."""
+    """Values assigned to each name of a function."""
     found: dict[str, list[ast.expr]] = {}
     for node in ast.walk(function):
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):

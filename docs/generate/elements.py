@@ -1,4 +1,4 @@
-"""The references of SDF and URDF: what the readers ask for while they read a file with every element."""
+"""References of SDF and URDF: the elements read from a file that has every element."""
 
 import re
 import sys
@@ -48,7 +48,7 @@ _MORE = {
 
 
 class Inventory:
-    """What was asked for: parent element → child → files; and what is read only to be named, with its reason."""
+    """Elements read: parent element → child → files; and those read only for a warning, with its reason."""
 
     def __init__(self) -> None:
         self.children: dict[str, dict[str, set[str]]] = {}
@@ -63,7 +63,7 @@ class Inventory:
 
     @property
     def parents(self) -> list[str]:
-        """Every element of which something was asked by more than the check of names."""
+        """Every element of which something was read, beyond the check of names."""
         every = {*self.children, *self.attributes} - {"package"}  # of package.xml
         tables = (self.children, self.attributes)
         return sorted(p for p in every if any(f - _ONLY_NAMED for t in tables for f in t.get(p, {}).values()))

@@ -1,4 +1,4 @@
-"""What MkDocs calls while it builds the site."""
+"""Hooks of MkDocs' build."""
 
 import re
 import sys

@@ -62,7 +62,7 @@ def result(done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
 
 
 def test_every_file_of_the_package_is_in_the_wheel() -> None:
-    """Stubs too: the lazy front doors read theirs at run time, and py.typed tells type checkers of them."""
+    """Stubs, too: the lazy front doors read theirs at run time, and py.typed is for type checkers."""
     package = ROOT / "src"
     sources = {str(file.relative_to(package).as_posix()) for file in package.rglob("*") if file.is_file()}
     with zipfile.ZipFile(WHEELS[-1]) as wheel:
@@ -101,7 +101,7 @@ for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
 
 
 def test_the_gazebo_tutorial_runs(run: Run) -> None:
-    """Its model where it is here, else the one that comes in the wheel."""
+    """The model of the shared folder if present, else the wheel's."""
     variables = {"GAZEBO_MODEL_PATH": str(SEEDS)} if SEEDS.is_dir() else {}
 
     final = result(
@@ -115,7 +115,7 @@ def test_the_gazebo_tutorial_runs(run: Run) -> None:
 
 
 def test_the_ros_tutorial_launches(run: Run) -> None:
-    """Its package where it is here, else the one that comes in the wheel."""
+    """The package of the shared folder if present, else the wheel's."""
     words = ("smartcar_description", "smartcar_display.rviz.launch") if SEEDS.is_dir() else ("smartcar", "drive.launch")
     variables = {"ROS_PACKAGE_PATH": str(SEEDS)} if SEEDS.is_dir() else {}
 

@@ -23,44 +23,42 @@ if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors
 
 
 class LoadedSimulation(Simulation):
-    """One world in motion, with everything that its file asks for.
+    """One world in motion, with its sensors, plugins and ROS graph.
 
-    Where it is part of a ROS graph, `close` it, or use it in a `with` statement.
+    If it is part of a ROS graph, `close` it, or use it in a `with` statement.
     """
 
     def __init__(self, stage: LoadedWorld, report: Diagnostics, *, seed: int = 0) -> None:
-        """Compile a world; time is zero and nothing has moved.
+        """Compile a world; time is zero.
 
         Args:
-            stage: what there is.
-            report: takes what physics has to mend.
-            seed: of everything random.
+            stage: the world to compile.
+            report: takes repairs by physics.
+            seed: of all random numbers.
         """
         super().__init__(stage.world, report, seed=seed)
         self._stage = stage
         self._ros: RosInterface | None = None
 
     def camera(self, name: str) -> "CameraHandle":
-        """The camera of that name.
+        """Camera by name.
 
         Args:
-            name: `model::link::sensor`, as in Gazebo, or the end of it where that is one camera's alone; of a
-                multicamera's: `sensor/camera`.
+            name: `model::link::sensor`, as in Gazebo, or a unique end of it; of a multicamera: `sensor/camera`.
 
         Raises:
-            UsageError: there is none, or there are several; with the names there are.
+            UsageError: none or several; the message lists the names there are.
         """
         return self._sensors.camera(name)
 
     def sensor(self, name: str) -> "SensorHandle":
-        """The sensor of that name, of any type.
+        """Sensor of any type by name.
 
         Args:
-            name: `model::link::sensor`, as in Gazebo, or the end of it where that is one sensor's alone; of a joint's:
-                `model::joint::sensor`.
+            name: `model::link::sensor`, as in Gazebo, or a unique end of it; of a joint: `model::joint::sensor`.
 
         Raises:
-            UsageError: there is none, or there are several; with the names there are.
+            UsageError: none or several; the message lists the names there are.
         """
         return self._sensors.sensor(name)
 
@@ -83,13 +81,13 @@ class LoadedSimulation(Simulation):
     # -- the ROS graph
 
     def open_graph(self, environment: Mapping[str, str]) -> None:
-        """Put clock, frames, sensors and joints on a ROS graph, as `trundle run` does.
+        """Advertise clock, frames, sensors and joints on a ROS graph, as `trundle run` does.
 
         Args:
-            environment: ROS_MASTER_URI is the master to join; without one a master is started here.
+            environment: ROS_MASTER_URI is the master to join; without it a master is started here.
 
         Raises:
-            UsageError: the master that it names does not answer.
+            UsageError: that master does not answer.
         """
         from .run.ros_interface import RosInterface
 
@@ -109,7 +107,7 @@ class LoadedSimulation(Simulation):
         return self._graph.graph.master_uri
 
     def make_node(self, name: str) -> "Node":
-        """A node on the simulation's time; its callbacks run on this thread, between two steps.
+        """Make a node on simulation time; its callbacks run on this thread, between two steps.
 
         Raises:
             UsageError: the simulation is part of no graph.
@@ -123,7 +121,7 @@ class LoadedSimulation(Simulation):
         return self._ros
 
     def load_plugins(self, environment: Mapping[str, str]) -> None:
-        """Load the plugins that the world and its models ask for; `report` says which."""
+        """Load the plugins of the world and its models; `report` lists them."""
         from .plugins import load_plugins, load_world_plugins
 
         def say(line: str) -> None:
@@ -134,7 +132,7 @@ class LoadedSimulation(Simulation):
         load_world_plugins(self, make_node, environment, say=say)
 
     def advance(self, until_ns: int) -> None:
-        """See `Simulation.advance`; every message published here reaches the nodes here within 50 ms of it."""
+        """See `Simulation.advance`; messages reach the nodes of this process within 50 ms of simulation time."""
         if self._ros is None:
             super().advance(until_ns)
             return
@@ -162,7 +160,7 @@ class LoadedSimulation(Simulation):
 def load_simulation(
     file: "str | Model | World", *, seed: int = 0, plugins: bool = False, ros: bool | str = False
 ) -> LoadedSimulation:
-    """Read a file and compile it, with the process's environment; see `trundle.load`."""
+    """Read and compile a file, with os.environ; see `trundle.load`."""
     environment = dict(os.environ)
     report = Diagnostics()
     packages = Packages(environment, start=Path.cwd())
