@@ -30,7 +30,7 @@ def test_a_pen_beside_a_turning_link_draws_a_circle(tmp_path: Path) -> None:
     marker = wires.said["/marker"][-1]
     assert (marker.ns, marker.type, len(marker.points)) == ("plot_l", 4, len(pen.points))
     assert [warning.split(": ", 2)[2] for warning in sim.report.warnings] == [
-        "<plot>: model 'm' has no link 'elsewhere'; there are: 'l'; it is ignored"
+        "<plot>: model 'm' has no link 'elsewhere'; there are: 'l'; it is left out"
     ]
 
     (first, *_) = drawn_lines(sim)
