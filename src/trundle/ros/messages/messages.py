@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class TypedMessage(Protocol):
-    """What every message object has: its type in rosbags' form."""
+    """Attribute of every message object: its type in rosbags' form."""
 
     __msgtype__: str
 
