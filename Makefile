@@ -10,7 +10,7 @@ READY  := $(VENV)/.ready
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
 
-$(READY): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*)
+$(READY): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*.cc cpp/*.h) cpp/scripts.py
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Trundle needs Python 3.11 or newer; PYTHON=python3.12 make … names another")'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
@@ -25,22 +25,22 @@ test: $(READY)  ## the tests of every day, with what this machine has
 test-all: $(READY) dist/.built  ## everything
 	$(BIN)/python -m pytest -n 2
 
-check: $(READY)  ## lint, types, layers
+check: $(READY)  ## lint, types, layers, the format of C++
 	$(BIN)/python cpp/lint.py format --check
 	$(BIN)/python cpp/lint.py tidy --changed
-	$(BIN)/ruff check src tests bench examples docs
-	$(BIN)/ruff format --check src tests bench examples docs
+	$(BIN)/ruff check src tests bench examples docs cpp
+	$(BIN)/ruff format --check src tests bench examples docs cpp
 	PYRIGHT_PYTHON_IGNORE_WARNINGS=1 $(BIN)/pyright  # which else asks the net for its newest version
 	$(BIN)/lint-imports
 
-tidy: $(READY)  ## clang-tidy over all of cpp/ (45 s on two cores; installs it, 46 MB)
+tidy: $(READY)  ## clang-tidy over all of cpp/ (installs it, 46 MB)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt clang-tidy nanobind
 	$(BIN)/python cpp/lint.py tidy
 
 format: $(READY)  ## rewrite the code in house style
 	$(BIN)/python cpp/lint.py format
-	$(BIN)/ruff check --fix src tests bench examples docs
-	$(BIN)/ruff format src tests bench examples docs
+	$(BIN)/ruff check --fix src tests bench examples docs cpp
+	$(BIN)/ruff format src tests bench examples docs cpp
 	$(BIN)/python typings/message_types.py
 
 docs: $(READY)  ## the site, in out/site
