@@ -6,6 +6,7 @@ import io
 import queue
 import sys
 import threading
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,16 @@ def test_messages_reach_a_subscriber_in_order(graph: Any, pair: tuple[Any, Any])
         publisher.publish({"data": str(i)})
     graph.until(lambda: len(got) == 100)
     assert got == [str(i) for i in range(100)]
+
+
+def test_fields_may_be_any_mapping(graph: Any) -> None:
+    talker = graph.node("talker")
+    got: list[str] = []
+    publisher = talker.advertise("chatter", STRING)
+    talker.subscribe("chatter", STRING, lambda m: got.append(m.data))
+    graph.until(lambda: publisher.has_subscribers)
+    publisher.publish(MappingProxyType({"data": "x"}))
+    graph.until(lambda: got == ["x"])
 
 
 def test_in_one_process_the_very_object_arrives(graph: Any) -> None:

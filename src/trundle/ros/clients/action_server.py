@@ -2,7 +2,7 @@
 
 import asyncio
 import itertools
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -26,7 +26,7 @@ class ActionOutcome:
     """Terminal state and result of a goal."""
 
     status: Literal["succeeded", "aborted", "preempted", "rejected"] = "succeeded"
-    result: dict[str, Any] = field(default_factory=dict[str, Any])
+    result: Mapping[str, object] = field(default_factory=dict[str, Any])
     text: str = ""
 
 

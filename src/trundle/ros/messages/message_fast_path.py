@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
 
 from .type_definitions import fields_of
@@ -112,7 +113,7 @@ def dtype_of(kind: str) -> "np.dtype[Any]":
     return np.dtype(_DTYPES.get(kind, kind))
 
 
-def number_array(given: Sequence[object], dtype: "np.dtype[Any]") -> "np.ndarray[Any, Any] | None":
+def number_array(given: Sequence[object], dtype: "np.dtype[Any]") -> "NDArray[np.generic] | None":
     """Convert a list of plain numbers; None if the elements must be checked one by one."""
     try:
         array = np.array(given)

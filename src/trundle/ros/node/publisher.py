@@ -324,8 +324,8 @@ class Publisher:
         """Message to send: bytes, or an object of the topic's type."""
         if isinstance(message, _BYTES):
             return message
-        if isinstance(message, dict):
-            return self._checked(self._node.new(self.type, message))
+        if isinstance(message, Mapping):
+            return self._checked(self._node.new(self.type, dict(message)))
         given = self._node.messages.type_of(message)
         if given != self.type:
             raise MessageError(f"{self.topic} carries {self.type}, got a {given}")

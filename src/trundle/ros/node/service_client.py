@@ -29,8 +29,8 @@ async def call_service(
         MessageError: unknown type, or a request that does not fit it.
     """
     kind = node.messages.service(type_name)
-    if request is None or isinstance(request, dict):
-        request = node.new(kind.request, request)
+    if request is None or isinstance(request, Mapping):
+        request = node.new(kind.request, request and dict(request))
     try:
         uri = await node.master.call("lookupService", name)
     except MasterError:
