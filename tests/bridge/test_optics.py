@@ -8,7 +8,8 @@ import pytest
 
 from trundle.description import write_sdf, written_uri
 from trundle.diagnostics import Diagnostics
-from trundle.model import Lens, PluginTag
+from trundle.model import Lens
+from trundle.parameters import TagParameters
 from trundle.plugins.gazebo_ros.camera import read_border_crop
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras
@@ -72,7 +73,7 @@ def test_a_plugin_may_leave_out_the_crop(described: Any, told: str, is_whole: bo
     (camera,) = mount_cameras(sim, NativeRenderer)
     node = parse_xml(f"<plugin>{told}</plugin>", name="a.sdf")
 
-    read_border_crop(camera, PluginTag(name="p", filename="p.so", at=node.at, node=node), sim.report)
+    read_border_crop(camera, TagParameters(node, sim.report))
 
     assert (np.abs(camera.projection.slopes()[0]).max() > 32 / F) == is_whole
     assert sim.report.warnings == []
