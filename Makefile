@@ -42,6 +42,7 @@ format: $(READY)  ## rewrite the code in house style
 	$(BIN)/ruff check --fix src tests bench examples docs cpp
 	$(BIN)/ruff format src tests bench examples docs cpp
 	$(BIN)/python typings/message_types.py
+	$(BIN)/python docs/generate/sensor_topics.py
 
 docs: $(READY)  ## the site, in out/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict

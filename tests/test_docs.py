@@ -1,6 +1,7 @@
 """Examples of the documentation work, and the files that it names exist."""
 
 import re
+import runpy
 from collections import Counter
 from pathlib import Path
 
@@ -53,6 +54,12 @@ def test_every_file_that_a_page_names_is_there(page: Path) -> None:
     made = {Path(block.title).name for block in read_blocks(page) if block.title}
     named = {name for name in _FILE.findall(text) if name not in made}
     assert {name for name in named if not any((base / name).exists() for base in (ROOT, ROOT / "src/trundle"))} == set()
+
+
+def test_the_table_of_sensor_topics_is_that_of_the_code() -> None:
+    made = runpy.run_path(str(ROOT / "docs/generate/sensor_topics.py"))
+    page = made["PAGE"].read_text()
+    assert made["with_table"](page) == page, "make format rewrites it"
 
 
 def test_every_room_has_its_line_in_the_architecture() -> None:

@@ -10,6 +10,7 @@ from .frame_names import sensor_topic as sensor_topic
 from .image_messages import depth_image as depth_image
 from .image_messages import image_encoder as image_encoder
 from .image_messages import point_cloud_encoder as point_cloud_encoder
+from .instrument_topics import make_sensor_topics as make_sensor_topics
 from .joint_states import JointStatesTopic as JointStatesTopic
 from .link_transforms import LinkTransforms as LinkTransforms
 from .sensor_messages import contacts_message as contacts_message
@@ -18,7 +19,5 @@ from .sensor_messages import imu_message as imu_message
 from .sensor_messages import points_message as points_message
 from .sensor_messages import scan_message as scan_message
 from .sensor_messages import wrench_message as wrench_message
-from .sensor_topics import ImuTopic as ImuTopic
-from .sensor_topics import ScanTopic as ScanTopic
-from .sensor_topics import make_sensor_topics as make_sensor_topics
+from .sensor_topics import SENSOR_TOPICS as SENSOR_TOPICS
 from .step_publisher import StepPublisher as StepPublisher
