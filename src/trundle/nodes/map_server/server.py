@@ -59,10 +59,13 @@ class MapServer:
     async def _load(self, read: Callable[[], OccupancyGrid]) -> None:
         with self._node.loop.work.pending():
             grid = await asyncio.to_thread(read)
-        self._fields = grid_fields(grid, frame=self._frame, stamp_ns=self._node.clock.now_ns())
+        stamp_ns = self._node.clock.now_ns()
+        info = metadata_fields(grid, stamp_ns=stamp_ns)
+        header = {"stamp": stamp_ns, "frame_id": self._frame}
+        self._fields = {"header": header, "info": info, "data": grid.cells.reshape(-1)}
         height, width = grid.cells.shape
         self._node.log.info(f"Read a {width} X {height} map @ {grid.resolution_m:.3f} m/cell")
-        self._metadata.publish(self._fields["info"])
+        self._metadata.publish(info)
         self._map.publish(self._fields)
 
     def _get_map(self, _request: "nav_msgs.GetMapRequest") -> dict[str, Any]:
@@ -93,11 +96,11 @@ def _read_picture(picture: Path, resolution: str, settings: RosParameters) -> Oc
     return OccupancyGrid(cells=cells, resolution_m=resolution_m, origin=(0.0, 0.0, 0.0))
 
 
-def grid_fields(grid: OccupancyGrid, *, frame: str, stamp_ns: int) -> dict[str, object]:
-    """Fields of a nav_msgs/OccupancyGrid."""
+def metadata_fields(grid: OccupancyGrid, *, stamp_ns: int) -> dict[str, object]:
+    """Fields of a nav_msgs/MapMetaData."""
     x, y, yaw = grid.origin
     height, width = grid.cells.shape
-    info = {
+    return {
         "map_load_time": stamp_ns,
         "resolution": grid.resolution_m,
         "width": width,
@@ -107,4 +110,3 @@ def grid_fields(grid: OccupancyGrid, *, frame: str, stamp_ns: int) -> dict[str, 
             "orientation": {"z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)},
         },
     }
-    return {"header": {"stamp": stamp_ns, "frame_id": frame}, "info": info, "data": grid.cells.reshape(-1)}
