@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import cast
 
 import trundle
-from trundle.bringup.gazebo.world import GazeboWorld
+from trundle.bringup.gazebo.stepper import GazeboStepper
 from trundle.bringup.lockstep import Lockstep
 from trundle.ros import GraphLoop
 
@@ -32,11 +32,11 @@ def test_a_world_that_is_reset_amid_a_stretch_goes_on_for_what_was_left(tmp_path
     times: list[int] = []
     calls = SimpleNamespace(run_pending=lambda: None, has_pending=lambda: False)
     world = SimpleNamespace(
-        _paused=False, _ending=threading.Event(), _calls=calls, _clock=SimpleNamespace(set=times.append)
+        paused=False, _ending=threading.Event(), _calls=calls, clock=SimpleNamespace(set=times.append)
     )
 
     sim.post(lambda sim: sim.reset())
     steps = SimpleNamespace(wait_settled=lambda *_: None, record_step=lambda _: None)
-    GazeboWorld._step_lockstep(cast(GazeboWorld, world), sim, cast(Lockstep, steps), sim.time_ns + 20_000_000)
+    GazeboStepper._step_lockstep(cast(GazeboStepper, world), sim, cast(Lockstep, steps), sim.time_ns + 20_000_000)
 
     assert (sim.time_ns, times) == (20_000_000, [20_000_000])

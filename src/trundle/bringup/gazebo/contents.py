@@ -1,0 +1,111 @@
+"""Models of the world behind /gazebo, with their sensors and plugins, as they come and go."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from msgspec.structs import replace
+
+from trundle.bridge import ClockTopic
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import World
+from trundle.packages import Packages
+from trundle.ros import Clock, Node
+from trundle.sensors import CameraSensor, InstrumentSensor
+from trundle.simulation import Simulation
+from trundle.spatial import Pose
+
+from ..graph import Graph
+from ..renderers import RendererName
+from ..state_logs import WorldRecorder
+from .models import read_spawned
+from .plugins import GazeboPlugins
+from .sensors import GazeboSensors
+
+
+class GazeboContents:
+    """One simulation and everything on it; on its thread."""
+
+    def __init__(
+        self,
+        world: World,
+        node: Node,
+        *,
+        graph: Graph,
+        packages: Packages,
+        env: Mapping[str, str],
+        folder: Path,
+        report: Diagnostics,
+        renderer: RendererName,
+        clock: Clock,
+        clock_hz: float | None,
+        deliver: Callable[[Callable[[], None]], None],
+        say: Callable[[str], None],
+    ) -> None:
+        """Compile the world; `load` starts what is on it.
+
+        Args:
+            world: as read.
+            node: gzserver's.
+            graph: of the plugins' nodes.
+            packages: locates what spawned models name.
+            env: variables that locate plugins.
+            folder: keeps the text of each spawned model.
+            report: takes findings of spawned models and physics.
+            renderer: draws the cameras' images.
+            clock: time of the plugins' nodes.
+            clock_hz: rate of /clock; None: the usual one.
+            deliver: runs the plugins' callbacks on this thread.
+            say: prints which plugins are loaded, and where logs are.
+        """
+        self._packages, self._folder, self._report, self._say = packages, folder, report, say
+        self.simulation = Simulation(world, report)
+        ClockTopic(node, rate_hz=clock_hz).attach(self.simulation)
+        self._sensors = GazeboSensors(self.simulation, node, renderer, report)
+        self._plugins = GazeboPlugins(
+            self.simulation, node, graph=graph, env=env, clock=clock, deliver=deliver, say=say
+        )
+        self._recorder: WorldRecorder | None = None
+
+    @property
+    def sensors(self) -> list[CameraSensor | InstrumentSensor]:
+        """Sensors of all models."""
+        return self._sensors.all
+
+    def load(self, record: Path | None) -> None:
+        """Start state logs in a folder (None: without), sensors and plugins."""
+        if record is not None:
+            self._recorder = WorldRecorder(self.simulation, record, self._say)
+            self.simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
+        self._sensors.mount()
+        self._plugins.load()
+
+    def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
+        """Add a model with its sensors and plugins."""
+        if any(model.name == name for model in self.simulation.models):
+            raise UsageError(f"Failure - model name {name} already exist.")
+        model, robot = read_spawned(
+            xml, name=name, namespace=namespace, folder=self._folder, packages=self._packages, report=self._report
+        )
+        pose = world_from_model @ model.world_from_model
+        self.simulation.spawn(replace(model, name=name, world_from_model=pose))
+        self._sensors.mount(name, robot=robot)
+
+    def load_plugins(self, name: str) -> None:
+        """Load the plugins of a spawned model."""
+        self._plugins.load_model(self.simulation[name])
+
+    def delete(self, name: str) -> None:
+        """Remove a model with its sensors and plugins."""
+        self.simulation.delete(name)
+        self._plugins.unload(name)
+        self._sensors.unmount(name)
+
+    def close_logs(self) -> None:
+        """Complete the state logs."""
+        if self._recorder is not None:
+            self._recorder.close()
+            self._recorder = None
+
+    def close_plugins(self) -> None:
+        """Shut down the plugins' nodes without waiting; from any thread."""
+        self._plugins.close()
