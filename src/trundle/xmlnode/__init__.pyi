@@ -1,4 +1,4 @@
 from .node import XmlNode as XmlNode
-from .node import parse_numbers as parse_numbers
+from .numbers import parse_numbers as parse_numbers
 from .parse import parse_xml as parse_xml
 from .parse import read_xml as read_xml

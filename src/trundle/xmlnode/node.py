@@ -10,6 +10,8 @@ from lxml import etree
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.spatial import Pose, Vector3
 
+from .numbers import parse_numbers, shorten
+
 _PLACEHOLDER = "__default__"
 """Placeholder for a missing value in libsdformat 1."""
 _INTEGER = re.compile(r"[+-]?\d+")
@@ -180,10 +182,10 @@ class XmlNode:
         values = parse_numbers(self.text)
         if values is None or len(values) != count:
             wanted = "one number" if count == 1 else f"{count} numbers"
-            report.warn(self.at, f"<{self.tag}> needs {wanted}, got {_shorten(self.text)}; {fallback}")
+            report.warn(self.at, f"<{self.tag}> needs {wanted}, got {shorten(self.text)}; {fallback}")
             return None
         if not all(map(math.isfinite, values)):
-            report.warn(self.at, f"<{self.tag}>: {_shorten(self.text)} is not finite; {fallback}")
+            report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}")
             return None
         return values
 
@@ -290,15 +292,3 @@ def _written_tag(element: etree._Element) -> str:  # pyright: ignore[reportPriva
         return tag
     local = tag.rpartition("}")[2]
     return f"{element.prefix}:{local}" if element.prefix else local
-
-
-def parse_numbers(text: str) -> list[float] | None:
-    """Return numbers separated by white space, or None if one is invalid."""
-    try:
-        return [float(word) for word in text.split()]
-    except ValueError:
-        return None
-
-
-def _shorten(text: str) -> str:
-    return repr(text if len(text) <= 40 else text[:37] + "...")
