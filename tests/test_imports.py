@@ -56,7 +56,9 @@ def _exports(room: str) -> dict[str, str]:
 
 def _imports(module: str, path: Path) -> Iterator[str]:
     """Modules of ours that one imports: at its top, in functions, and for types only."""
-    for node in ast.walk(ast.parse(path.read_text())):
+    stub = path.with_suffix(".pyi")
+    texts = [path.read_text()] if path.stem == "__init__" or not stub.exists() else [path.read_text(), stub.read_text()]
+    for node in (node for text in texts for node in ast.walk(ast.parse(text))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in _FILES)
         elif isinstance(node, ast.ImportFrom) and (base := _base(module, path, node)) in _FILES:

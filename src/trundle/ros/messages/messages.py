@@ -8,25 +8,20 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..errors import MessageError
 from .codec import Codec
 from .definition_search import Definitions, split_service
 from .type_definitions import BUILTIN, TypeDefinitions, ros_name
 from .type_registry import TypeRegistry, UnknownTypeError
+from .typed_message import TypedMessage
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
     from ..message_types import Time
     from .message_builder import MessageBuilder
-
-
-class TypedMessage(Protocol):
-    """Attribute of every message object: its type in rosbags' form."""
-
-    __msgtype__: str
 
 
 Message: TypeAlias = Any

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from trundle.names import canonical_name, join_names, resolve_name
 
 from ..distro import NOETIC
-from ..messages.messages import ANY_TYPE, Message, Messages, TypedMessage
+from ..messages.messages import ANY_TYPE, Message, Messages
+from ..messages.typed_message import TypedMessage
 from ..transport.network import master_uri_from_env, server_address
 from .clock import Clock, WallClock
 from .endpoints import NodeEndpoints

@@ -7,7 +7,8 @@ from typing import Any
 
 from ..errors import MessageError
 from ..messages.codec import ENCODING_ERRORS, Codec
-from ..messages.messages import Message, TypedMessage
+from ..messages.messages import Message
+from ..messages.typed_message import TypedMessage
 from ..transport.framing import LENGTH, Pieces
 from ..transport.headers import check_md5
 from ..transport.send_queue import SendQueue

@@ -6,7 +6,8 @@ import struct
 from collections.abc import Mapping
 
 from ..errors import MasterError, MessageError, RosError, ServiceError, WireError
-from ..messages.messages import Message, Messages, ServiceType, TypedMessage
+from ..messages.messages import Message, Messages, ServiceType
+from ..messages.typed_message import TypedMessage
 from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header, frame
 from ..xmlrpc.http import host_and_port
 from .node_context import NodeContext
