@@ -17,6 +17,7 @@ PUBLIC: dict[str, tuple[str, ...]] = {
     "trundle.spatial": ("Pose", "Twist", "Wrench"),
     "trundle.diagnostics": ("TrundleError", "UsageError", "DescriptionError", "Diagnostics", "Diagnostic", "Source"),
     "trundle.plugins": ("Plugin", "WorldPlugin", "VisualPlugin", "Hooks"),
+    "trundle.parameters": ("TagParameters", "Parameters"),
     "trundle.model": ("World", "Model", "Link", "Joint", "JointAxis", "Inertial", "Surface", "Sensor"),
     "trundle.physics": ("Contact", "SimulationUnstableError"),
     "trundle.ros": ("Node", "Publisher", "Subscription", "Transform", "TransformBroadcaster"),
