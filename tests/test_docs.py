@@ -34,6 +34,7 @@ def test_every_block_does_what_it_says(page: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path)
 
 
+@pytest.mark.slow
 def test_the_readme_holds_for_the_tutorial_s_own_model(shared: Path, tmp_path: Path) -> None:
     """The tutorial's model precedes the one that comes with Trundle, and is called my_robot."""
     (tmp_path / ".gazebo/models").mkdir(parents=True)

@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from unittest.mock import patch
 
-from trundle.description import load
+from trundle.description import load_text
 from trundle.description.sdf.context import Context, warn_ignored
 from trundle.description.urdf.gazebo_tags import GazeboTags
 from trundle.diagnostics import Diagnostics
@@ -26,6 +26,8 @@ _SAYS_SO = {
     "description/urdf/gazebo_tags.py",
 }
 _OF_SEVERAL = ("ode", "horizontal", "vertical", "pressure")
+_VERSIONS = ("1.3", "1.6", "1.12")
+"""SDF's, of which each reads elements that the others do not."""
 _ONLY_NAMED = {"description/sdf/required.py"}
 """Reads the names of elements that are not supported, too."""
 HERE = Path(__file__).parent
@@ -82,7 +84,10 @@ def read_inventory(probe: Path) -> Inventory:
     inventory, report = Inventory(), Diagnostics()
 
     def read() -> None:
-        load(str(probe), report, packages=Packages({}, start=probe))
+        text, packages = probe.read_text(), Packages({}, start=probe)
+        for version in _VERSIONS:
+            text = re.sub(r'<sdf version="[^"]+"', f'<sdf version="{version}"', text)
+            load_text(text, name=probe.name, folder=probe.parent, packages=packages, report=report)
 
     read()  # which imports the readers
     with _recording(inventory):
