@@ -14,8 +14,6 @@ sys.path.insert(0, str(ROOT / "docs"))  # MkDocs loads this file by its path
 from generate import api, catalogs, command_line, diagnostics, elements, pictures  # noqa: E402
 
 PAGES: dict[str, Callable[[], str]] = {
-    "architecture.md": lambda: _root_page("ARCHITECTURE.md"),
-    "contributing.md": lambda: _root_page("CONTRIBUTING.md"),
     "decisions/index.md": lambda: _decisions(),
     "reference/cli.md": command_line.page,
     "reference/diagnostics.md": diagnostics.page,
@@ -26,12 +24,16 @@ PAGES: dict[str, Callable[[], str]] = {
     "reference/urdf.md": lambda: elements.page("urdf"),
 }
 """Pages that are in no file below docs/."""
+ROOT_PAGES = ("ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
+"""Files beside docs/ that are pages, too."""
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the pages, the pictures and the examples that pages link to."""
     for path, text in PAGES.items():
         files.append(File.generated(config, path, content=text()))
+    for name in ROOT_PAGES:
+        files.append(File.generated(config, name.lower(), content=_root_page(name)))
     for path in sorted((ROOT / "examples").rglob("*")):
         if path.is_file() and path.suffix != ".pyc":
             files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
