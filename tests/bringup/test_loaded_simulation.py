@@ -86,4 +86,4 @@ def test_a_master_that_does_not_answer_is_named_and_nothing_stays_open(world: Pa
     threads = threading.active_count()
     with pytest.raises(UsageError, match=r"no ROS master answers at http://192\.0\.2\.1:1 "):
         trundle.load(world, ros="http://192.0.2.1:1")
-    assert threading.active_count() == threads
+    assert threading.active_count() <= threads
