@@ -2,14 +2,16 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 from .loop import GraphLoop
 
+_Result = TypeVar("_Result")
+
 
 async def run_on_callback_thread(
-    deliver: Callable[[Callable[[], None]], None] | None, loop: GraphLoop, work: Callable[[], Any]
-) -> Any:
+    deliver: Callable[[Callable[[], None]], None] | None, loop: GraphLoop, work: Callable[[], _Result]
+) -> _Result:
     """Call `work` on the callback thread and return or raise its result; without `deliver`, call it directly.
 
     Args:
@@ -19,7 +21,7 @@ async def run_on_callback_thread(
     """
     if deliver is None:
         return work()
-    future: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+    future: asyncio.Future[_Result] = asyncio.get_running_loop().create_future()
 
     def settle(result: Any, error: Exception | None) -> None:
         if future.done():
