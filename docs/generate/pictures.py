@@ -6,6 +6,7 @@ from pathlib import Path
 
 PICTURES: dict[str, tuple[str, ...]] = {
     "rp2w.mp4": ("model://rp2w", "--size", "360x360", "--orbit"),
+    "rp2w.png": ("model://rp2w", "--size", "640x480"),
     "rp2w_camera.png": ("rp2w_at_home.world", "--camera", "my_sensor"),
     "rp2w_at_home.png": ("rp2w_at_home.world", "--size", "960x540"),
     "rp2w_seg.png": ("rp2w_at_home.world", "--seg", "--size", "640x360"),
