@@ -47,10 +47,15 @@ def test_the_blocks_that_are_not_run_are_counted() -> None:
     assert Counter(mark.partition("needs ")[2] for mark in marks if mark.startswith("not run:")) == REASONS
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def _current(page: Path) -> bool:
+    """False for decisions, which name the files of their day."""
+    return "decisions" not in page.parts
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if _current(page)], ids=lambda page: str(page.relative_to(ROOT))
+)
 def test_every_file_that_a_page_names_is_there(page: Path) -> None:
-    if "decisions" in page.parts:
-        pytest.skip("decisions name the files of their day")
     text = "".join(part for i, part in enumerate(page.read_text().split("```")) if i % 2 == 0)
     made = {Path(block.title).name for block in read_blocks(page) if block.title}
     named = {name for name in _FILE.findall(text) if name not in made}

@@ -59,7 +59,7 @@ def test_a_launch_file_is_read_and_no_command_in_it_is_run(trundle, shared) -> N
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "said"), [((), 0, 'link name="base_link"'), (("oops",), 1, "say NAME:=VALUE")]
+    ("words", "code", "said"), [((), 0, 'link name="base_link"'), (("oops",), 1, "give NAME:=VALUE")]
 )
 def test_xacro_expands_a_file(trundle, shared, words, code, said) -> None:
     done = trundle("xacro", str(shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"), *words)

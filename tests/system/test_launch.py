@@ -456,7 +456,7 @@ def test_a_launch_whose_world_ended_still_ends_at_its_duration(
     done = launch("p", "main.launch", "--headless", "--duration", "0.5", *pace)
 
     assert done.returncode == 0
-    assert "the simulation has ended, and time with it" in done.stderr
+    assert "the simulation has ended, and ROS time with it" in done.stderr
     assert "[stays-2] killing on exit" in done.stdout
 
 

@@ -11,7 +11,7 @@ class RosParameters(Parameters):
     """A namespace of parameters; a value of no use raises ParamError."""
 
     def __init__(self, tree: object, where: str) -> None:
-        """`where` is the namespace's global name, for messages; anything but a mapping counts as empty."""
+        """Name the namespace globally in messages, by `where`; a tree that is not a mapping counts as empty."""
         self._tree: Mapping[str, Any] = tree if isinstance(tree, Mapping) else {}
         self.where = where.rstrip("/")
 

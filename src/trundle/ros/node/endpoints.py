@@ -27,7 +27,7 @@ class NodeEndpoints:
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._services: dict[str, Service] = {}
         self._unregistering: set[tuple[str, str]] = set()
-        """(method, name) of unregistrations queued or in progress."""
+        """Pairs (method, name) of unregistrations queued or in progress."""
         self._recorder = EndpointRecorder()
 
     # -- adding and removing: thread-safe
@@ -122,11 +122,11 @@ class NodeEndpoints:
         return self._services.get(name)
 
     def published_topics(self) -> list[tuple[str, str]]:
-        """(topic, type) of all publishers."""
+        """Pairs (topic, type) of all publishers."""
         return [(publisher.topic, publisher.type) for publisher in self._publishers.values()]
 
     def subscribed_topics(self) -> list[tuple[str, str]]:
-        """(topic, type) of all subscriptions."""
+        """Pairs (topic, type) of all subscriptions."""
         return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
 
     def connections(self) -> list[list[object]]:

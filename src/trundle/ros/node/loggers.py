@@ -38,7 +38,7 @@ class Loggers:
         return self._level(self._own)
 
     def levels(self) -> list[tuple[str, Level]]:
-        """(name, level) of every logger."""
+        """Pairs (name, level) of every logger."""
         return [(name, self._level(name)) for name in self._names]
 
     def set(self, name: str, level: str) -> None:

@@ -48,7 +48,7 @@ class Publisher:
         self._on_connect = on_connect
         self._unregister = unregister
         self._raw_type = raw_type
-        """(md5 sum, definition) of a possibly unknown type."""
+        """Pair (md5 sum, definition) of a possibly unknown type."""
         self._subscriber_links = SubscriberLinks(topic)
         self._direct: tuple[SendQueue, ...] = ()
         """Send queues that the publishing thread writes to: other processes, if there are no local subscribers."""
