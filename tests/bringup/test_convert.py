@@ -250,7 +250,7 @@ def test_a_launch_file_is_known_by_its_root(cart: Path) -> None:
     text = "\ufeff<?xml version='1.0'?>\n<!-- <robot> -->\n<launch><node pkg='p' type='t' name='n'/></launch>"
     file = cart.parent / "robot.xml"
     file.write_text(text)
-    said = "a launch of 1 nodes with 0 parameters; nothing to remark\n"
+    said = "a launch of 1 nodes with 0 parameters; no findings\n"
 
     assert run("check", "-", stdin=text) == (0, f"-: {said}")
     assert run("check", str(file)) == (0, f"{file}: {said}")

@@ -40,7 +40,7 @@ def test_a_run_whose_recording_breaks_off_fails(env, tmp_path) -> None:
     done = subprocess.run(limited, env=env, capture_output=True, text=True, check=False)
 
     assert done.returncode == 1, done.stderr
-    assert f"recording broke off: {log}: File too large; trundle play shows what it holds" in done.stderr
+    assert f"recording failed: {log}: File too large; trundle play shows what was recorded" in done.stderr
     assert "s simulated in" in done.stdout
     times = read_state_log(log).times
     assert 10 < len(times) < 9 * 50
@@ -66,4 +66,4 @@ def test_a_run_whose_recording_is_removed_fails(start, until, tmp_path) -> None:
     shutil.rmtree(folder)
 
     assert running.process.wait(60) == 1
-    assert f"recording broke off: {folder}/run.log: No such file or directory" in running.output()
+    assert f"recording failed: {folder}/run.log: No such file or directory" in running.output()

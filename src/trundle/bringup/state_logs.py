@@ -40,7 +40,7 @@ class RunRecorder:
         try:
             self._recorder.after_step(snapshot)
         except OSError as error:
-            self._say(f"recording broke off: {error.filename}: {error.strerror}; trundle play shows what it holds")
+            self._say(f"recording failed: {error.filename}: {error.strerror}; trundle play shows what was recorded")
             self.has_failed = True
 
     def close(self) -> None:

@@ -71,7 +71,7 @@ class CheckResult:
         singular = {"error": "error", "warning": "warning", "info": "note"}
         parts = [f"{n} {(singular if n == 1 else plural)[s]}" for s in plural if (n := counts[s])]
         verdict = "refused" if self.findings is None else self.findings.sentence()
-        return "\n".join([*lines, f"{self.file}: {verdict}; {', '.join(parts) or 'nothing to remark'}"])
+        return "\n".join([*lines, f"{self.file}: {verdict}; {', '.join(parts) or 'no findings'}"])
 
 
 def check(file: str, environment: Mapping[str, str], *, start: Path, collisions: bool = False) -> CheckResult:

@@ -53,7 +53,7 @@ async def connect_unix(loop: AbstractEventLoop, address: str) -> socket.socket:
         sock.setblocking(False)
         await loop.sock_connect(sock, address)
         if not is_of_this_user(sock):
-            raise PermissionError("the socket is another user's")
+            raise PermissionError("the socket belongs to another user")
     except BaseException:
         sock.close()
         raise
