@@ -60,7 +60,7 @@ def test_its_references_name_what_there_is(site: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.browser
-def test_a_browser_asks_nobody_else_for_anything(site: Path, chromium: Any) -> None:
+def test_the_site_loads_nothing_from_other_hosts(site: Path, chromium: Any) -> None:
     handler = partial(http.server.SimpleHTTPRequestHandler, directory=str(site))
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()

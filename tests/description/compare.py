@@ -14,13 +14,13 @@ _LIMITS = (("axis", "lower", "upper"), ("axis2", "lower2", "upper2"))
 def differences(
     ours: dict[str, Any], theirs: dict[str, Any], tolerance: float, *, placed: bool = True
 ) -> Iterator[str]:
-    """Every difference between a model of ours and of theirs, nested ones included.
+    """All differences between our model and theirs, including nested models.
 
     Args:
         ours: from `check --json`.
         theirs: from the dump.
         tolerance: of numbers, absolute and relative.
-        placed: compare where the model is; a <state>, which libsdformat does not apply, puts it elsewhere.
+        placed: compare the pose of the model; a <state>, which libsdformat does not apply, puts it elsewhere.
     """
     who = ours["name"]
     for field in ("static", "self_collide"):

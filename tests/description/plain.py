@@ -14,7 +14,7 @@ _CLOSE = 1e-9
 
 
 def plain(value: Any) -> Any:
-    """A struct as plain values, without where it was read; a plugin as it was written."""
+    """A struct as plain values, without source positions; a plugin as its XML."""
     if isinstance(value, XmlNode):
         return value.xml()
     if isinstance(value, Pose):

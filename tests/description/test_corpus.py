@@ -38,8 +38,8 @@ def packages(corpus: Path) -> Packages:
     return Packages({"GAZEBO_MODEL_PATH": ":".join(map(str, path))}, start=corpus)
 
 
-def test_sdf_files_say_what_libsdformat_says_of_them(corpus: Path, packages: Packages) -> None:
-    """All that Gazebo 11 accepts is accepted; where libsdformat 9 and 12 agree, every value agrees with theirs."""
+def test_sdf_files_are_read_as_by_libsdformat(corpus: Path, packages: Packages) -> None:
+    """Files that Gazebo 11 accepts are accepted; where libsdformat 9 and 12 agree, every value agrees with theirs."""
     rows = json.loads((corpus / "manifest.json").read_text())["sdf"]
     assert len(rows) > 800
     found = {row["file"]: list(_sdf_differences(row, corpus, packages)) for row in rows}
@@ -86,10 +86,8 @@ def _world_differences(ours: dict[str, Any], theirs: dict[str, Any], *, placed: 
         yield f"step {ours['physics']['max_step_size']}, theirs {step}"
 
 
-def test_robots_are_the_trees_that_urdfdom_makes_and_the_models_that_gazebo_makes(
-    corpus: Path, packages: Packages
-) -> None:
-    """Every distinct robot, expanded; the conversion where libsdformat 9 and 12 agree."""
+def test_robots_are_read_as_by_urdfdom_and_converted_as_by_gazebo(corpus: Path, packages: Packages) -> None:
+    """Every distinct robot, expanded; its conversion is compared where libsdformat 9 and 12 agree."""
     rows = {row["sha"]: row for row in json.loads((corpus / "manifest.json").read_text())["urdf"]}
     assert len(rows) > 150
     found = {row["file"]: list(_urdf_differences(row, corpus, packages)) for row in rows.values()}
@@ -137,7 +135,7 @@ def _tree_differences(ours: dict[str, Any], theirs: dict[str, Any]) -> Iterator[
 
 @pytest.mark.slow
 def test_xacro_files_expand_as_xacro_expands_them(corpus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As Melodic's xacro 1.13.3, or as 2.1.1 where that one refuses; the same elements, attributes and texts."""
+    """The same elements, attributes and texts as Melodic's xacro 1.13.3, or 2.1.1 where that one refuses."""
     rows = json.loads((corpus / "manifest.json").read_text())["xacro"]
     assert len(rows) > 350
     workspaces = ":".join(map(str, sorted((corpus / "repos").iterdir())))

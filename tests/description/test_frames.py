@@ -58,7 +58,7 @@ def model(folder: Path, body: str, report: Diagnostics | None = None) -> Model:
         ),
     ],
 )
-def test_what_gazebo_lets_pass_is_named_and_let_pass(tmp_path: Path, body: str, warning: str) -> None:
+def test_faults_that_gazebo_accepts_are_accepted_with_a_warning(tmp_path: Path, body: str, warning: str) -> None:
     report = Diagnostics()
 
     found = model(tmp_path, body, report)
@@ -84,7 +84,7 @@ def test_an_included_model_is_nested_and_its_frames_can_be_named(tmp_path: Path)
     assert model_from_joint(found, grip).position == pytest.approx((2, 2, 1))
 
 
-def test_flattened_puts_nested_links_and_joints_in_the_outer_model(tmp_path: Path) -> None:
+def test_flattening_moves_nested_links_and_joints_to_the_outer_model(tmp_path: Path) -> None:
     body = (
         f'<model name="in"><pose>0 0 5 0 0 {QUARTER}</pose><link name="a"/><link name="b"/>'
         '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz></axis></joint>'
@@ -102,7 +102,7 @@ def test_flattened_puts_nested_links_and_joints_in_the_outer_model(tmp_path: Pat
     assert model_from_joint(flat, joint).position == (0.0, 0.0, 5.0)
 
 
-def test_a_placement_frame_lands_at_the_pose(tmp_path: Path) -> None:
+def test_a_placement_frame_is_put_at_the_pose(tmp_path: Path) -> None:
     include = "<include><uri>model://arm</uri><placement_frame>tip</placement_frame>"
     include += f"<pose>0 0 0 0 0 {QUARTER}</pose></include>"
 
@@ -111,7 +111,7 @@ def test_a_placement_frame_lands_at_the_pose(tmp_path: Path) -> None:
     assert arm.world_from_model.position == pytest.approx((0, -2, -1))
 
 
-def test_a_merged_include_dissolves_in_its_model(tmp_path: Path) -> None:
+def test_a_merged_include_becomes_part_of_its_model(tmp_path: Path) -> None:
     body = (
         '<link name="base"/>'
         f'<include merge="true"><uri>model://arm</uri><pose>0 0 0 0 0 {QUARTER}</pose></include>'
@@ -142,7 +142,7 @@ def merged_world(tmp_path: Path, more: str = "", around: str = "") -> tuple[Worl
     return read(tmp_path, f'<world name="w">{around}{include}{lamp}</world>', report, version="1.10"), report
 
 
-def test_a_model_dissolves_in_a_world(tmp_path: Path) -> None:
+def test_a_model_is_merged_into_a_world(tmp_path: Path) -> None:
     world, report = merged_world(tmp_path)
 
     places = {model.name: model.world_from_model.position for model in world.models}
@@ -170,7 +170,9 @@ def test_a_model_dissolves_in_a_world(tmp_path: Path) -> None:
         ("", '<model name="left"><link name="l"/></model>', "a model 'left', whose name is taken"),
     ],
 )
-def test_what_cannot_dissolve_in_a_world_stays_a_model(tmp_path: Path, more: str, around: str, why: str) -> None:
+def test_a_model_that_cannot_be_merged_into_a_world_stays_a_model(
+    tmp_path: Path, more: str, around: str, why: str
+) -> None:
     world, report = merged_world(tmp_path, more, around)
 
     assert "stand" in [model.name for model in world.models]
@@ -212,7 +214,7 @@ def test_a_xacro_file_cannot_be_included(tmp_path: Path) -> None:
     assert "a xacro file cannot be included; `trundle xacro` expands it" in report.warnings[0]
 
 
-def test_models_and_frames_of_a_world_are_placed_by_one_another(tmp_path: Path) -> None:
+def test_models_and_frames_of_a_world_are_placed_relative_to_one_another(tmp_path: Path) -> None:
     body = (
         '<world name="w"><frame name="dock"><pose>5 0 0 0 0 0</pose></frame>'
         '<model name="a"><pose relative_to="dock">1 0 0 0 0 0</pose><link name="l"/></model>'
@@ -227,7 +229,7 @@ def test_models_and_frames_of_a_world_are_placed_by_one_another(tmp_path: Path) 
     assert (tie.parent, tie.child, tie.child_frame) == ("a::l", "b::l", "b")
 
 
-def test_a_state_says_where_models_were_when_the_world_was_saved(tmp_path: Path) -> None:
+def test_a_saved_state_places_models(tmp_path: Path) -> None:
     state = (
         '<state world_name="w"><sim_time>1 0</sim_time><deletions><name>gone</name></deletions>'
         '<model name="m"><pose>1 2 3 0 0 0</pose><link name="l"><pose>1 2 3 0 0 0</pose></link></model>'
@@ -246,7 +248,7 @@ def test_a_state_says_where_models_were_when_the_world_was_saved(tmp_path: Path)
     assert any("<state> of unknown model 'nobody'" in each for each in report.warnings)
 
 
-def test_a_model_that_includes_itself_is_found_out(tmp_path: Path) -> None:
+def test_a_model_that_includes_itself_is_refused(tmp_path: Path) -> None:
     report = Diagnostics()
 
     read(tmp_path, '<world name="w"><include><uri>model://self</uri></include></world>', report)
@@ -254,7 +256,7 @@ def test_a_model_that_includes_itself_is_found_out(tmp_path: Path) -> None:
     assert any("includes itself" in each for each in report.warnings)
 
 
-def test_models_of_ten_parts_of_ten_parts_and_so_on_end(tmp_path: Path) -> None:
+def test_exponentially_nested_includes_are_stopped(tmp_path: Path) -> None:
     parts = "".join(f"<include><name>part{i}</name><uri>model://{{}}</uri></include>" for i in range(10))
     for i in range(12):
         folder = tmp_path / f"size{i}"
@@ -267,14 +269,14 @@ def test_models_of_ten_parts_of_ten_parts_and_so_on_end(tmp_path: Path) -> None:
         read(tmp_path, '<world name="w"><include><uri>model://size0</uri></include></world>')
 
 
-def test_models_nested_beyond_all_sense_are_refused(tmp_path: Path) -> None:
+def test_models_nested_too_deeply_are_refused(tmp_path: Path) -> None:
     deep = '<model name="m">' * 240 + '<link name="a"/>' + "</model>" * 240
 
     with pytest.raises(DescriptionError, match="nested more than"):
         read(tmp_path, deep)
 
 
-def test_elements_deep_in_one_another_are_passed_over_as_in_gazebo(tmp_path: Path) -> None:
+def test_deeply_nested_elements_are_skipped_as_in_gazebo(tmp_path: Path) -> None:
     report = Diagnostics()
     deep = "<a>" * 1000 + "</a>" * 1000
 
@@ -286,7 +288,7 @@ def test_elements_deep_in_one_another_are_passed_over_as_in_gazebo(tmp_path: Pat
 
 
 @pytest.mark.parametrize("body", ["<a>" * 100_000, "<a>" * 3000 + "</a>" * 3000])
-def test_elements_too_deep_in_one_another_are_one_sentence(tmp_path: Path, body: str) -> None:
+def test_elements_nested_too_deeply_are_one_error(tmp_path: Path, body: str) -> None:
     with pytest.raises(DescriptionError, match=r"x\.sdf:1: error: elements more than 2000 deep in one another"):
         model(tmp_path, body)
 
@@ -299,7 +301,7 @@ def test_a_deep_file_that_defines_entities_is_refused(tmp_path: Path) -> None:
         load(str(tmp_path / "x.sdf"), Diagnostics(), packages=Packages({}, start=tmp_path))
 
 
-def test_automatic_inertia_weighs_the_collisions(tmp_path: Path) -> None:
+def test_automatic_inertia_is_computed_from_the_collisions(tmp_path: Path) -> None:
     """A 1 m cube of water beside a 2 m one: 9 t, centred 8/9 of the way."""
     cubes = "".join(
         f'<collision name="c{size}"><pose>{x} 0 0 0 0 0</pose><geometry><box><size>{size} {size} {size}</size></box>'
@@ -323,8 +325,8 @@ def test_automatic_inertia_weighs_the_collisions(tmp_path: Path) -> None:
         ("world", "f", ("world", "a"), (5, 0, 0)),
     ],
 )
-def test_an_end_that_moves_with_the_model_is_its_canonical_link(tmp_path, parent, child, resolved, origin) -> None:
-    """As in libsdformat 12; before, it was the world, and the joint was off by the model's pose."""
+def test_a_joint_to_the_model_itself_is_one_to_its_canonical_link(tmp_path, parent, child, resolved, origin) -> None:
+    """Compare libsdformat 12; when it was taken for the world, the joint was off by the model's pose."""
     links = '<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"><pose>0 3 0 0 0 0</pose></link>'
     ends = f'<joint name="j" type="fixed"><parent>{parent}</parent><child>{child}</child></joint>'
     report = Diagnostics()
@@ -338,7 +340,7 @@ def test_an_end_that_moves_with_the_model_is_its_canonical_link(tmp_path, parent
     assert report.warnings == []
 
 
-def test_a_joint_of_the_canonical_link_and_the_model_joins_nothing(tmp_path: Path) -> None:
+def test_a_joint_between_a_model_and_its_canonical_link_is_left_out(tmp_path: Path) -> None:
     report = Diagnostics()
     ends = '<joint name="j" type="fixed"><parent>a</parent><child>__model__</child></joint>'
 
@@ -349,7 +351,7 @@ def test_a_joint_of_the_canonical_link_and_the_model_joins_nothing(tmp_path: Pat
 @pytest.mark.parametrize(
     ("version", "x", "said"), [("1.6", 3.0, ""), ("1.7", 1.0, "<pose frame='a'> is ignored: SDF 1.7 calls it")]
 )
-def test_a_pose_has_a_frame_until_1_6(tmp_path: Path, version: str, x: float, said: str) -> None:
+def test_the_frame_attribute_of_a_pose_is_read_until_sdf_1_6(tmp_path: Path, version: str, x: float, said: str) -> None:
     links = '<link name="a"><pose>2 0 0 0 0 0</pose></link><link name="b"><pose frame="a">1 0 0 0 0 0</pose></link>'
     report = Diagnostics()
 
@@ -360,8 +362,8 @@ def test_a_pose_has_a_frame_until_1_6(tmp_path: Path, version: str, x: float, sa
     assert bool(said) == bool(report.warnings)
 
 
-def test_a_mimic_s_offset_moves_no_link_of_a_converted_urdf(tmp_path: Path) -> None:
-    """As in libsdformat 9, whose conversion knows no mimics; limits of 1e16 are none there, nor are those of −1."""
+def test_the_offset_of_a_mimic_does_not_move_links_of_a_converted_urdf(tmp_path: Path) -> None:
+    """libsdformat 9's conversion ignores mimics; there, limits of 1e16 and of −1 mean unlimited."""
     body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     links = "".join(f'<link name="{name}">{body}</link>' for name in "abc")
     limit = '<limit lower="-1e16" upper="1e16" effort="-1" velocity="-1"/><axis xyz="1 0 0"/>'
@@ -382,7 +384,7 @@ def test_a_mimic_s_offset_moves_no_link_of_a_converted_urdf(tmp_path: Path) -> N
 
 
 def test_an_include_in_a_gazebo_block_nests_a_model_in_a_urdf(tmp_path: Path) -> None:
-    """libsdformat 9 keeps the <include>, and joints name its links; rovers carry lamps so."""
+    """libsdformat 9 keeps the <include>, and joints can name its links; rovers mount lamps this way."""
     read(tmp_path, '<model name="m"/>')
     body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     include = "<include><uri>model://arm</uri><name>lamp</name><pose>1 0 0 0 0 0</pose></include>"

@@ -1,4 +1,4 @@
-"""Reading any file ends in a model or in one sentence."""
+"""Reading any file gives a model or one error."""
 
 import contextlib
 import json
@@ -59,7 +59,7 @@ TAG = re.compile(r"</?[a-z_]+")
 
 
 def mutated(text: str, edits: list[tuple[int, int, str]]) -> str:
-    """A text with words replaced, tags renamed, or stretches of it taken out or doubled."""
+    """A text with words replaced, tags renamed, or parts deleted or doubled."""
     for kind, where, odd in edits:
         pattern = TAG if kind == 1 else WORD
         places = list(pattern.finditer(text))

@@ -1,4 +1,4 @@
-"""Hostile and broken files are accepted or refused by a sentence; they never crash."""
+"""Hostile and broken files are accepted or refused with an error; they never crash."""
 
 import contextlib
 import gzip
@@ -14,7 +14,7 @@ from trundle.physics import compile_world
 
 
 @pytest.mark.parametrize("kind", ["sdf", "urdf", "xacro"])
-def test_every_broken_file_of_the_collection(shared: Path, kind: str) -> None:
+def test_every_broken_file_of_the_collection_is_read_or_refused(shared: Path, kind: str) -> None:
     files = sorted((shared / "corpus/invalid" / kind).glob(f"*.{kind}"))
     assert files
     accepted = 0
@@ -36,7 +36,9 @@ REFUSED = {
 @pytest.mark.parametrize(
     ("kind", "tool", "answer"), [("sdf", "libsdformat9", "readfile"), ("urdf", "urdfdom3", "accept")]
 )
-def test_what_gazebo_accepts_of_the_collection_is_accepted(shared: Path, kind: str, tool: str, answer: str) -> None:
+def test_files_of_the_collection_that_gazebo_accepts_are_accepted(
+    shared: Path, kind: str, tool: str, answer: str
+) -> None:
     refused: set[str] = set()
     rows = json.loads(gzip.decompress((shared / "corpus/refs/invalid.json.gz").read_bytes()))
     rows = [row for row in rows if row["kind"] == kind and row[tool][answer]]

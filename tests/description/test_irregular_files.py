@@ -1,4 +1,4 @@
-"""Pipes, devices and impossible names in place of files: one sentence, and reading goes on."""
+"""Pipes, devices and impossible names in place of files: one error, and reading goes on."""
 
 import os
 import sys
@@ -21,7 +21,7 @@ XACRO = "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><link name=
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A package with a pipe in it that nothing writes to."""
+    """A package with a pipe in it that has no writer."""
     (tmp_path / "package.xml").write_text("<package><name>arm</name></package>")
     os.mkfifo(tmp_path / "pipe.dae")
     return tmp_path
@@ -50,7 +50,7 @@ SCRIPT = "<material><script><uri>{}</uri><name>red</name></script></material>"
         ("<world name='w'><include>\n<uri>{}</uri></include></world>", 2),
     ],
 )
-def test_what_an_sdf_names_is_a_file_that_can_be(folder: Path, text: str, line: int) -> None:
+def test_impossible_file_names_in_an_sdf_are_reported(folder: Path, text: str, line: int) -> None:
     for uri in ("pipe.dae", "package://arm/pipe.dae"):
         said = warnings_of(text.format(uri), folder)
         named = f"{uri}: " * (uri != "pipe.dae")
@@ -70,7 +70,7 @@ def test_what_an_sdf_names_is_a_file_that_can_be(folder: Path, text: str, line: 
         assert len(said[0]) < 1000
 
 
-def test_what_a_urdf_names_is_a_file_that_can_be(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_impossible_file_names_in_a_urdf_are_reported(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     visual = "\n<visual><geometry><mesh filename='{}'/></geometry></visual>"
     inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
     link = f"<inertial><mass value='1'/>{inertia}</inertial>{visual}"
@@ -86,7 +86,7 @@ def test_what_a_urdf_names_is_a_file_that_can_be(folder: Path, capsys: pytest.Ca
         assert f"r.urdf:2: warning: {said}" in capsys.readouterr().out
 
 
-def test_an_include_of_a_name_of_another_host_with_a_bracket_is_left_out(folder: Path) -> None:
+def test_an_include_with_a_bracket_in_its_host_name_is_left_out(folder: Path) -> None:
     said = warnings_of("<world name='w'><include><uri>https://[fuel/a/b/c</uri></include></world>", folder)
 
     assert "nothing is fetched from the network" in said[0]
@@ -106,7 +106,7 @@ def test_a_material_script_that_is_a_pipe_is_left_out(folder: Path) -> None:
     "text",
     ["<xacro:include filename='pipe.dae'/>", "<link name=\"${xacro.load_yaml('pipe.dae')}\"/>"],
 )
-def test_what_a_xacro_names_is_a_file(folder: Path, text: str) -> None:
+def test_irregular_files_named_in_a_xacro_are_refused(folder: Path, text: str) -> None:
     path = folder / "r.xacro"
     path.write_text(XACRO.format(text))
 
@@ -132,7 +132,7 @@ def test_a_model_config_is_read_as_leniently_as_sdf(tmp_path: Path) -> None:
     assert "model.config:2: warning: not well-formed XML: " in report.warnings[0]
 
 
-class TestThePipeOfACommandLine:
+class TestPipeOnTheCommandLine:
     """`trundle check <(xacro robot.xacro)` names a pipe."""
 
     @pytest.fixture
@@ -146,7 +146,7 @@ class TestThePipeOfACommandLine:
         yield f"/dev/fd/{ours}"
         os.close(ours)
 
-    def test_it_is_read_once_and_its_relative_uris_start_where_the_user_is(
+    def test_it_is_read_once_and_relative_uris_start_in_the_working_directory(
         self, pipe: str, capsys: pytest.CaptureFixture[str]
     ) -> None:
         assert main(["check", pipe]) == 0
@@ -154,7 +154,7 @@ class TestThePipeOfACommandLine:
         assert "<pipe>:2: warning: <oops>" in printed
         assert "a world (SDF 1.6): 1 models, 1 links" in printed
 
-    def test_standard_input_is_one_by_its_name_too(
+    def test_a_pipe_on_standard_input_is_read(
         self, pipe: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ) -> None:
         with open(pipe) as stdin:
@@ -162,7 +162,7 @@ class TestThePipeOfACommandLine:
             assert main(["check", "-"]) == 0
         assert "<stdin>:2: warning: <oops>" in capsys.readouterr().out
 
-    def test_one_that_nothing_writes_to_ends_with_a_sentence(
+    def test_a_pipe_without_a_writer_ends_with_an_error(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ) -> None:
         monkeypatch.setattr("trundle.files._TIMEOUT_S", 0.01)
@@ -171,7 +171,7 @@ class TestThePipeOfACommandLine:
         assert main(["check", str(tmp_path / "robot.urdf")]) == 1
         assert "cannot be read: no end of the stream within 0.01 s" in capsys.readouterr().out
 
-    def test_a_xacro_comes_through_one(self, capfd: pytest.CaptureFixture[str]) -> None:
+    def test_a_xacro_is_read_from_a_pipe(self, capfd: pytest.CaptureFixture[str]) -> None:
         ours, theirs = os.pipe()
         with os.fdopen(theirs, "w") as writer:
             writer.write(XACRO.format("<xacro:property name='x' value='7'/><link name='${x}'/>"))

@@ -66,7 +66,7 @@ def test_colours_come_from_the_first_pass() -> None:
     assert surface.texture_scale == (5.0, 5.0)
 
 
-def test_a_child_keeps_what_it_does_not_say_again() -> None:
+def test_a_child_inherits_what_it_does_not_override() -> None:
     surface = surfaces(PLAIN)["Box/Two words"]
     assert surface.diffuse == (1.0, 0.0, 0.0, 1.0)
     assert surface.ambient == (0.1, 0.2, 0.3, 1.0)
@@ -82,7 +82,7 @@ def test_a_child_may_swap_the_texture_by_its_alias() -> None:
     assert surfaces(text)["A"].texture == "a.png"
 
 
-def test_ancestors_that_go_in_a_ring_end() -> None:
+def test_cyclic_inheritance_is_stopped() -> None:
     text = "material A : B { technique { pass { diffuse 0 0 0 } } }\nmaterial B : A { }"
     assert surfaces(text)["B"].diffuse == (0.0, 0.0, 0.0, 1.0)
 
@@ -121,7 +121,7 @@ def test_a_visual_takes_colours_and_texture_from_the_script_it_names(tmp_path: P
     assert report.findings == []
 
 
-def test_what_the_visual_says_itself_wins(tmp_path: Path) -> None:
+def test_colours_of_the_visual_override_the_script(tmp_path: Path) -> None:
     material, _ = sdf(
         tmp_path, "<uri>materials/scripts</uri><name>Box/Plain</name>", extra="<diffuse>1 1 1 1</diffuse>"
     )
@@ -140,7 +140,7 @@ def test_a_script_that_cannot_be_read_is_named_and_the_rest_goes_on(tmp_path: Pa
     assert second.endswith("this material script is left out")
 
 
-def test_the_image_of_pbr_colours_the_visual_and_the_rest_of_it_is_named(tmp_path: Path) -> None:
+def test_the_albedo_map_of_pbr_is_used_and_the_rest_is_reported(tmp_path: Path) -> None:
     metal = "<metal><albedo_map>materials/textures/wood.png</albedo_map><roughness>1</roughness></metal>"
     material, report = sdf(tmp_path, "<uri>materials/scripts</uri><name>Box/Plain</name>", extra=f"<pbr>{metal}</pbr>")
     assert material.texture == tmp_path / "materials/textures/wood.png"
@@ -156,7 +156,7 @@ def test_the_image_of_pbr_colours_the_visual_and_the_rest_of_it_is_named(tmp_pat
     assert report.warnings[0].endswith(f": no such file {image}; the texture is left out")
 
 
-def test_a_name_that_no_script_has_is_grey(tmp_path: Path) -> None:
+def test_an_unknown_material_name_is_grey(tmp_path: Path) -> None:
     material, report = sdf(tmp_path, "<uri>materials/scripts</uri><name>Box/Lost</name>")
     assert material == GREY
     assert any("no material 'Box/Lost'; grey is used" in warning for warning in report.warnings)
@@ -175,7 +175,7 @@ def test_a_texture_that_is_not_there_is_named_at_the_scripts_line(tmp_path: Path
     assert "box.material:4: warning: no texture 'wood.png'" in warning
 
 
-def test_scripts_of_a_resource_folder_are_in_reach_without_a_uri(tmp_path: Path) -> None:
+def test_scripts_of_a_resource_folder_are_found_without_a_uri(tmp_path: Path) -> None:
     media = tmp_path / "media/materials/scripts"
     media.mkdir(parents=True)
     (media / "own.material").write_text("material Own/Blue { technique { pass { diffuse 0 0 1 } } }")
@@ -193,7 +193,7 @@ def test_scripts_of_a_resource_folder_are_in_reach_without_a_uri(tmp_path: Path)
 
 @pytest.mark.slow
 def test_every_published_script_is_read(shared: Path) -> None:
-    """71 scripts of the collection: names, parents and colours, and nothing refused."""
+    """All 71 scripts of the collection: names, parents and colours; none is refused."""
     count = 0
     for path in sorted((shared / "corpus/repos").rglob("*.material")):
         top = parse_script(path.read_text(errors="replace"), name=str(path))

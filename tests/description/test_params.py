@@ -47,7 +47,7 @@ def test_elements_are_added_modified_replaced_and_removed(tmp_path: Path) -> Non
     assert report.warnings == []
 
 
-def test_a_part_of_a_part_can_be_removed(tmp_path: Path) -> None:
+def test_a_nested_element_can_be_removed(tmp_path: Path) -> None:
     arm, report = changed(
         tmp_path,
         '<link element_id="upper"><inertial action="remove"><mass/></inertial>'
@@ -59,7 +59,7 @@ def test_a_part_of_a_part_can_be_removed(tmp_path: Path) -> None:
     assert report.warnings == []
 
 
-def test_what_cannot_be_done_is_named_where_it_stands(tmp_path: Path) -> None:
+def test_an_impossible_change_is_reported_with_its_line(tmp_path: Path) -> None:
     _, report = changed(
         tmp_path,
         '<visual element_id="upper::lost" action="remove"/>\n'
@@ -79,13 +79,13 @@ def test_what_cannot_be_done_is_named_where_it_stands(tmp_path: Path) -> None:
     ]
 
 
-def test_what_is_wrong_with_something_added_is_told_where_it_was_written(tmp_path: Path) -> None:
+def test_a_fault_in_an_added_element_is_reported_with_its_own_line(tmp_path: Path) -> None:
     _, report = changed(tmp_path, '<link element_id="lower"><gravity action="add">maybe</gravity></link>')
 
     assert report.warnings[0].startswith(f"{tmp_path}/x.sdf:3: warning: <gravity>: 'maybe' is neither true nor false")
 
 
-def test_an_attribute_whose_prefix_nobody_declared_is_left_out(tmp_path: Path) -> None:
+def test_an_attribute_with_an_undeclared_prefix_is_left_out(tmp_path: Path) -> None:
     arm, report = changed(
         tmp_path,
         '<visual element_id="upper::skin" action="modify" my::a="1">\n<transparency my:a="1">0.25</transparency>'

@@ -50,7 +50,7 @@ def test_its_joints_are_where_gazebo_has_them(rp2w: LoadedDescription, shared: P
         assert joint.axis.friction == theirs["friction"]
 
 
-def test_what_is_written_is_kept_for_physics_to_mend(rp2w: LoadedDescription) -> None:
+def test_values_are_kept_as_written(rp2w: LoadedDescription) -> None:
     (model,) = rp2w.world.models
 
     assert model.link("chassis").inertial.moments == (1.0, 1.0, 1.0)
@@ -63,7 +63,7 @@ def test_what_is_written_is_kept_for_physics_to_mend(rp2w: LoadedDescription) ->
 
 
 def test_the_smartcar_expands_as_it_did_with_its_own_xacro(smartcar_file: Path, shared: Path) -> None:
-    """Its macros are called without the prefix xacro:, which today's xacro copies to the output without a word."""
+    """Its macros are called without the prefix xacro:, which today's xacro copies to the output without a warning."""
     packages = Packages({"ROS_PACKAGE_PATH": str(shared / "seeds")}, start=smartcar_file)
     report = Diagnostics()
 

@@ -1,4 +1,4 @@
-"""Attributes without which Gazebo refuses a file; here they are warned of."""
+"""Attributes without which Gazebo refuses a file; here their absence is a warning."""
 
 from pathlib import Path
 
@@ -48,14 +48,14 @@ def test_a_missing_attribute_is_named(tmp_path: Path, body: str, tag: str, attri
     ],
 )
 def test_an_empty_attribute_is_named(tmp_path: Path, body: str, tag: str, attribute: str) -> None:
-    """Param::SetFromString of libsdformat 9.9.1: an empty string used when setting a required parameter."""
+    """The rule is Param::SetFromString's of libsdformat 9.9.1: a required parameter must not be an empty string."""
     said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
 
     assert said == [f"<{tag}> with an empty {attribute!r}; Gazebo refuses the whole file"]
 
 
-def test_what_needs_none_is_not_named(tmp_path: Path) -> None:
-    """Tags of the same name elsewhere, and plugins since SDF 1.10."""
+def test_elements_without_required_attributes_are_not_reported(tmp_path: Path) -> None:
+    """Cases: elements of the same name elsewhere, and plugins since SDF 1.10."""
     inside = '<plugin filename="p"><light/><plugin/></plugin>'
     contact = '<sensor name="s" type="contact"><contact><collision>c</collision></contact></sensor>'
     joint = (
@@ -67,7 +67,7 @@ def test_what_needs_none_is_not_named(tmp_path: Path) -> None:
     assert warnings(tmp_path, f'<sdf version="1.10">{text}</sdf>') == []
 
 
-def test_an_included_file_and_a_gazebo_block_are_looked_through(tmp_path: Path) -> None:
+def test_included_files_and_gazebo_blocks_are_checked_too(tmp_path: Path) -> None:
     (tmp_path / "part.sdf").write_text(f'<sdf version="1.7"><model name="m">{LINK}<plugin name="p"/></model></sdf>')
     world = '<sdf version="1.7"><world name="w"><include><uri>part.sdf</uri></include></world></sdf>'
     urdf = f'<robot name="r"><link name="l">{BODY}</link><gazebo><plugin name="p"/></gazebo></robot>'
@@ -77,7 +77,7 @@ def test_an_included_file_and_a_gazebo_block_are_looked_through(tmp_path: Path) 
     assert warnings(tmp_path, urdf, "r.urdf") == [expected]
 
 
-def test_the_root_of_sdf_1_2_is_one_that_gazebo_refuses(tmp_path: Path) -> None:
+def test_the_root_element_of_sdf_1_2_is_reported_as_gazebo_refuses_it(tmp_path: Path) -> None:
     (said,) = warnings(tmp_path, f'<gazebo version="1.2"><model name="m">{LINK}</model></gazebo>')
 
     assert said == "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>"

@@ -57,7 +57,7 @@ def sdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Pat
 
 
 def urdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Path, LoadedDescription]]:
-    """Expanded, as the corpus has them, each once."""
+    """Files as the corpus expanded them, each once."""
     rows: dict[str, Any] = {
         row["sha"]: row for row in json.loads((shared / "corpus/manifest.json").read_text())["urdf"]
     }
@@ -81,28 +81,28 @@ def same_through_sdf(files: Iterator[tuple[Path, LoadedDescription]], packages: 
     return count
 
 
-def test_a_sample_of_sdf_files_reads_back_as_it_was(shared: Path, packages: Packages) -> None:
+def test_a_sample_of_sdf_files_round_trips(shared: Path, packages: Packages) -> None:
     assert same_through_sdf(sdf_files(shared, packages, 20), packages) > 40
 
 
-def test_a_sample_of_urdf_files_reads_back_as_it_was(shared: Path, packages: Packages) -> None:
+def test_a_sample_of_urdf_files_round_trips(shared: Path, packages: Packages) -> None:
     assert same_through_sdf(urdf_files(shared, packages, 20), packages) > 5
 
 
 @pytest.mark.slow
-def test_every_sdf_file_reads_back_as_it_was(shared: Path, packages: Packages) -> None:
+def test_every_sdf_file_round_trips(shared: Path, packages: Packages) -> None:
     assert same_through_sdf(sdf_files(shared, packages, 1), packages) > 840
 
 
 @pytest.mark.slow
-def test_every_urdf_file_reads_back_as_it_was(shared: Path, packages: Packages) -> None:
+def test_every_urdf_file_round_trips(shared: Path, packages: Packages) -> None:
     assert same_through_sdf(urdf_files(shared, packages, 1), packages) > 150
 
 
 def places(model: Model, left_out: set[str]) -> list[tuple[str, Pose]]:
     """Poses of every mass, visual, sensor and joint in the first link's frame, which a URDF keeps.
 
-    Visuals are matched by order, as the conversion of a URDF renames them; what is missing cannot be written.
+    Visuals are matched by order, as the conversion of a URDF renames them; missing ones cannot be written.
     """
     found: list[tuple[str, Pose]] = []
     first = model.links[0].model_from_link.inverse()
@@ -118,7 +118,7 @@ def places(model: Model, left_out: set[str]) -> list[tuple[str, Pose]]:
 
 
 def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | None:
-    """Poses that differ after a model was written as URDF; None: no URDF can hold it."""
+    """Poses that differ after a model was written as URDF; None: URDF cannot express it."""
     report = Diagnostics()
     try:
         text = write_urdf(model, uri_of=written_uri, report=report)
@@ -133,8 +133,8 @@ def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | 
 
 
 @pytest.mark.slow
-def test_what_a_urdf_can_hold_keeps_its_place_in_one(shared: Path, packages: Packages) -> None:
-    """Models of the database, and every converted URDF."""
+def test_models_written_as_urdf_keep_their_poses(shared: Path, packages: Packages) -> None:
+    """Cases: models of the database, and every converted URDF."""
     database = (each for each in sdf_files(shared, packages, 1) if "osrf+gazebo_models" in str(each[0]))
     count = 0
     for path, loaded in (*database, *urdf_files(shared, packages, 1)):

@@ -80,7 +80,7 @@ def test_what_is_not_supported_is_named_with_its_line(tmp_path: Path) -> None:
     ]
 
 
-def test_a_bad_number_falls_back_aloud(tmp_path: Path) -> None:
+def test_a_bad_number_is_replaced_by_the_default_with_a_warning(tmp_path: Path) -> None:
     report = Diagnostics()
 
     model = sdf(tmp_path, "1.6", '<link name="a"><inertial><mass>heavy</mass></inertial></link>', report)
@@ -127,7 +127,7 @@ def test_a_fixed_joint_lumps_its_links_by_the_parallel_axis_theorem(tmp_path: Pa
     assert link.inertial.moments == pytest.approx((2.0, 6.0, 6.0))
 
 
-def test_sensors_of_lumped_links_are_told_apart_and_those_of_lumped_joints_named(tmp_path: Path) -> None:
+def test_sensors_of_lumped_links_get_distinct_names_and_those_of_lumped_joints_a_warning(tmp_path: Path) -> None:
     report = Diagnostics()
     eyes = "".join(
         f'<gazebo reference="{link}"><sensor name="eye" type="imu"><pose>0 0 1 0 0 0</pose></sensor></gazebo>'
@@ -145,7 +145,7 @@ def test_sensors_of_lumped_links_are_told_apart_and_those_of_lumped_joints_named
     assert "<sensor> for 'weld' in <gazebo> is for a fixed joint that is lumped (<preserveFixedJoint>" in lumped
 
 
-def test_cameras_of_one_name_are_told_apart(tmp_path: Path) -> None:
+def test_cameras_with_the_same_name_get_distinct_names(tmp_path: Path) -> None:
     report = Diagnostics()
     both = '<camera name="c"/><camera name="c"/>'
     model = sdf(tmp_path, "1.6", f'<link name="l"><sensor name="s" type="multicamera">{both}</sensor></link>', report)
@@ -155,7 +155,7 @@ def test_cameras_of_one_name_are_told_apart(tmp_path: Path) -> None:
     assert warning.endswith("a second camera 'c'; it is renamed 'c_1'")
 
 
-def test_a_joint_that_tells_what_it_carries_is_nothing_to_remark(tmp_path: Path) -> None:
+def test_provide_feedback_of_a_joint_gives_no_warning(tmp_path: Path) -> None:
     """A <provideFeedback> changes nothing: every joint's load can be read."""
     report = Diagnostics()
     joint = HINGE.format("", "").replace(
@@ -166,7 +166,7 @@ def test_a_joint_that_tells_what_it_carries_is_nothing_to_remark(tmp_path: Path)
     assert not [each for each in report.findings if "<physics>" in str(each)]
 
 
-def test_a_link_without_mass_falls_away_with_all_below_it(tmp_path: Path) -> None:
+def test_a_link_without_mass_is_left_out_with_its_child_links(tmp_path: Path) -> None:
     report = Diagnostics()
     more = (
         '<link name="ghost"/><link name="tip"><inertial><mass value="1"/>'
@@ -196,7 +196,7 @@ def test_a_link_without_mass_falls_away_with_all_below_it(tmp_path: Path) -> Non
         ),
     ],
 )
-def test_a_urdf_that_is_no_tree_is_refused_with_what_is_wrong(tmp_path, more, sentence) -> None:
+def test_a_urdf_that_is_not_a_tree_is_refused_with_the_reason(tmp_path, more, sentence) -> None:
     with pytest.raises(DescriptionError) as error:
         read(tmp_path, URDF.format(more), name="r.urdf")
 
@@ -212,7 +212,7 @@ def expand(folder: Path, body: str, report: Diagnostics | None = None, **argumen
     return expand_xacro(path, arguments, packages=Packages({}, start=path), report=report or Diagnostics())
 
 
-def test_bare_macros_of_indigo_are_expanded_and_said(tmp_path: Path) -> None:
+def test_bare_macros_of_indigo_are_expanded_with_a_warning(tmp_path: Path) -> None:
     report = Diagnostics()
 
     text = expand(tmp_path, '<macro name="wheel" params="n"><link name="${n}"/></macro><wheel n="left"/>', report)
@@ -238,14 +238,14 @@ def test_plain_xml_of_a_core_tag_s_name_is_left_alone(tmp_path: Path) -> None:
     ).replace(" ", "")
 
 
-def test_a_length_may_be_asked_for_the_long_way(tmp_path: Path) -> None:
-    """As xArm's description does of its serial number; xacro allowed it until 1.13.13."""
+def test_a_length_may_be_read_by_dunder_len(tmp_path: Path) -> None:
+    """xArm's description does this with its serial number; xacro allowed it until 1.13.13."""
     assert '<link name="3"/>' in expand(tmp_path, """<link name="${'abc'.__len__()}"/>""")
     with pytest.raises(DescriptionError, match="Use of invalid name"):
         expand(tmp_path, """<link name="${'abc'.__len__.__self__}"/>""")
 
 
-def test_arguments_reach_the_file_and_do_not_stay(tmp_path: Path) -> None:
+def test_arguments_apply_to_one_file_only(tmp_path: Path) -> None:
     body = '<xacro:arg name="n" default="a"/><link name="$(arg n)"/>'
 
     assert 'name="b"' in expand(tmp_path, body, n="b")
@@ -262,7 +262,7 @@ def test_arguments_reach_the_file_and_do_not_stay(tmp_path: Path) -> None:
         ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', "infinite recursion"),
     ],
 )
-def test_what_xacro_refuses_is_one_sentence(tmp_path, body, words) -> None:
+def test_faults_that_xacro_refuses_are_one_error(tmp_path, body, words) -> None:
     with pytest.raises(DescriptionError, match=words) as error:
         expand(tmp_path, body)
 
@@ -295,7 +295,7 @@ def test_sdf_1_0_writes_values_as_attributes(tmp_path: Path) -> None:
 
 
 def test_gazebo_tags_may_have_a_value_attribute_in_place_of_text(tmp_path: Path) -> None:
-    """As in the urdf tutorials; sdformat reads both."""
+    """The urdf tutorials write it so; sdformat reads both."""
     text = """<robot name="r"><link name="a"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
 <collision><geometry><sphere radius="1"/></geometry></collision></link>
@@ -312,7 +312,7 @@ def test_gazebo_tags_may_have_a_value_attribute_in_place_of_text(tmp_path: Path)
     assert report.warnings == []
 
 
-def test_a_plugin_on_a_link_that_was_lumped_means_the_lump_and_an_offset(tmp_path: Path) -> None:
+def test_a_plugin_of_a_lumped_link_gets_the_merged_link_and_an_offset(tmp_path: Path) -> None:
     text = """<robot name="r"><link name="base"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="imu_link"/>
 <joint name="j" type="fixed"><parent link="base"/><child link="imu_link"/>
@@ -332,7 +332,7 @@ def test_a_plugin_on_a_link_that_was_lumped_means_the_lump_and_an_offset(tmp_pat
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 
 
-def test_what_is_said_of_a_link_that_was_lumped_goes_for_the_lump(tmp_path: Path) -> None:
+def test_a_gazebo_block_of_a_lumped_link_applies_to_the_merged_link(tmp_path: Path) -> None:
     text = f"""<robot name="r"><link name="base">{BODY}</link><link name="eye"/>
 <joint name="j" type="fixed"><parent link="base"/><child link="eye"/></joint>
 <gazebo reference="base"><selfCollide>false</selfCollide><dampingFactor>0.1</dampingFactor></gazebo>
@@ -346,8 +346,8 @@ def test_what_is_said_of_a_link_that_was_lumped_goes_for_the_lump(tmp_path: Path
     assert report.warnings == []
 
 
-def test_a_link_in_a_gazebo_block_for_the_robot_is_a_body_beside_the_tree(tmp_path: Path) -> None:
-    """The PR2 closes the four-bar linkage of its gripper so."""
+def test_a_link_in_a_gazebo_block_of_the_robot_is_a_free_body(tmp_path: Path) -> None:
+    """The PR2 closes the four-bar linkage of its gripper this way."""
     bar = "<inertial><mass>0.2</mass></inertial><pose>0 0 3 0 0 0</pose>"
     text = f"""<robot name="r"><link name="base">{BODY}</link><link name="palm"/>
 <joint name="f" type="fixed"><parent link="base"/><child link="palm"/></joint>
@@ -374,10 +374,10 @@ def test_a_link_in_a_gazebo_block_for_the_robot_is_a_body_beside_the_tree(tmp_pa
         ('<link name="world"/><joint name="f" type="fixed"><parent link="world"/><child link="base"/></joint>', "base"),
     ],
 )
-def test_the_model_rides_on_the_link_nearest_the_root_wherever_it_is_written(
+def test_the_canonical_link_is_the_one_nearest_the_root_in_any_order_of_the_file(
     above: str, carrier: str, tmp_path: Path
 ) -> None:
-    """As libsdformat orders the links of all URDFs of the corpus; Jackal's wheels are written before its base."""
+    """libsdformat orders the links of all URDFs of the corpus this way; Jackal's wheels are written before its base."""
     weight = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
     links = "".join(f'<link name="{name}">{weight}</link>' for name in ("wheel", "arm", "base"))
     joints = "".join(
@@ -390,7 +390,7 @@ def test_the_model_rides_on_the_link_nearest_the_root_wherever_it_is_written(
     assert model.canonical_link == carrier
 
 
-def test_a_ring_that_no_joint_leads_to_is_left_out_of_a_urdf(tmp_path: Path) -> None:
+def test_a_loop_of_links_detached_from_the_root_is_left_out(tmp_path: Path) -> None:
     ring = "".join(
         f'<joint name="{parent}{child}" type="fixed"><parent link="{parent}"/><child link="{child}"/></joint>'
         for parent, child in ("bc", "cb")
@@ -405,7 +405,7 @@ def test_a_ring_that_no_joint_leads_to_is_left_out_of_a_urdf(tmp_path: Path) -> 
     assert "links 'b', 'c' form a loop" in report.warnings[0]
 
 
-def test_a_gazebo_block_for_nothing_says_so(tmp_path: Path) -> None:
+def test_a_gazebo_block_with_an_unknown_reference_is_reported(tmp_path: Path) -> None:
     report = Diagnostics()
     text = f'<robot name="r"><link name="a">{BODY}</link><gazebo reference="b"><mu1>1</mu1><x/></gazebo></robot>'
 
@@ -418,8 +418,8 @@ def test_a_gazebo_block_for_nothing_says_so(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["x.sdf", "x.urdf"])
-def test_bytes_of_no_encoding_are_latin_1(tmp_path: Path, name: str) -> None:
-    """TinyXML minded no bytes, and German comments are in many files."""
+def test_bytes_that_are_not_utf_8_are_read_as_latin_1(tmp_path: Path, name: str) -> None:
+    """TinyXML accepted any bytes, and many files have German comments in Latin-1."""
     robot = f'<robot name="r"><!-- Räder --><link name="a">{BODY}</link></robot>'
     text = '<sdf version="1.6"><!-- Räder --><model name="r"><link name="a"/></model></sdf>'
     (tmp_path / name).write_bytes((robot if name == "x.urdf" else text).encode("latin-1"))

@@ -48,7 +48,7 @@ def test_a_row_ends_a_step_before_the_edge_as_in_gazebo(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["random", "uniform"])
-def test_chance_stays_in_the_box_and_comes_from_the_seed(tmp_path: Path, kind: str) -> None:
+def test_random_positions_are_inside_the_box_and_depend_on_the_seed(tmp_path: Path, kind: str) -> None:
     how = f"<model_count>20</model_count><distribution><type>{kind}</type></distribution>"
     body = f"<pose>3 4 5 0 0 0</pose><box><size>2 4 6</size></box>{how}"
 
@@ -69,7 +69,7 @@ def test_a_cylinder_is_filled_from_its_base_up(tmp_path: Path) -> None:
 
 
 def test_an_even_distribution_leaves_no_corner_empty() -> None:
-    """Middles of a square's clusters are about as far from one another as a square grid's."""
+    """The centres of a square's clusters are about as far apart as the points of a square grid."""
     import random
 
     points = [(x / 20, y / 20, 0.0) for x in range(20) for y in range(20)]
@@ -93,7 +93,7 @@ def test_an_even_distribution_leaves_no_corner_empty() -> None:
         ("<distribution><type>grid</type><rows>-2</rows><cols>-2</cols></distribution>", "4 models"),
     ],
 )
-def test_a_population_that_makes_no_sense_is_named(tmp_path: Path, body: str, said: str) -> None:
+def test_an_invalid_population_is_reported(tmp_path: Path, body: str, said: str) -> None:
     report = Diagnostics()
 
     assert population(tmp_path, body, report=report).models == ()
@@ -112,7 +112,7 @@ SAVED = """<model name='arm'><pose>1 0 0 0 0 0</pose><link name='base'><visual n
 <link name='tip'><pose>5 1 1 0 0 1.5707963267948966</pose></link></model></state>"""
 
 
-def test_a_saved_link_keeps_its_place_beside_where_it_was_written(tmp_path: Path) -> None:
+def test_a_saved_link_keeps_its_saved_and_its_written_pose(tmp_path: Path) -> None:
     report = Diagnostics()
 
     world = read(tmp_path, SAVED.format("", ""), report)
@@ -136,7 +136,7 @@ def test_a_saved_link_keeps_its_place_beside_where_it_was_written(tmp_path: Path
     assert start.position == pytest.approx((1, 0, 1))
 
 
-def test_a_saved_link_that_no_joint_holds_is_where_it_was_saved(tmp_path: Path) -> None:
+def test_a_saved_link_without_a_joint_is_placed_at_its_saved_pose(tmp_path: Path) -> None:
     loose = SAVED.replace("<joint name='j' type='ball'><parent>base</parent><child>tip</child></joint>", "")
     for body in (loose, SAVED.replace("<model name='arm'>", "<model name='arm'><static>1</static>", 1)):
         base, tip = read(tmp_path, body.format("", ""), Diagnostics()).models[0].links
@@ -145,7 +145,7 @@ def test_a_saved_link_that_no_joint_holds_is_where_it_was_saved(tmp_path: Path) 
         assert tip.model_from_link.position == pytest.approx((1, 0, 1))
 
 
-def test_a_saved_scale_stretches_what_is_on_the_links(tmp_path: Path) -> None:
+def test_a_saved_scale_applies_to_the_shapes_of_the_links(tmp_path: Path) -> None:
     base = read(tmp_path, SAVED.format("", "<scale>2 3 4</scale>")).models[0].links[0]
     assert base.visuals[0].geometry == Box((2.0, 6.0, 12.0))
     assert base.collisions[0].geometry == Cylinder(3.0, 4.0)
@@ -156,7 +156,7 @@ def test_a_saved_scale_stretches_what_is_on_the_links(tmp_path: Path) -> None:
     assert "needs three numbers > 0" in report.warnings[0]
 
 
-def test_what_was_inserted_is_there_and_can_have_moved(tmp_path: Path) -> None:
+def test_inserted_models_are_added_at_their_saved_poses(tmp_path: Path) -> None:
     added = f"<insertions>{CAN}<light name='lamp' type='point'/></insertions>"
     moved = "<model name='can'><pose>0 0 9 0 0 0</pose></model>"
 
@@ -207,7 +207,7 @@ def test_an_actor_has_its_skin_its_animations_and_its_script(tmp_path: Path) -> 
     assert report.warnings[0].endswith("actor 'walker': no animation 'dancing'; animations here: 'walking'")
 
 
-def test_an_actor_and_a_road_read_back_as_they_were(tmp_path: Path) -> None:
+def test_an_actor_and_a_road_round_trip(tmp_path: Path) -> None:
     (tmp_path / "walk.dae").write_text("")
     first = read(tmp_path, ACTOR + "<road name='way'><point>0 0 0</point><point>1 0 0</point></road>")
     text = write_sdf(first, is_world=True, uri_of=written_uri, report=Diagnostics())
@@ -229,7 +229,7 @@ def test_an_actor_and_a_road_read_back_as_they_were(tmp_path: Path) -> None:
     assert second.roads[0].material == first.roads[0].material
 
 
-def test_a_road_is_drawn_where_it_is_on_whatever_stands_still(tmp_path: Path) -> None:
+def test_a_road_is_drawn_on_static_geometry(tmp_path: Path) -> None:
     ground = "<model name='g'><static>1</static><pose>5 0 1 0 0 1</pose><link name='l'/></model>"
     way = "<road name='way'><point>0 0 0</point><point>1 0 0</point></road>"
     report = Diagnostics()

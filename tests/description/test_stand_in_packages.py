@@ -1,4 +1,4 @@
-"""Packages that describe sensors and are not there: robots that include them are read with ours."""
+"""Stand-ins for missing sensor description packages, as included by robots."""
 
 import math
 from pathlib import Path
@@ -86,7 +86,7 @@ def test_a_scanner_s_macro_builds_its_sensor(
     assert model.links[0].inertial.mass > 5.0
 
 
-def test_a_vlp_16_has_its_lasers_and_stands_on_its_base(tmp_path: Path) -> None:
+def test_a_vlp_16_has_its_lasers_on_its_base(tmp_path: Path) -> None:
     calls = f'<xacro:VLP-16 max_range="40" lasers="8">{ORIGIN}</xacro:VLP-16>'
     model, _ = read(tmp_path, "velodyne_description)/urdf/VLP-16.urdf.xacro", calls)
 
@@ -168,12 +168,12 @@ def test_a_camera_s_macro_builds_its_sensor(
     assert len(report.warnings) == 1
 
 
-def test_a_file_that_a_stand_in_has_not_is_named_with_the_package(tmp_path: Path) -> None:
+def test_a_file_missing_from_a_stand_in_is_named_with_the_package(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError, match=r"no package 'velodyne_description'.*its stand-in has no VLS-128"):
         read(tmp_path, "velodyne_description)/urdf/VLS-128.urdf.xacro", "")
 
 
-def test_the_original_is_taken_where_it_is(tmp_path: Path) -> None:
+def test_an_installed_original_precedes_its_stand_in(tmp_path: Path) -> None:
     urdf = tmp_path / "src/lms1xx/urdf"
     urdf.mkdir(parents=True)
     (tmp_path / "src/lms1xx/package.xml").write_text("<package><name>lms1xx</name></package>")

@@ -17,8 +17,8 @@ def robot(folder: Path, text: str, report: Diagnostics) -> Model:
     return load(str(folder / "r.urdf"), report, packages=Packages({}, start=folder)).world.models[0]
 
 
-def test_what_hangs_on_a_lumped_link_without_mass_falls_away(tmp_path: Path) -> None:
-    """libsdformat 9 and 12 stop at such a link on their way down the tree; its shapes went into the body above."""
+def test_child_links_of_a_lumped_link_without_mass_are_left_out(tmp_path: Path) -> None:
+    """libsdformat 9 and 12 do not descend below such a link; its shapes became part of the parent body."""
     report = Diagnostics()
     text = f"""<robot name="r"><link name="base">{BODY}</link><link name="mount"/><link name="arm">{BODY}</link>
 <link name="heavy"><inertial><mass value="2"/></inertial></link><link name="hand">{BODY}</link>
@@ -36,8 +36,8 @@ def test_what_hangs_on_a_lumped_link_without_mass_falls_away(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(("mass", "links"), [("1e-6", 1), ("2e-6", 2), ("0", 1), ("-1", 1)])
-def test_a_millionth_of_a_kilogram_is_no_mass(tmp_path: Path, mass: str, links: int) -> None:
-    """ignition::math::equal takes it for zero."""
+def test_a_millionth_of_a_kilogram_counts_as_no_mass(tmp_path: Path, mass: str, links: int) -> None:
+    """ignition::math::equal counts it as zero."""
     tip = BODY.replace('mass value="1"', f'mass value="{mass}"')
     text = f"""<robot name="r"><link name="base">{BODY}</link><link name="tip">{tip}</link>
 <joint name="j" type="continuous"><parent link="base"/><child link="tip"/></joint></robot>"""
@@ -45,8 +45,8 @@ def test_a_millionth_of_a_kilogram_is_no_mass(tmp_path: Path, mass: str, links: 
     assert len(robot(tmp_path, text, Diagnostics()).links) == links
 
 
-def test_a_link_is_read_up_to_its_fault_as_by_urdfdom(tmp_path: Path) -> None:
-    """A mass without <inertia> is kept, and nothing after it is read; nor is anything after an invalid shape."""
+def test_a_faulty_link_is_read_up_to_its_fault_as_by_urdfdom(tmp_path: Path) -> None:
+    """A mass without <inertia> is kept; the rest of the link is not read, nor is anything after an invalid shape."""
     report = Diagnostics()
     ball, none = ("<geometry><sphere radius='1'/></geometry>", "<geometry><cone/></geometry>")
     text = f"""<robot name="r"><link name="base"><visual>{ball}</visual>
@@ -81,7 +81,7 @@ def test_a_link_is_read_up_to_its_fault_as_by_urdfdom(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_urdfdom_refuses_is_read_with_a_warning(
+def test_faults_that_urdfdom_refuses_are_read_with_a_warning(
     tmp_path: Path, attributes: str, inside: str, warning: str
 ) -> None:
     report = Diagnostics()

@@ -1,4 +1,4 @@
-"""Images on the visuals of a URDF: Gazebo drops them, rviz and we draw them."""
+"""Textures of URDF visuals: Gazebo ignores them, rviz and Trundle draw them."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ BOX = '<geometry><box size="1 1 1"/></geometry>'
 
 
 def robot(folder: Path, *visuals: str) -> Path:
-    """With a green picture beside it."""
+    """A URDF file with a green picture beside it."""
     Image.new("RGB", (4, 4), (0, 255, 0)).save(folder / "green.png")
     inside = "".join(f"<visual>{BOX}{visual}</visual>" for visual in visuals)
     file = folder / "r.urdf"

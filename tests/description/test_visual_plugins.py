@@ -35,7 +35,7 @@ def plugins(loaded: LoadedDescription) -> dict[str, list[str]]:
     return {visual.name: [plugin.node.xml() for plugin in visual.plugins] for visual in visuals(loaded)}
 
 
-def test_a_visual_of_sdf_keeps_its_plugins_and_its_label() -> None:
+def test_an_sdf_visual_keeps_its_plugins_and_its_label() -> None:
     loaded = read(SDF)
     assert plugins(loaded) == {"v": [DRAW], "bare": []}
     assert visuals(loaded)[0].label == 7
@@ -45,8 +45,8 @@ def test_a_visual_of_sdf_keeps_its_plugins_and_its_label() -> None:
     assert visuals(again)[0].label == 7
 
 
-def test_a_link_s_visual_block_goes_on_each_of_its_own_visuals() -> None:
-    """As libsdformat merges it, lumped or not; the calf's visual gets none of the foot's."""
+def test_a_link_s_visual_block_applies_to_each_of_its_own_visuals() -> None:
+    """libsdformat merges it this way, lumped or not; the calf's visual gets none of the foot's."""
     report = Diagnostics()
     loaded = read(URDF, report)
 
@@ -61,7 +61,7 @@ def test_a_link_s_visual_block_goes_on_each_of_its_own_visuals() -> None:
     assert report.warnings == ["<stdin>:3: warning: <shine> in <visual> is not supported; it is ignored"]
 
 
-def test_a_urdf_that_is_written_has_a_link_s_plugins_once() -> None:
+def test_a_written_urdf_has_the_plugins_of_a_link_once() -> None:
     report = Diagnostics()
     (model,) = read(SDF).world.models
 

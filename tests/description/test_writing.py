@@ -31,7 +31,7 @@ def sdf_of(loaded: LoadedDescription, report: Diagnostics | None = None) -> str:
 
 
 def same(a: Any, b: Any, key: str = "") -> bool:
-    """Equal but for 1e-9 of rounding; poses by their quaternions, since roll and yaw may share a turn as they like."""
+    """Equal within 1e-9; poses are compared by quaternions, since roll and yaw are ambiguous at pitch ±90°."""
     if key in ("pose", "inertial_pose"):
         turns = [quaternion_from_rpy(*each[3:]) for each in (a, b)]
         turned = min(math.dist(turns[0], turns[1]), math.dist(turns[0], [-v for v in turns[1]]))
@@ -90,7 +90,7 @@ RICH = """<sdf version="1.9"><world name="w">
 </world></sdf>"""
 
 
-def test_a_world_of_everything_reads_back_as_it_was() -> None:
+def test_a_world_with_every_element_round_trips() -> None:
     first = read(RICH)
     report = Diagnostics()
     text = sdf_of(first, report)
@@ -112,7 +112,7 @@ def test_a_world_of_everything_reads_back_as_it_was() -> None:
 
 
 @given(st.lists(st.floats(-4, 4), min_size=6, max_size=6), st.sampled_from([None, math.pi / 2, -math.pi / 2]))
-def test_any_pose_reads_back_as_it_was(numbers: list[float], pitch: float | None) -> None:
+def test_any_pose_round_trips(numbers: list[float], pitch: float | None) -> None:
     if pitch is not None:
         numbers[4] = pitch
     pose = Pose.from_rpy(*numbers)
@@ -128,7 +128,7 @@ def test_any_pose_reads_back_as_it_was(numbers: list[float], pitch: float | None
 
 
 @given(st.text(alphabet=st.characters(min_codepoint=0x20, max_codepoint=0x2FF), min_size=1))
-def test_any_name_reads_back_as_it_was(name: str) -> None:
+def test_any_name_round_trips(name: str) -> None:
     tag = Tag("robot", {"name": name})
     tag.add("x", name)
 
@@ -184,7 +184,7 @@ def urdf_of(model: Model, report: Diagnostics | None = None) -> str:
     return write_urdf(model, uri_of=written_uri, report=report or Diagnostics())
 
 
-def test_everything_stays_in_its_place_in_a_urdf() -> None:
+def test_poses_are_kept_in_a_urdf() -> None:
     before = read(CART).world.models[0]
     loaded = read(urdf_of(before))
     after = loaded.world.models[0]
@@ -219,12 +219,12 @@ def test_everything_stays_in_its_place_in_a_urdf() -> None:
         (("<parent>wheel</parent>", "<parent>base</parent><child>wheel</child>"), "link 'wheel' has 2 parents"),
     ],
 )
-def test_what_is_no_tree_of_urdfs_joints_is_refused_with_the_reason(change: tuple[str, str], said: str) -> None:
+def test_models_that_urdf_cannot_express_are_refused_with_the_reason(change: tuple[str, str], said: str) -> None:
     with pytest.raises(DescriptionError, match=said):
         urdf_of(read(CART.replace(*change)).world.models[0])
 
 
-def test_a_shape_that_urdf_has_not_is_named() -> None:
+def test_a_shape_that_urdf_does_not_support_is_reported() -> None:
     report = Diagnostics()
     urdf_of(read(CART.replace("<sphere><radius>0.5</radius></sphere>", "<capsule/>")).world.models[0], report)
     (warning,) = report.warnings

@@ -1,4 +1,4 @@
-"""Commands of <param command> run without a shell; xacro never leaves the process."""
+"""Commands of <param command> run without a shell; xacro runs inside the process."""
 
 import os
 import sys
@@ -45,7 +45,7 @@ PYTHON = sys.executable
         "rosrun xacro xacro.py",
     ],
 )
-def test_xacro_is_expanded_in_process_wherever_it_is_meant_to_live(program: str) -> None:
+def test_xacro_is_expanded_in_process_under_any_path(program: str) -> None:
     assert resolve(f"{program} '/a b/c.xacro' gui:=true") == "/a b/c.xacro {'gui': 'true'}"
 
 
@@ -95,7 +95,7 @@ def test_a_command_that_hangs_is_ended() -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="sessions are POSIX's")
-def test_who_waits_for_a_slow_command_is_told(
+def test_waiting_for_a_slow_command_prints_a_message(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("trundle.launch.run_command._QUIET_S", 0.01)
@@ -105,7 +105,7 @@ def test_who_waits_for_a_slow_command_is_told(
     assert capfd.readouterr().err == f"still waiting for command {PYTHON!r}, 60 s at most\n"
 
 
-def test_what_a_killed_command_left_behind_may_go_on_writing(tmp_path: Path) -> None:
+def test_child_processes_of_a_killed_command_may_go_on_writing(tmp_path: Path) -> None:
     """A daemon holds the output open and writes after the reader has gone."""
     daemon = tmp_path / "daemon.py"
     daemon.write_text("import time\ntime.sleep(4)\nprint('late', flush=True)\ntime.sleep(1)\n")
@@ -134,6 +134,6 @@ def test_a_null_parameter_is_named() -> None:
     assert "'/a' is null" in report.warnings[0]
 
 
-def test_what_a_command_says_beside_its_value_is_passed_on(capfd: pytest.CaptureFixture[str]) -> None:
+def test_stderr_of_a_command_is_passed_on(capfd: pytest.CaptureFixture[str]) -> None:
     assert resolve(f"{PYTHON} -c 'import sys; print(3, file=sys.stderr); print(4)'") == 4
     assert capfd.readouterr().err == "3\n"

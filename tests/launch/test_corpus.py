@@ -30,7 +30,7 @@ def published(shared: Path) -> list[Case]:
 
 
 @pytest.mark.slow
-def test_what_roslaunch_accepts_means_the_same(published: list[Case]) -> None:
+def test_files_that_roslaunch_accepts_give_the_same_plan(published: list[Case]) -> None:
     accepted = [case for case in published if case.row["accept"]]
     assert len(accepted) == 507
 
@@ -47,8 +47,8 @@ def test_what_roslaunch_accepts_means_the_same(published: list[Case]) -> None:
 
 
 @pytest.mark.slow
-def test_what_roslaunch_refuses_is_refused_for_the_same_reason(published: list[Case]) -> None:
-    """Commands run later: files that fail only in one of theirs are read."""
+def test_files_that_roslaunch_refuses_are_refused_for_the_same_reason(published: list[Case]) -> None:
+    """Commands run later: a file in which only a command fails is read without an error."""
     wrong: dict[str, str] = {}
     refused = [case for case in published if not case.row["accept"]]
     for case in refused:

@@ -26,7 +26,9 @@ def asked(plan: LaunchPlan) -> tuple[object, ...]:
         ("elevator", {"gui": "false", "use_sim_time": "false", "debug": "true", "verbose": "false"}),
     ],
 )
-def test_a_world_asks_for_the_same(shared: Path, name: str, arguments: dict[str, str]) -> None:
+def test_each_world_launch_file_has_the_plan_of_the_original(
+    shared: Path, name: str, arguments: dict[str, str]
+) -> None:
     originals = shared / "corpus/repos/ros-simulation+gazebo_ros_pkgs"
     ours = Packages({}, start=Path("/nonexistent")).find_package("gazebo_ros")
     theirs = Packages({"ROS_PACKAGE_PATH": str(originals)}, start=originals).find_package("gazebo_ros")

@@ -1,4 +1,4 @@
-"""Reading any launch file ends in a plan or a sentence."""
+"""Reading any launch file gives a plan or an error."""
 
 import contextlib
 from pathlib import Path
@@ -12,7 +12,7 @@ from trundle.launch import LaunchPlan, read_launch, read_launch_text
 
 
 class OnePackage:
-    """Every package is the same folder."""
+    """Package finder that returns the same folder for every name."""
 
     def find_folder(self, name: str, /) -> Path | None:
         return Path(__file__).parent if name == "p" else None
@@ -51,7 +51,7 @@ def _elements(draw: st.DrawFn, depth: int = 0) -> str:
 
 @given(st.lists(_elements(), max_size=5))
 @settings(max_examples=150)
-def test_anything_becomes_a_plan_or_a_sentence(elements: list[str]) -> None:
+def test_any_file_becomes_a_plan_or_an_error(elements: list[str]) -> None:
     text = f'<launch><arg name="a" default="1"/>{"".join(elements)}</launch>'
     with contextlib.suppress(DescriptionError):
         read_launch_text(text, name="t.launch", packages=OnePackage(), report=Diagnostics(), env={"HOME": "/h"})
@@ -69,7 +69,7 @@ def test_anything_becomes_a_plan_or_a_sentence(elements: list[str]) -> None:
         '<rosparam file="/dev/zero"/>',
     ],
 )
-def test_what_python_itself_refuses_is_refused_in_a_sentence(body: str) -> None:
+def test_expressions_that_python_refuses_are_refused_with_an_error(body: str) -> None:
     with pytest.raises(DescriptionError, match=r"t\.launch:1: error: "):
         read_launch_text(f"<launch>{body}</launch>", name="t.launch", packages=OnePackage(), report=Diagnostics())
 

@@ -110,7 +110,7 @@ def _read(words: list[str], env: dict[str, str]) -> list[Any] | None:
 
 
 @pytest.mark.real_ros
-def test_each_is_read_as_roslaunch_reads_it(files: dict[str, list[str]], package: Path) -> None:
+def test_each_file_is_read_as_by_roslaunch(files: dict[str, list[str]], package: Path) -> None:
     if not Path("/usr/bin/roslaunch").exists():
         pytest.skip("Debian's roslaunch is not installed (make system)")
     env = _env(package)
@@ -130,8 +130,8 @@ def test_each_is_read_as_roslaunch_reads_it(files: dict[str, list[str]], package
     assert "\n".join(differences) == ""
 
 
-def test_what_is_wrong_is_refused_with_its_place(files: dict[str, list[str]], package: Path) -> None:
-    """Without a roslaunch beside it, too; a DescriptionError names file and line."""
+def test_faults_are_refused_with_file_and_line(files: dict[str, list[str]], package: Path) -> None:
+    """Faults are refused without a reference roslaunch, too; the DescriptionError names file and line."""
     refused = [line for line, words in files.items() if _read(words, _env(package)) is None]
 
     assert len(refused) > 80

@@ -17,7 +17,7 @@ def read(file: Path, text: str) -> LaunchPlan:
 
 
 @pytest.mark.parametrize(("name", "language"), [("a.launch.py", "in Python"), ("a.launch.yaml", "in YAML")])
-def test_a_file_in_another_language_is_one_of_ros_2(tmp_path: Path, name: str, language: str) -> None:
+def test_launch_files_in_python_or_yaml_are_reported_as_ros_2(tmp_path: Path, name: str, language: str) -> None:
     what = f"{name}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported"
     with pytest.raises(DescriptionError, match=f"{re.escape(what)}$"):
         read(tmp_path / name, "def generate_launch_description(): ...")
@@ -61,9 +61,7 @@ def test_commands_that_take_no_launch_file_say_the_same(
     assert capsys.readouterr().out.startswith(said)
 
 
-def test_xml_of_ros_2_is_none_to_run_nor_to_read_from_a_pipe(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_xml_of_ros_2_is_refused_by_run_and_from_a_pipe(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "a.launch.xml"
     file.write_text('<launch><node pkg="p" exec="t"/></launch>')
     assert main(["run", str(file), "--headless"]) == 1
@@ -72,7 +70,7 @@ def test_xml_of_ros_2_is_none_to_run_nor_to_read_from_a_pipe(
         read_launch_text(file.read_text(), name="<stdin>", packages=Folders(), report=Diagnostics())
 
 
-def test_the_ending_alone_says_nothing(tmp_path: Path) -> None:
-    """ROS 1 has such files, too: those that others include."""
+def test_the_suffix_alone_does_not_mark_a_ros_2_file(tmp_path: Path) -> None:
+    """ROS 1 has such files, too, meant for inclusion."""
     text = '<launch><arg name="exec" default="1"/><node pkg="p" type="t" name="n"/></launch>'
     assert read(tmp_path / "a.launch.xml", text).nodes[0].name == "n"

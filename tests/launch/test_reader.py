@@ -10,7 +10,7 @@ from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_te
 
 
 class Folders:
-    """Packages that live where a test put them."""
+    """Package finder over a mapping of names to folders."""
 
     def __init__(self, folders: Mapping[str, Path] | None = None) -> None:
         self._folders = dict(folders or {})
@@ -218,7 +218,7 @@ def test_find_gives_a_packages_folder_and_xacro_needs_none(tmp_path: Path) -> No
         ("$(find car):$(find car) $(find car)", "{car}/:{car} {car}"),
     ],
 )
-def test_what_follows_a_found_folder_is_a_path_in_it(written: str, meant: str, tmp_path: Path) -> None:
+def test_a_path_after_find_is_resolved_in_the_package(written: str, meant: str, tmp_path: Path) -> None:
     plan = plan_of(f'<param name="a" value="{written}"/>', packages=Folders({"car": tmp_path}))
     assert plan.params[0].value == meant.format(car=tmp_path)
 
@@ -255,7 +255,7 @@ def test_what_follows_a_found_folder_is_a_path_in_it(written: str, meant: str, t
         ('<param name="a" value="1" if="maybe"/>', "'maybe' is neither true, false, 1 nor 0"),
     ],
 )
-def test_what_roslaunch_refuses_is_refused_in_a_sentence(body: str, message: str) -> None:
+def test_faults_that_roslaunch_refuses_are_refused_with_an_error(body: str, message: str) -> None:
     with pytest.raises(DescriptionError) as error:
         plan_of(body)
     assert str(error.value).startswith("t.launch:1: error: ")
@@ -270,7 +270,7 @@ def test_an_alias_bomb_is_refused_at_once() -> None:
         plan_of(f"<rosparam>\n{text}\n</rosparam>")
 
 
-def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
+def test_unknown_elements_are_reported_and_reading_goes_on() -> None:
     report = Diagnostics()
     plan = plan_of(
         f'<nodde/><param name="a" value="1" colour="red"/><master/>{NODE}',
@@ -285,7 +285,7 @@ def test_what_is_not_known_is_named_and_the_reading_goes_on() -> None:
 
 
 def test_an_argument_that_the_file_does_not_have_is_an_error() -> None:
-    """roslaunch starts without a word, and the misspelt argument does nothing."""
+    """roslaunch starts without a warning and ignores the misspelt argument."""
     with pytest.raises(DescriptionError, match="no argument 'sped' to set; the file's arguments: 'speed'"):
         plan_of('<arg name="speed" default="1"/>', sped="2")
 

@@ -12,7 +12,7 @@ from trundle.launch import LaunchPlan, ParamCommand, read_launch, resolve_params
 
 
 class OneFolder:
-    """Every package lives in one folder, under its own name."""
+    """Package finder that looks in one folder, by the package's name."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -96,7 +96,7 @@ def test_hostile_and_broken_files_are_accepted_or_refused_as_by_roslaunch(shared
 
 @pytest.mark.slow
 def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared: Path) -> None:
-    """Only files that found all their packages in the corpus."""
+    """Only files all of whose packages are in the corpus are compared."""
     import gzip
     import re
 
@@ -108,7 +108,7 @@ def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared:
         folders.setdefault(match[1] if match else file.parent.name, set()).add(file.parent)
 
     class Corpus:
-        """Packages of the corpus whose name is there once."""
+        """Packages of the corpus with a unique name."""
 
         def find_folder(self, name: str, /) -> Path | None:
             found = folders.get(name, set())

@@ -42,11 +42,11 @@ def test_targets_sources_and_names_are_read(tmp_path: Path) -> None:
     assert "nor_this" not in first
 
 
-def test_a_package_without_one_builds_nothing(tmp_path: Path) -> None:
+def test_a_package_without_a_cmake_file_builds_nothing(tmp_path: Path) -> None:
     assert cmake_programs(tmp_path) == []
 
 
-def test_variables_that_multiply_are_given_up(tmp_path: Path) -> None:
+def test_exponentially_growing_variables_are_given_up(tmp_path: Path) -> None:
     doubled = "set(A ${A} ${A} ${A}${A})\n" * 100
     (tmp_path / "CMakeLists.txt").write_text(f"set(A a)\n{doubled}add_executable(fly ${{A}})")
     assert [program.name for program in cmake_programs(tmp_path)] == ["fly"]

@@ -36,7 +36,7 @@ def resolve(uri: str, start: Path, home: Path, **environment: str) -> Path:
 
 @pytest.mark.parametrize("holds", ["models/", "launch/", "urdf/", "package.xml", "manifest.xml", "model.config"])
 @pytest.mark.parametrize("file", ["robot.xacro", "urdf/robot.xacro", "work/robot.xacro"])
-def test_what_a_home_folder_holds_makes_it_no_package(home: Path, holds: str, file: str) -> None:
+def test_a_home_folder_is_not_a_package_whatever_it_contains(home: Path, holds: str, file: str) -> None:
     if holds.endswith("/"):
         (home / holds).mkdir()
     else:
@@ -53,7 +53,7 @@ def test_what_a_home_folder_holds_makes_it_no_package(home: Path, holds: str, fi
 
 @pytest.mark.parametrize("uri", ["file://{home}/.netrc", "file://{home}/diary/today.yaml", "package://ann/.ssh/id"])
 @pytest.mark.parametrize("path", ["ROS_PACKAGE_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH"])
-def test_a_path_that_names_home_or_what_holds_it_does_not_open_it(home: Path, path: str, uri: str) -> None:
+def test_a_search_path_with_home_or_its_parent_does_not_allow_reading_it(home: Path, path: str, uri: str) -> None:
     write(home / "package.xml", "<package><name>ann</name></package>")
     start = write(home / "robot.urdf")
     for folder in (home, home.parent):
@@ -61,7 +61,7 @@ def test_a_path_that_names_home_or_what_holds_it_does_not_open_it(home: Path, pa
             resolve(uri.format(home=home), start, home, **{path: str(folder)})
 
 
-def test_a_robot_that_lies_in_a_home_folder_reads_what_lies_beside_it(home: Path) -> None:
+def test_a_robot_in_a_home_folder_reads_the_files_beside_it(home: Path) -> None:
     start = write(home / "robot.urdf")
     mesh, other = write(home / "wheel.stl"), write(home / "meshes/arm.stl")
 
@@ -72,7 +72,7 @@ def test_a_robot_that_lies_in_a_home_folder_reads_what_lies_beside_it(home: Path
     assert resolve("diary/today.yaml", start, home, **{room.ALLOW_OUTSIDE: "1"}).is_file()
 
 
-def test_packages_and_models_below_a_home_folder_are_open(home: Path) -> None:
+def test_packages_and_models_below_a_home_folder_can_be_read(home: Path) -> None:
     start = write(home / "robot.urdf")
     write(home / "ws/arm/package.xml", "<package><name>arm</name></package>")
     mesh = write(home / "ws/arm/extra/arm.stl")
@@ -84,10 +84,8 @@ def test_packages_and_models_below_a_home_folder_are_open(home: Path) -> None:
 
 
 @pytest.mark.parametrize("folder", ["urdf", "robots"])
-def test_without_a_manifest_a_file_reads_its_folder_and_what_packages_have(
-    tmp_path: Path, home: Path, folder: str
-) -> None:
-    """A published tutorial has often no package.xml; the folder it was put into is not it."""
+def test_without_a_manifest_a_file_reads_its_folder_and_packages(tmp_path: Path, home: Path, folder: str) -> None:
+    """Published tutorials often have no package.xml; the folder they are copied into is not the package."""
     start = write(tmp_path / f"arm/{folder}/arm.urdf")
     (tmp_path / "arm/meshes").mkdir()
     texture = write(tmp_path / "arm/textures/red.png")

@@ -24,7 +24,7 @@ def found(root: Path) -> Packages:
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Path:
-    """Packages beside links that lead round, nowhere and upwards."""
+    """Packages beside links that are cyclic, broken or lead upwards."""
     root = tmp_path / "ws"
     package(root / "z")
     (root / "loop").symlink_to(root / "loop")
@@ -33,7 +33,7 @@ def workspace(tmp_path: Path) -> Path:
     return root
 
 
-def test_links_that_lead_round_or_nowhere_are_passed_over(workspace: Path) -> None:
+def test_cyclic_and_broken_links_are_skipped(workspace: Path) -> None:
     packages = found(workspace)
 
     assert packages.find_package("z") == workspace / "z"
@@ -42,7 +42,7 @@ def test_links_that_lead_round_or_nowhere_are_passed_over(workspace: Path) -> No
 
 
 def test_two_links_upwards_cost_no_more_than_one(workspace: Path) -> None:
-    """Each would be gone through within the other, eight folders deep."""
+    """Each would be searched again below the other, eight folders deep."""
     for number in range(12):
         (workspace / f"up{number}").symlink_to(workspace)
 
@@ -63,7 +63,7 @@ def test_a_file_beside_such_links_is_checked(
 
 
 @pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="root may look into every folder")
-def test_a_folder_that_may_not_be_listed_is_passed_over(tmp_path: Path) -> None:
+def test_an_unreadable_folder_is_skipped(tmp_path: Path) -> None:
     package(tmp_path / "ws/z")
     (tmp_path / "ws/shut").mkdir(mode=0)
 
@@ -74,8 +74,8 @@ def test_a_folder_that_may_not_be_listed_is_passed_over(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("mark", ["AMENT_IGNORE", "COLCON_IGNORE"])
-def test_marks_of_ros_2_hide_nothing(tmp_path: Path, mark: str) -> None:
-    """Robots for both put one beside their ROS 1 packages; rospkg knows CATKIN_IGNORE alone."""
+def test_ignore_files_of_ros_2_have_no_effect(tmp_path: Path, mark: str) -> None:
+    """Robots for both versions put one beside their ROS 1 packages; rospkg respects CATKIN_IGNORE only."""
     arm = package(tmp_path / "ws/ros1/arm")
     (arm.parent / mark).touch()
     (arm / mark).touch()
@@ -83,7 +83,7 @@ def test_marks_of_ros_2_hide_nothing(tmp_path: Path, mark: str) -> None:
     assert found(tmp_path / "ws").find_package("arm") == arm
 
 
-def test_a_manifest_that_is_a_pipe_stops_nothing(tmp_path: Path) -> None:
+def test_a_manifest_that_is_a_pipe_does_not_block(tmp_path: Path) -> None:
     os.makedirs(tmp_path / "ws/y")
     os.mkfifo(tmp_path / "ws/y/package.xml")
 

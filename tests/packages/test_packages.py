@@ -50,8 +50,8 @@ def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: P
     assert by_name == by_folder == tmp_path / "ws/arm-master/meshes/arm.stl"
 
 
-def test_a_path_relative_to_where_the_user_is_leads_to_an_absolute_one(tmp_path: Path, monkeypatch) -> None:
-    """Readers that look beside other files get the path."""
+def test_a_path_relative_to_the_working_directory_becomes_absolute(tmp_path: Path, monkeypatch) -> None:
+    """The path is passed on to readers, which look for files beside it."""
     package(tmp_path / "ws" / "robot")
     monkeypatch.chdir(tmp_path)
 
@@ -105,7 +105,7 @@ def test_packages_of_the_system_are_found_last(tmp_path: Path, monkeypatch: pyte
 
 
 def test_below_rospack_nosubdirs_are_no_packages(tmp_path: Path) -> None:
-    """As rospack has it: the folder itself may be one."""
+    """rospack does the same; the folder itself may be a package."""
     package(tmp_path / "hand")
     write(tmp_path / "hand/rospack_nosubdirs")
     package(tmp_path / "old/arm")
@@ -164,12 +164,12 @@ def test_models_near_the_file_are_found_after_those_on_the_path(tmp_path: Path) 
     assert resolve("model://cup", world, GAZEBO_MODEL_PATH=str(named.parent)) == named
 
 
-def test_a_model_that_is_nowhere_is_answered_with_where_was_looked(tmp_path: Path) -> None:
+def test_a_missing_model_is_reported_with_the_searched_folders(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=rf"no model 'cup'; looked in .*{tmp_path}/m.*on GAZEBO_MODEL_PATH"):
         Packages({"GAZEBO_MODEL_PATH": str(tmp_path / "m")}, start=tmp_path).find_model("cup")
 
 
-def test_a_folder_that_is_named_twice_is_said_once_where_nothing_is_found(tmp_path: Path) -> None:
+def test_a_folder_on_the_path_twice_is_reported_once(tmp_path: Path) -> None:
     export = '<gazebo_ros gazebo_model_path="${prefix}/models"/>'
     arm = package(tmp_path / "ws/src/arm", export=export)
     (tmp_path / "link").symlink_to(tmp_path / "ws/src")
@@ -209,7 +209,7 @@ def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp
         ("package://../etc/passwd", "no package '..'"),
     ],
 )
-def test_what_leads_nowhere_is_one_sentence_that_says_what_to_do(tmp_path: Path, uri: str, said: str) -> None:
+def test_an_unresolved_uri_is_one_error_with_a_remedy(tmp_path: Path, uri: str, said: str) -> None:
     with pytest.raises(DescriptionError, match=said) as caught:
         resolve(uri, tmp_path)
     named = uri if "://" in uri and not uri.startswith("file:") else "no such file"
@@ -217,7 +217,7 @@ def test_what_leads_nowhere_is_one_sentence_that_says_what_to_do(tmp_path: Path,
     assert str(caught.value).count(uri.removeprefix("file://")) == 1
 
 
-def test_spaces_may_be_written_as_in_a_web_address(tmp_path: Path) -> None:
+def test_spaces_may_be_percent_encoded(tmp_path: Path) -> None:
     mesh = write(tmp_path / "left arm.stl")
 
     assert resolve("left%20arm.stl", tmp_path) == resolve("left arm.stl", tmp_path) == mesh
@@ -235,22 +235,22 @@ class TestReadingOutside:
     @pytest.mark.parametrize(
         "uri", ["../../../secret.stl", "package://arm/../../secret.stl", "model://arm/../../secret.stl"]
     )
-    def test_dots_lead_nowhere(self, robot: Path, uri: str) -> None:
+    def test_parent_directories_are_refused(self, robot: Path, uri: str) -> None:
         with pytest.raises(DescriptionError, match="--allow-outside lifts that"):
             resolve(uri, robot)
 
-    def test_nor_does_an_absolute_path(self, robot: Path, tmp_path: Path) -> None:
+    def test_an_absolute_path_is_refused(self, robot: Path, tmp_path: Path) -> None:
         with pytest.raises(DescriptionError, match="reads only below"):
             resolve(f"file://{tmp_path}/secret.stl", robot)
         with pytest.raises(DescriptionError, match="reads only below"):
             resolve("/etc/passwd", robot)
 
-    def test_nor_does_a_link(self, robot: Path, tmp_path: Path) -> None:
+    def test_a_symbolic_link_is_refused(self, robot: Path, tmp_path: Path) -> None:
         (robot.parent / "link.stl").symlink_to(tmp_path / "secret.stl")
         with pytest.raises(DescriptionError, match="reads only below"):
             resolve("link.stl", robot)
 
-    def test_unless_it_is_allowed(self, robot: Path, tmp_path: Path) -> None:
+    def test_it_can_be_allowed(self, robot: Path, tmp_path: Path) -> None:
         allowed = {room.ALLOW_OUTSIDE: "1"}
         assert resolve("../../../secret.stl", robot, **allowed).samefile(tmp_path / "secret.stl")
 
@@ -284,7 +284,7 @@ class TestReadingOutside:
             "<link name='${{xacro.load_yaml(\"{secret}\")}}'/>",
         ],
     )
-    def test_nor_does_a_xacro(self, robot: Path, tmp_path: Path, prying: str) -> None:
+    def test_a_xacro_is_refused(self, robot: Path, tmp_path: Path, prying: str) -> None:
         secret = write(tmp_path / "secret.xml", "<robot><link name='secret'/></robot>")
         inside = prying.format(secret=secret)
         path = write(robot.with_name("arm.xacro"), XACRO.format(inside))
@@ -302,7 +302,7 @@ class TestReadingOutside:
         assert 'name="7"' in expand_xacro(path, {}, packages=Packages({}, start=robot), report=Diagnostics())
 
 
-def test_a_package_is_called_what_its_manifest_says_outside_of_comments(tmp_path: Path) -> None:
+def test_comments_of_a_manifest_do_not_name_the_package(tmp_path: Path) -> None:
     manifest = "<package>\n<!-- <name>old</name> -->\n<name>\n  new\n</name>\n<author>& unescaped</package>"
     write(tmp_path / "src/folder/package.xml", manifest)
     packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "src")}, start=tmp_path)

@@ -32,12 +32,12 @@ def test_every_world_reads_without_a_warning(name: str) -> None:
     assert [(m.at, m.links, m.joints) for m in again.models] == [(m.at, m.links, m.joints) for m in loaded.world.models]
 
 
-def test_a_world_that_is_not_there_is_answered_with_those_that_are() -> None:
+def test_a_missing_world_is_reported_with_the_available_ones() -> None:
     with pytest.raises(DescriptionError, match=r"mud.world: error: no such file .*: blank.world, empty.world"):
         load("worlds/mud.world", Diagnostics(), packages=PACKAGES)
 
 
-def test_every_stand_in_is_a_body_on_the_ground_that_says_what_it_is() -> None:
+def test_every_stand_in_is_a_labelled_body_on_the_ground() -> None:
     names = sorted(path.name for path in STAND_INS.iterdir())
     assert {"dumpster", "construction_cone", "jersey_barrier", "construction_barrel"} <= set(names)
     for name in names:
@@ -50,7 +50,7 @@ def test_every_stand_in_is_a_body_on_the_ground_that_says_what_it_is() -> None:
         assert [f.what for f in report.findings if "stand-in" in f.what], name
 
 
-def test_stand_ins_have_the_size_of_what_they_stand_for() -> None:
+def test_stand_ins_have_the_size_of_the_originals() -> None:
     """The originals' figures, measured on the meshes of the public model database."""
     (model,) = load("model://beer", Diagnostics(), packages=PACKAGES).world.models
     assert model.links[0].collisions[0].geometry == Cylinder(0.055, 0.23)
@@ -62,7 +62,7 @@ def test_stand_ins_have_the_size_of_what_they_stand_for() -> None:
 
 
 def test_robots_start_in_the_corridor_of_the_office(tmp_path: Path) -> None:
-    """As in the original, of 58.6 by 45.7 m, whose origin is inside; from there one may drive into a room."""
+    """The original measures 58.6 by 45.7 m, and its origin is inside; from there a robot can drive into a room."""
     world = load("worlds/willowgarage.world", Diagnostics(), packages=PACKAGES).world
     office = next(model for model in world.models if model.name == "willowgarage")
     walls = [
@@ -207,7 +207,7 @@ def test_an_installed_package_comes_before_the_stock_one(tmp_path: Path) -> None
 
 
 class TestModelConfig:
-    """Which SDF file of a folder is read."""
+    """Choice of the SDF file of a model folder."""
 
     def folder(self, tmp_path: Path, *entries: str) -> Path:
         (tmp_path / "model.config").write_text(f"<model>{''.join(entries)}</model>")
@@ -253,7 +253,7 @@ def test_a_template_is_refused_with_how_to_expand_it(tmp_path: Path, name: str, 
         refuse_template(path)
 
 
-def test_the_rp2w_that_saves_its_pictures_is_the_rp2w() -> None:
+def test_the_rp2w_that_saves_its_pictures_is_otherwise_the_rp2w() -> None:
     report = Diagnostics()
 
     (model,) = load("model://rp2w_camsave", report, packages=PACKAGES).world.models

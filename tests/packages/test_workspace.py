@@ -1,4 +1,4 @@
-"""The workspace that the user is in."""
+"""Packages of the workspace around the working directory."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ ROBOT = (
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Path:
-    """A workspace of one package, with folders that builds leave."""
+    """A workspace with one package and the output folders of a build."""
     arm = tmp_path / "ws/src/robots/arm"
     for folder in (arm / "src/arm", tmp_path / "ws/build/arm", tmp_path / "ws/devel/share"):
         folder.mkdir(parents=True)
@@ -25,7 +25,7 @@ def workspace(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("here", [".", "build/arm", "devel", "src", "src/robots/arm", "src/robots/arm/src/arm"])
-def test_packages_are_found_from_wherever_in_it(workspace: Path, here: str) -> None:
+def test_packages_are_found_from_any_folder_of_the_workspace(workspace: Path, here: str) -> None:
     packages = Packages({"HOME": "/nobody"}, start=workspace / here)
 
     assert packages.find_package("arm") == workspace / "src/robots/arm"
@@ -43,17 +43,17 @@ def test_a_description_is_found_by_its_package(
     assert f"using the workspace {workspace}\n" in capsys.readouterr().err
 
 
-def test_a_folder_whose_src_holds_programs_is_none(workspace: Path, tmp_path: Path) -> None:
+def test_a_folder_with_programs_in_src_is_not_a_workspace(workspace: Path, tmp_path: Path) -> None:
     (tmp_path / "program/src/deep").mkdir(parents=True)
 
     assert Packages({"HOME": "/nobody"}, start=tmp_path / "program").find_package("arm") is None
 
 
 @pytest.mark.parametrize("name", ["robot_description", "robot-master"])
-def test_a_package_right_below_where_the_user_is_is_found_by_its_name(
+def test_a_package_in_the_working_folder_is_found_by_its_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
-    """As after a clone: no workspace, and nothing on the path."""
+    """The state after a clone: no workspace, and an empty path."""
     folder = tmp_path / "robot-master"
     (folder / "launch").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>robot_description</name></package>")
@@ -69,7 +69,7 @@ def test_a_package_right_below_where_the_user_is_is_found_by_its_name(
     assert capsys.readouterr().out.strip() == "/p: a"
 
 
-def test_what_lies_right_below_needs_a_manifest_and_is_no_home_folder(tmp_path: Path) -> None:
+def test_folders_in_the_working_folder_need_a_manifest_and_a_home_folder_is_not_searched(tmp_path: Path) -> None:
     for folder in (tmp_path / "home", tmp_path / "group/deep"):
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text("<package><name>thing</name></package>")

@@ -1,4 +1,4 @@
-"""Worlds and models built in code: what they weigh, what they are written as, and how they move."""
+"""Worlds and models built in code: masses, written SDF and motion."""
 
 import math
 from pathlib import Path
@@ -40,7 +40,7 @@ def arm() -> trundle.Model:
     return model
 
 
-def test_what_is_built_reads_back_as_it_was() -> None:
+def test_a_built_world_round_trips() -> None:
     world = trundle.World("shop", gravity=(0.0, 0.0, -1.6), max_step_size=0.002)
     world.add_ground_plane()
     world.add_light()
@@ -68,7 +68,7 @@ def test_what_is_built_reads_back_as_it_was() -> None:
     assert replace(read.lights[0], at=NOWHERE) == replace(built.lights[0], at=NOWHERE)
 
 
-def test_shapes_weigh_what_their_volume_does() -> None:
+def test_the_mass_of_a_shape_is_density_times_volume() -> None:
     """Box m/12 (b² + c²), ball 2/5 m r², cylinder m r²/2 about its axis; water weighs 1000 kg/m³."""
     model = trundle.Model("m")
     box = inertial_of(model.add_box("box", (0.4, 0.2, 0.1)))
@@ -82,8 +82,8 @@ def test_shapes_weigh_what_their_volume_does() -> None:
     assert rod.moments[2] == pytest.approx(rod.mass * 0.005)
 
 
-def test_a_link_of_several_shapes_weighs_them_all() -> None:
-    """A dumb-bell: two balls 1 m apart, each 2/5 m r² and m d² about the middle; one is only seen, and weighs too."""
+def test_a_link_has_the_mass_of_all_its_shapes() -> None:
+    """A dumb-bell: two balls 1 m apart, each 2/5 m r² and m d² about the middle; a visual alone has mass, too."""
     link = trundle.Model("m").add_link("bell")
     link.add_sphere("left", 0.1, mass=3.0, pose=Pose((1.0, 0.5, 0.0)))
     link.add_sphere("right", 0.1, mass=3.0, pose=Pose((1.0, -0.5, 0.0)), collision=False)
@@ -97,7 +97,7 @@ def test_a_link_of_several_shapes_weighs_them_all() -> None:
     assert inertial_of(link) == Inertial(mass=1.0, link_from_com=Pose((0.1, 0.0, 0.0)), moments=(2.0, 3.0, 4.0))
 
 
-def test_an_empty_link_weighs_what_sdf_says() -> None:
+def test_an_empty_link_has_the_default_mass_of_sdf() -> None:
     assert inertial_of(trundle.Model("m").add_link("l")) == Inertial()
 
 
@@ -111,7 +111,7 @@ def _brick(folder: Path) -> Path:
     return file
 
 
-def test_a_mesh_weighs_what_it_encloses(tmp_path: Path) -> None:
+def test_the_mass_of_a_mesh_is_that_of_its_volume(tmp_path: Path) -> None:
     link = trundle.Model("m").add_mesh("brick", _brick(tmp_path), scale=(0.1, 0.1, 0.1), density=500.0)
 
     inertial = inertial_of(link)
@@ -129,7 +129,7 @@ def test_a_mesh_that_encloses_nothing_is_refused(tmp_path: Path) -> None:
         trundle.Model("m").add_mesh("sheet", file)
 
 
-def test_a_pendulum_that_was_built_swings_as_one_does() -> None:
+def test_a_built_pendulum_accelerates_as_its_equation_of_motion_says() -> None:
     """Gravity's moment m g l sin q on its hinge, and M = m (l² + (3 r² + h²)/12)."""
     world = trundle.World()
     world.add_model(arm())
@@ -252,13 +252,13 @@ def _full() -> Scene:
         (lambda _: trundle.World(max_step_size=0.0), "max_step_size must be above zero, got 0"),
     ],
 )
-def test_what_cannot_be_is_refused_with_what_there_is(act, says: str) -> None:
+def test_unknown_names_are_refused_with_the_known_ones(act, says: str) -> None:
     with pytest.raises(UsageError) as caught:
         act(_full())
     assert str(caught.value).startswith(says)
 
 
-def test_each_says_what_it_is() -> None:
+def test_each_object_has_a_readable_repr() -> None:
     world, model, link = _full()
 
     assert repr(world) == "<World 'w'; models: 'm'; lights: 'sun'>"
@@ -266,8 +266,8 @@ def test_each_says_what_it_is() -> None:
     assert repr(link) == "<Link 'a'; shapes: 'a'; sensors: 's'>"
 
 
-def test_what_is_built_has_sdfs_defaults() -> None:
-    """The same as of an element with nothing in it."""
+def test_built_objects_have_the_defaults_of_sdf() -> None:
+    """The same defaults as for an empty element."""
     text = """<sdf version="1.11"><world name="default"><model name="m"><link name="l">
     <sensor name="eye" type="camera"><camera/></sensor><sensor name="imu" type="imu"/></link></model></world></sdf>"""
     packages = Packages({}, start=Path())

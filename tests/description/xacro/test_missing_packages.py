@@ -59,7 +59,7 @@ def _unknown(name: str) -> str:
     return f"no macro <xacro:{name}>: the call is left out; it may come from an include left out"
 
 
-def test_otherwise_such_a_robot_is_refused(tmp_path: Path) -> None:
+def test_without_lenient_such_a_robot_is_refused(tmp_path: Path) -> None:
     file = write(tmp_path)
     with pytest.raises(DescriptionError, match="no package 'no_such_sensors'"):
         expand_xacro(file, {}, packages=packages(file, is_lenient=False), report=Diagnostics())
@@ -72,15 +72,15 @@ def test_a_misspelt_macro_is_still_an_error_where_nothing_was_left_out(tmp_path:
         expand_xacro(file, {}, packages=packages(file), report=Diagnostics())
 
 
-def test_a_mesh_of_a_missing_package_is_no_include(tmp_path: Path) -> None:
-    """Within an included file that is there, too."""
+def test_a_mesh_of_a_missing_package_is_not_treated_as_an_include(tmp_path: Path) -> None:
+    """The rule also holds within an included file that exists."""
     (tmp_path / "more.xacro").write_text('<robot><link name="$(find no_such_meshes)"/></robot>')
     file = write(tmp_path, ROBOT.replace("$(find no_such_sensors)/urdf/laser.urdf.xacro", "more.xacro"))
     with pytest.raises(DescriptionError, match="no package 'no_such_meshes'"):
         expand_xacro(file, {}, packages=packages(file), report=Diagnostics())
 
 
-def test_a_file_that_a_stand_in_has_not_is_left_out(tmp_path: Path) -> None:
+def test_a_file_missing_from_a_stand_in_is_left_out(tmp_path: Path) -> None:
     file = write(tmp_path, ROBOT.replace("no_such_sensors)/urdf/laser", "velodyne_description)/urdf/VLS-128"))
     report = Diagnostics()
     expand_xacro(file, {}, packages=packages(file), report=report)
@@ -88,8 +88,8 @@ def test_a_file_that_a_stand_in_has_not_is_left_out(tmp_path: Path) -> None:
     assert any(said.startswith(f"{file}:3: ") and "the include is left out" in said for said in report.warnings)
 
 
-def test_joints_to_what_was_left_out_go_with_it_and_all_that_hangs_there(tmp_path: Path) -> None:
-    """A link that a left-out macro would have had, hung from the robot, and one that hung from it."""
+def test_joints_to_left_out_links_and_their_child_links_are_left_out(tmp_path: Path) -> None:
+    """Links of a left-out macro are missing, and so are their joints and child links."""
     joints = "".join(
         f'<joint name="{parent}_{child}" type="fixed"><parent link="{parent}"/><child link="{child}"/></joint>'
         for parent, child in (("base_link", "front"), ("front", "lens"), ("lens", "cap"))

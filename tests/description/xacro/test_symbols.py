@@ -1,4 +1,4 @@
-"""Names in xacro's expressions; hostile files end soon, and in a sentence."""
+"""Names in xacro's expressions; hostile files are stopped early, with an error."""
 
 import html
 import math
@@ -39,7 +39,7 @@ def expand(folder: Path, body: str) -> str:
         ("python", "<namespace>"),
     ],
 )
-def test_what_files_write_has_its_value(tmp_path: Path, expression: str, value: str) -> None:
+def test_expressions_of_published_files_have_their_values(tmp_path: Path, expression: str, value: str) -> None:
     (tmp_path / "robot.yaml").write_text(
         "size: {x: 2.0, y: 3.0}\nwheels: [{name: front}, {name: rear}]\nturn: !degrees 90\n"
     )
@@ -148,7 +148,7 @@ def test_an_error_names_the_line_of_its_element(tmp_path: Path, body: str, words
         expand(tmp_path, body)
 
 
-def test_a_macro_of_another_file_is_named_where_it_stands(tmp_path: Path) -> None:
+def test_an_error_in_a_macro_of_another_file_names_that_file(tmp_path: Path) -> None:
     (tmp_path / "m.xacro").write_text(
         '\n\n<r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m">\n<a b="${x}" c="${x}"/>'
         "</xacro:macro></r>"
@@ -183,7 +183,7 @@ def test_eval_substitutions_are_bounded_too(tmp_path: Path) -> None:
         expand(tmp_path, "<link name=\"$(eval f'{1:9999999999}')\"/>")
 
 
-def test_a_property_is_worked_out_amid_another(tmp_path: Path) -> None:
+def test_a_property_is_evaluated_within_another(tmp_path: Path) -> None:
     """A property evaluated lazily within an expression does not disturb that expression."""
     properties = "".join(
         f'<xacro:property name="{name}" value="{value}"/>'
@@ -196,7 +196,7 @@ def test_a_property_is_worked_out_amid_another(tmp_path: Path) -> None:
 
 
 def doubled(first: str, then: str) -> str:
-    """A property a0, and forty more, each made of the one before; then the last."""
+    """A property a0 and forty more, each built from the previous one."""
     return first + "".join(then.format(i + 1, i) for i in range(40))
 
 
@@ -216,7 +216,7 @@ def test_properties_that_double_are_stopped(tmp_path: Path, body: str) -> None:
         expand(tmp_path, body)
 
 
-def test_lists_of_a_file_that_hold_one_another_are_stopped(tmp_path: Path) -> None:
+def test_yaml_lists_nested_by_aliases_are_stopped(tmp_path: Path) -> None:
     lists = [f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join([f'*{chr(97 + i)}'] * 9)}]" for i in range(9)]
     (tmp_path / "bomb.yaml").write_text("\n".join(["a: &a [x, x, x]", *lists]))
 
@@ -224,7 +224,7 @@ def test_lists_of_a_file_that_hold_one_another_are_stopped(tmp_path: Path) -> No
         expand(tmp_path, "<link name=\"${xacro.load_yaml('bomb.yaml')}\"/>")
 
 
-def test_a_long_text_that_is_put_everywhere_is_stopped(tmp_path: Path) -> None:
+def test_repeated_insertion_of_a_long_text_is_stopped(tmp_path: Path) -> None:
     macros = '<xacro:macro name="m0"><link name="${a}"/></xacro:macro>' + "".join(
         f'<xacro:macro name="m{i + 1}"><xacro:m{i}/><xacro:m{i}/></xacro:macro>' for i in range(8)
     )
