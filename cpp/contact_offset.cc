@@ -107,14 +107,14 @@ class Accelerations {
     if (jumps_) find(now_.data(), next_);
   }
 
-  // Of the previous step.
+  // Constraint-row accelerations of the previous step.
   const double* before() {
     if (!known_) find(d_->qacc_warmstart, before_);
     known_ = true;
     return before_.data();
   }
 
-  // Of this step, if a motor's command step makes the contact slide; else null.
+  // Constraint-row accelerations of this step, if a jump of a motor's command makes the contact slide; else null.
   const double* after_jump(const mjContact& contact) {
     if (!jumps_) return nullptr;
     double sum = 0;

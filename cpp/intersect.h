@@ -56,7 +56,7 @@ inline RayHit<N> intersect_ellipsoid(const Vector3<N>& o, const Vector3<N>& d, c
   return intersect_sphere(Vector3<N>{o.x * x, o.y * y, o.z * z}, {d.x * x, d.y * y, d.z * z}, one);
 }
 
-// Where a ray enters and leaves the infinite cylinder around z.
+// Distances along a ray to its entry into and exit from the infinite cylinder around z.
 template <typename N>
 struct CylinderSpan {
   Mask<N> inside;

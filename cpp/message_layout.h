@@ -79,7 +79,7 @@ class MessageCodec {
   // copied.
   Object frame(PyObject* message) const;
   Object read(PyObject* data) const;
-  // As the function `receive`, with the message in place of its bytes; None also for a frame that is no such message.
+  // Like the function `receive`, with the decoded message in place of its bytes; None also for an invalid message.
   Object receive(PyObject* recv_into, PyObject* room) const;
 
  private:

@@ -75,7 +75,7 @@ class ByteBuffer {
   Object bytes_;
 };
 
-// As struct.pack: integers by __index__, real numbers by __float__.
+// Conversion as in struct.pack: integers by __index__, real numbers by __float__.
 template <typename Number>
 Number integer(PyObject* value) {
   const Object index = PyLong_Check(value) ? borrow(value) : steal(PyNumber_Index(value));
@@ -232,7 +232,7 @@ class Writer {
     return PyFloat_Check(item) || (PyLong_CheckExact(item) && is_exact(item));
   }
 
-  // Whether the integer is exact as a double: others would be rounded twice on the way to float32.
+  // True if the integer is exact as a double; others would be rounded twice on conversion to float32.
   static bool is_exact(PyObject* integer) {
     constexpr long long kMost = 1LL << std::numeric_limits<double>::digits;
     int overflow = 0;
@@ -240,7 +240,7 @@ class Writer {
     return !overflow && -kMost <= number && number <= kMost;
   }
 
-  // Whether a format of the right size is of this kind; signed and unsigned are interchangeable.
+  // True if a format of the right size matches the kind; signed and unsigned are interchangeable.
   static bool is_of(Kind kind, const char* format) {
     return format[0] && !format[1] && std::strchr(is_real(kind) ? "fd" : "?bBhHiIlLqQ", format[0]);
   }

@@ -14,7 +14,7 @@ constexpr double kMinSpeed = 1e-3;  // [rad/s or m/s] slower joints have negligi
 
 bool moves(double speed) { return std::abs(speed) > kMinSpeed; }
 
-// Whether a moving joint has a moving ancestor: wheels on a body have negligible Coriolis forces.
+// True if a moving joint has a moving ancestor; wheels on a body have negligible Coriolis forces.
 bool swings(const mjModel* m, const mjData* d, int tree) {
   const int first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
   const int first_joint = m->jnt_type[m->dof_jntid[first]] == mjJNT_FREE ? first + 6 : first;

@@ -9,7 +9,7 @@ namespace {
 
 bool is_zero(double value) { return value == 0.0; }
 
-// Whether dampers, springs, tendons or a fluid contribute to the metric; motors have no gains, so they do not.
+// True if dampers, springs, tendons or a fluid contribute to the metric; motors have no gains and do not contribute.
 bool has_terms(const mjModel* m, const mjData* d) {
   if (d->efm_active != 1 || d->nefmT > 0) return true;
   if (m->opt.density != 0.0 || m->opt.viscosity != 0.0) return true;
@@ -30,7 +30,7 @@ const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
   return touching;
 }
 
-// Whether gyroscopic forces can turn a free body: not if it is inertially spherical about its origin.
+// True if a free body can have gyroscopic torques: its inertia is not spherical about its origin.
 bool wobbles(const mjModel* m, int body) {
   const double* inertia = m->body_inertia + 3 * body;
   const double* centre = m->body_ipos + 3 * body;
@@ -38,8 +38,8 @@ bool wobbles(const mjModel* m, int body) {
   return !is_round || !std::all_of(centre, centre + 3, is_zero);
 }
 
-// Whether MuJoCo integrates some body's gyroscopic forces implicitly, in the metric: single free bodies without
-// contact.
+// True if MuJoCo integrates the gyroscopic forces of some body implicitly, in the metric: that of a single free body
+// without contact.
 bool any_flies(const mjModel* m, const mjData* d) {
   const std::vector<char>& touching = find_touching(m, d);
   for (int joint = 0; joint < m->njnt; ++joint) {

@@ -57,7 +57,7 @@ struct LightSum {
   F3 diffuse, specular;
 };
 
-// Whether a highlight could change a pixel by half a step.
+// True if a highlight can change a pixel by at least half a level of 255.
 inline bool has_highlight(const Material& material, const Light& light) {
   float most = 0.0f;
   for (int i = 0; i < 3; ++i) {
@@ -165,7 +165,7 @@ void shade_shape(const View& view, const Renderable& renderable, const Lighting&
       const F none = F{};
       LightSum sum = {{none, none, none}, {none, none, none}};
       for (int i = 0; i < lighting.light_count; ++i) add_light(lighting.lights[i], renderable, point, n, to_eye, sum);
-      // As Ogre's shaders: clamped to white before the texture tints it.
+      // Light is clamped to white before the texture is applied, as in Ogre's shaders.
       sum.diffuse = clamp_to_white(splat(lighting.ambient) * splat(material.ambient) +
                                    sum.diffuse * splat(material.diffuse) + splat(material.emissive));
       sum.specular = clamp_to_white(sum.specular * splat(material.specular));
