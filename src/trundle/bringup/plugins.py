@@ -5,7 +5,7 @@ from itertools import chain, count
 from typing import TYPE_CHECKING, TypeVar
 
 from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.model import PluginTag, Visual
+from trundle.model import PluginTag, Visual, World
 from trundle.names import ros_name
 from trundle.parameters import TagParameters
 from trundle.plugins import (
@@ -18,23 +18,26 @@ from trundle.plugins import (
     find_visual_plugin,
     find_world_plugin,
     is_cosmetic,
+    is_sensor_plugin,
+    require_plugin,
 )
-from trundle.simulation import LinkHandle, ModelHandle, Simulation
 
-if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules
+if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules, and a check without the engine
     from trundle.ros import Node
     from trundle.sensors import CameraSensor, InstrumentSensor
+    from trundle.simulation import LinkHandle, ModelHandle, Simulation
 
-_Kind = TypeVar("_Kind", bound=Hooks)
+_Kind = TypeVar("_Kind")
+_TOPICS_WITHOUT = "the sensor has topics without"
 
 
 def load_plugins(
-    simulation: Simulation,
+    simulation: "Simulation",
     make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     *,
     say: Callable[[str], None],
-    models: Sequence[ModelHandle] | None = None,
+    models: "Sequence[ModelHandle] | None" = None,
 ) -> list[Plugin]:
     """Load the models' plugins and hook them in; warn of one that fails to load and go on, as Gazebo does.
 
@@ -49,7 +52,7 @@ def load_plugins(
     for model in simulation.models if models is None else models:
         for tag, node_name in _named(f"/{ros_name(model.name)}", model.model.plugins):
 
-            def load(tag: PluginTag = tag, model: ModelHandle = model, node_name: str = node_name) -> Plugin:
+            def load(tag: PluginTag = tag, model: "ModelHandle" = model, node_name: str = node_name) -> Plugin:
                 plugin_class, origin = find_plugin(tag, environment)
                 say(f"plugin {tag.name!r} of {model.name}: {origin}")
                 node = None if make_node is None else make_node(node_name)
@@ -64,8 +67,8 @@ def load_plugins(
 
 
 def _load_visual_plugins(
-    simulation: Simulation,
-    model: ModelHandle,
+    simulation: "Simulation",
+    model: "ModelHandle",
     make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     say: Callable[[str], None],
@@ -82,7 +85,7 @@ def _load_visual_plugins(
                 continue
 
             def load(
-                tag: PluginTag = tag, link: LinkHandle = link, visual: Visual = visual, node_name: str = node_name
+                tag: PluginTag = tag, link: "LinkHandle" = link, visual: Visual = visual, node_name: str = node_name
             ) -> VisualPlugin:
                 plugin_class, origin = find_visual_plugin(tag, environment)
                 say(f"plugin {tag.name!r} of {model.name}::{link.name}::{visual.name}: {origin}")
@@ -95,7 +98,7 @@ def _load_visual_plugins(
 
 
 def load_world_plugins(
-    simulation: Simulation,
+    simulation: "Simulation",
     make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     *,
@@ -130,18 +133,41 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
         finds = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
         by_model = [(tag, find_model_sensor_plugin(tag, sensor.sensor.name)) for tag in sensor.model.plugins]
         for tag, attach in (*finds, *(each for each in by_model if each[1] is not None)):
-            who = f"sensor {sensor.name!r}: plugin {tag.filename}"
             if attach is None:
-                report.warn(tag.at, f"{who} is not supported yet; the sensor has topics without")
+                _warn_unsupported(sensor.name, tag, report)
                 continue
             try:
                 attach(sensor, node, TagParameters(tag.node, report))
                 attached += 1
             except TrundleError as error:
-                report.warn_error(error, tag.at, "the sensor has topics without", who=who)
+                report.warn_error(error, tag.at, _TOPICS_WITHOUT, who=_sensor_plugin(sensor.name, tag))
         if not attached:
             silent.append(sensor)
     return silent
+
+
+def report_missing_plugins(world: World, environment: Mapping[str, str], report: Diagnostics) -> None:
+    """Warn of the plugins that a run would not find; none is loaded."""
+
+    def require(tag: PluginTag) -> None:
+        _loaded(tag, lambda: require_plugin(tag, environment), report)
+
+    for tag in (*world.plugins, *(tag for model in world.models for tag in model.plugins)):
+        require(tag)
+    for link in (link for model in world.models for link in model.links):
+        for tag in (tag for visual in link.visuals for tag in visual.plugins if not is_cosmetic(tag)):
+            require(tag)
+        for sensor in link.sensors:
+            for tag in (tag for tag in sensor.plugins if not is_sensor_plugin(tag)):
+                _warn_unsupported(sensor.name, tag, report)
+
+
+def _warn_unsupported(sensor: str, tag: PluginTag, report: Diagnostics) -> None:
+    report.warn(tag.at, f"{_sensor_plugin(sensor, tag)} is not supported yet; {_TOPICS_WITHOUT}")
+
+
+def _sensor_plugin(sensor: str, tag: PluginTag) -> str:
+    return f"sensor {sensor!r}: plugin {tag.filename}"
 
 
 def _named(namespace: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
@@ -165,7 +191,7 @@ def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _
     return None
 
 
-def _hook_in(simulation: Simulation, plugin: Hooks, model: ModelHandle | None) -> None:
+def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None") -> None:
     """Register a plugin's hooks; they run until its model is deleted."""
 
     def is_there() -> bool:

@@ -6,6 +6,8 @@ from .catalog import find_sensor_plugin as find_sensor_plugin
 from .catalog import find_visual_plugin as find_visual_plugin
 from .catalog import find_world_plugin as find_world_plugin
 from .catalog import is_cosmetic as is_cosmetic
+from .catalog import is_sensor_plugin as is_sensor_plugin
+from .catalog import require_plugin as require_plugin
 from .plugin import Hooks as Hooks
 from .plugin import Plugin as Plugin
 from .plugin import VisualPlugin as VisualPlugin

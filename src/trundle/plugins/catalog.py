@@ -10,7 +10,6 @@ import importlib.util
 import os
 import sys
 from collections.abc import Callable, Mapping
-from importlib.metadata import entry_points
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,6 +21,8 @@ from .gazebo_ros.namespaces import WITHOUT_EFFECT
 from .plugin import Hooks, Plugin, VisualPlugin, WorldPlugin
 
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoints
+
     from trundle.ros import Node
 
 BUILTIN: dict[str, str] = {
@@ -139,6 +140,17 @@ def find_visual_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[
     return _find(tag, environment, VisualPlugin)
 
 
+def require_plugin(tag: PluginTag, environment: Mapping[str, str]) -> None:
+    """Look for the plugin of a model, a visual or the world, and load nothing.
+
+    Raises:
+        DescriptionError: as of `find_plugin`: not found, with the folders searched.
+    """
+    filename = _base_name(tag)
+    if filename not in BUILTIN and not _installed(filename):
+        _python_file(tag, environment)
+
+
 def is_cosmetic(tag: PluginTag) -> bool:
     """True if a visual's plugin is one of Gazebo's that change only how it is drawn, and so is not run."""
     return _base_name(tag) in _COSMETIC
@@ -147,6 +159,11 @@ def is_cosmetic(tag: PluginTag) -> bool:
 def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[WorldPlugin], str]:
     """Return the class of a world's plugin and its origin; see `find_plugin`."""
     return _find(tag, environment, WorldPlugin)
+
+
+def is_sensor_plugin(tag: PluginTag) -> bool:
+    """True if `find_sensor_plugin` finds it; loads nothing."""
+    return _base_name(tag) in SENSOR_PLUGINS
 
 
 def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, TagParameters], None] | None":
@@ -178,13 +195,26 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
     filename = _base_name(tag)
     if filename in BUILTIN:
         return _of_kind(_imported(BUILTIN[filename]), kind, tag), f"Trundle's own {filename}"
-    for guest in entry_points(group=GROUP, name=filename):
+    for guest in _installed(filename):
         return _of_kind(guest.load(), kind, tag), f"{guest.value} ({guest.dist.name if guest.dist else 'installed'})"
+    path = _python_file(tag, environment)
+    return _load_file(path, kind), str(path)
+
+
+def _installed(filename: str) -> "EntryPoints":
+    from importlib.metadata import entry_points  # slow to load, and most robots have only Trundle's own
+
+    return entry_points(group=GROUP, name=filename)
+
+
+def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
+    """The user's Python file for a plugin that is neither Trundle's nor installed."""
+    filename = _base_name(tag)
     folders = _folders(tag, environment)
     for folder in folders:
         path = folder / python_file_name(filename)
         if os.path.isfile(path):
-            return _load_file(path, kind), str(path)
+            return path
     if filename in SENSOR_PLUGINS:
         raise _misplaced(tag, "sensor")
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"

@@ -23,10 +23,10 @@ Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `
 from typing import TYPE_CHECKING, Self
 
 from trundle.model import PluginTag, Visual
-from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 
-if TYPE_CHECKING:  # a run without ROS starts without its modules
+if TYPE_CHECKING:  # a run without ROS starts without its modules, and a check without the engine
     from trundle.ros import Node
+    from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 
 
 class Hooks:
@@ -35,10 +35,10 @@ class Hooks:
     period_ns: int = 0
     """Period of the two hooks in simulation time [ns]; 0: every physics step, as in Gazebo."""
 
-    def before_step(self, sim: Simulation) -> None:
+    def before_step(self, sim: "Simulation") -> None:
         """Write efforts, speeds and wrenches; called when due, before the physics step."""
 
-    def after_step(self, snapshot: Snapshot) -> None:
+    def after_step(self, snapshot: "Snapshot") -> None:
         """Read the state and publish; called when due, after the physics step."""
 
     def is_wanted(self) -> bool:
@@ -53,7 +53,7 @@ class Plugin(Hooks):
     """Plugin of a model: the Python counterpart of a Gazebo ModelPlugin."""
 
     @classmethod
-    def load(cls, sim: Simulation, model: ModelHandle, node: "Node | None", tag: PluginTag) -> Self:
+    def load(cls, sim: "Simulation", model: "ModelHandle", node: "Node | None", tag: PluginTag) -> Self:
         """Make the plugin for one model.
 
         Args:
@@ -70,7 +70,13 @@ class VisualPlugin(Hooks):
 
     @classmethod
     def load(
-        cls, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: "Node | None", tag: PluginTag
+        cls,
+        sim: "Simulation",
+        model: "ModelHandle",
+        link: "LinkHandle",
+        visual: Visual,
+        node: "Node | None",
+        tag: PluginTag,
     ) -> Self:
         """Make the plugin for one visual of a link; see `Plugin.load`."""
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, model, link, visual, node, tag)")
@@ -80,6 +86,6 @@ class WorldPlugin(Hooks):
     """Plugin of a world: the Python counterpart of a Gazebo WorldPlugin."""
 
     @classmethod
-    def load(cls, sim: Simulation, node: "Node | None", tag: PluginTag) -> Self:
+    def load(cls, sim: "Simulation", node: "Node | None", tag: PluginTag) -> Self:
         """Make the plugin for the world; see `Plugin.load`."""
         raise NotImplementedError(f"{cls.__name__} needs a load(cls, sim, node, tag)")

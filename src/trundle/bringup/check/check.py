@@ -96,7 +96,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path, collisions:
             from .description import check_description
 
             found = check_description(
-                file, packages=packages, start=start, report=report, collisions=collisions, piped=piped
+                file, environment, packages=packages, start=start, report=report, collisions=collisions, piped=piped
             )
     except DescriptionError as error:
         report.error(error)

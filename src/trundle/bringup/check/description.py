@@ -1,5 +1,6 @@
 """`trundle check` of a robot, a model or a world."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from trundle.packages import Packages
 from trundle.physics import report_wheels
 
 from ..load_input import Piped, load_input
+from ..plugins import report_missing_plugins
 from .ros_names import report_ros_names
 
 if TYPE_CHECKING:
@@ -54,6 +56,7 @@ class DescriptionFindings:
 
 def check_description(
     file: str,
+    environment: Mapping[str, str],
     *,
     packages: Packages,
     start: Path,
@@ -65,6 +68,7 @@ def check_description(
 
     Args:
         file: as `trundle check` takes it.
+        environment: variables that locate plugins.
         packages: resolve URIs.
         start: relative URIs in standard input start here.
         report: takes all findings.
@@ -80,6 +84,7 @@ def check_description(
     lint_description(loaded, report)
     report_ros_names(flat, report)
     _report_silent_sensors(flat, report)
+    report_missing_plugins(flat, environment, report)
     _report_physics(flat, report, collisions=collisions)
     return DescriptionFindings(loaded, flat)
 
