@@ -11,6 +11,7 @@ from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_te
 from trundle.packages import Packages
 
 from ..load_input import Piped
+from ..missing_nodes import report_missing_nodes
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,18 +58,19 @@ class LaunchFindings:
 def check_launch(
     file: str, environment: Mapping[str, str], *, packages: Packages, report: Diagnostics, piped: Piped | None = None
 ) -> LaunchFindings:
-    """Read a launch file, or the text of a pipe.
+    """Read a launch file, or the text of a pipe; report the nodes that nothing can run.
 
     Raises:
         DescriptionError: the file cannot be read.
     """
     if piped is not None:
         text = piped.data.decode(errors="replace")
-        return LaunchFindings(
-            read_launch_text(text, name=piped.name, packages=packages, report=report, env=environment)
-        )
-    path = Path(file)
-    return LaunchFindings(read_launch(path, packages=packages.around(path), report=report, env=environment))
+        plan = read_launch_text(text, name=piped.name, packages=packages, report=report, env=environment)
+    else:
+        packages = packages.around(Path(file))
+        plan = read_launch(Path(file), packages=packages, report=report, env=environment)
+    report_missing_nodes(plan.nodes, packages, environment, report)
+    return LaunchFindings(plan)
 
 
 def _plain(value: object) -> object:

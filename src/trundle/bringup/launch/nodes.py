@@ -2,7 +2,6 @@
 
 import contextlib
 import shlex
-import socket
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -29,6 +28,7 @@ from trundle.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, Res
 from trundle.yaml_loader import load_yaml
 
 from ..graph import Graph
+from ..missing_nodes import is_here, report_missing_node
 from .logs import ros_home
 
 
@@ -104,10 +104,7 @@ class NodeStarter:
                 return self._missing(node, why)
 
     def _missing(self, node: LaunchNode, why: str) -> Launched:
-        what = f"node {node.full_name}: {why}"
-        if self.policy(node).required:
-            raise DescriptionError(node.at, f"{what}; the launch requires it")
-        self.report.warn(node.at, f"{what}; the launch goes on without it")
+        report_missing_node(node, why, self.report, is_required=self.policy(node).required)
         return Launched(node=node, kind="missing", what=why)
 
     def policy(self, node: LaunchNode) -> RespawnPolicy:
@@ -155,12 +152,6 @@ class NodeStarter:
             output=self.output or node.output,
             log_file=log.with_name(f"{log.name}-stdout.log"),
         )
-
-
-def is_here(address: str, env: Mapping[str, str]) -> bool:
-    """Return True if a <machine>'s address is this machine, by any of its names."""
-    names = {"", "localhost", "::1", socket.gethostname(), env.get("ROS_HOSTNAME"), env.get("ROS_IP")}
-    return address in names or address.startswith("127.")
 
 
 def _split(text: str, node: LaunchNode) -> list[str]:
