@@ -228,7 +228,8 @@ def test_terrain_is_painted_with_its_layers_by_height(tmp_path: Path) -> None:
     assert seen[1] == pytest.approx((127, 128, 0), abs=3)
     assert seen[2] == (0, 255, 0)
     assert report.warnings == [
-        "w.sdf:3: warning: heightmap texture ramp.png.txt: it cannot be read; the layer is left out"
+        "w.sdf:3: warning: heightmap texture ramp.png.txt cannot be read: No such file or directory; "
+        "the layer is left out"
     ]
 
 

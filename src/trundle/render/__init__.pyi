@@ -17,3 +17,4 @@ from .scene import Shape as Shape
 from .scene import ShapeGeometry as ShapeGeometry
 from .skinned_actors import unsupported_reason as unsupported_reason
 from .skinned_actors import update_skins as update_skins
+from .textures import report_unreadable_textures as report_unreadable_textures

@@ -68,7 +68,7 @@ class NativeRenderer:
         def material_of(shape: Shape) -> _native.Material:
             image = None if shape.texture is None else load_texture(shape.texture)
             texture = -1
-            if image is not None and shape.texture is not None:
+            if isinstance(image, np.ndarray) and shape.texture is not None:
                 texture = textures.number(shape.texture, lambda: _native.Texture(image))
             return _native.Material(
                 ambient=(shape.ambient or shape.rgba)[:3],

@@ -49,8 +49,8 @@ def _painted(
         if layer.diffuse is None:
             continue
         image = load_texture(layer.diffuse)
-        if image is None:
-            report.warn(at, f"heightmap texture {layer.diffuse.name}: it cannot be read; the layer is left out")
+        if isinstance(image, str):
+            report.warn(at, f"heightmap texture {layer.diffuse.name} cannot be read: {image}; the layer is left out")
             continue
         colours = _repeated(image, layer.size, size)
         if picture is None:

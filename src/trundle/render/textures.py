@@ -5,7 +5,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.meshes import Texture, image_file
+from trundle.diagnostics import Diagnostics, Source
+from trundle.meshes import Texture, image_file, why_undecoded
+
+from .scene import Scene
 
 _MAX_PIXELS = 64 * 1024 * 1024
 _LARGEST = 4096
@@ -13,16 +16,28 @@ _LARGEST = 4096
 
 
 @lru_cache(maxsize=64)
-def load_texture(texture: Texture) -> NDArray[np.uint8] | None:
-    """Read an image as (height, width, 3), top row first; None if it cannot be read."""
+def load_texture(texture: Texture) -> NDArray[np.uint8] | str:
+    """Read an image as (height, width, 3), top row first; return the reason if it cannot be read."""
     from PIL import Image  # slow to load, and robots of plain shapes have no textures
 
     try:
         with Image.open(image_file(texture)) as image:
             if image.width * image.height > _MAX_PIXELS:
-                return None
+                return f"it has {image.width} x {image.height} pixels, more than {_MAX_PIXELS}"
             if max(image.size) > _LARGEST:
                 image.thumbnail((_LARGEST, _LARGEST))
             return np.ascontiguousarray(np.asarray(image.convert("RGB")))
-    except Exception:  # every decoder behind Pillow fails in its own way
-        return None
+    except Exception as error:  # every decoder behind Pillow fails in its own way
+        return why_undecoded(error)
+
+
+def report_unreadable_textures(scene: Scene, report: Diagnostics) -> None:
+    """Warn of the textures that are not drawn, at their file; of one within a mesh's file, at its visual."""
+    for shape in scene.shapes:
+        if shape.texture is None:
+            continue
+        image = load_texture(shape.texture)
+        if isinstance(image, str):
+            visual = f"{scene.bodies[shape.body]}::{shape.name}"
+            at = Source(visual if isinstance(shape.texture, bytes) else str(shape.texture))
+            report.warn(at, f"the texture cannot be read: {image}; a plain colour is drawn")

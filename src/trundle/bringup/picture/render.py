@@ -16,7 +16,15 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.lint.empty_scene import empty_reason
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.render import Intrinsics, Picture, Scene, corners_of, scene_from_world, update_skins
+from trundle.render import (
+    Intrinsics,
+    Picture,
+    Scene,
+    corners_of,
+    report_unreadable_textures,
+    scene_from_world,
+    update_skins,
+)
 from trundle.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, pose_from_row
@@ -93,6 +101,7 @@ class PictureRenderer:
         if options.camera is None:
             scene = replace(scene, ambient=_STUDIO_LIGHT, background=_BACKDROP)
         self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
+        report_unreadable_textures(scene, report)
         self._sensor: CameraSensor | None = None
         width, height = options.size or DEFAULT_SIZE
         self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)

@@ -7,7 +7,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.model import EVERY_BIT, Visual, World
-from trundle.render import Intrinsics, Picture, Renderer, Scene, scene_from_world, size_of
+from trundle.render import Intrinsics, Picture, Renderer, Scene, report_unreadable_textures, scene_from_world, size_of
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
@@ -53,6 +53,7 @@ class CameraScene:
         self._world = world
         self.scene = scene_from_world(world, self._simulation.report, mask=self.mask)
         self._renderer = self._make(self.scene)
+        report_unreadable_textures(self.scene, self._simulation.report)
         visuals: dict[tuple[int, str], Visual] = {}
         model_of: list[int] = []
         for number, model in enumerate(world.models):
