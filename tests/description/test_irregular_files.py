@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from trundle.cli import main
-from trundle.description import expand_xacro, load
+from trundle.description import expand_xacro, load, load_text
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.packages import Packages, model_file
 
@@ -179,3 +179,24 @@ class TestPipeOnTheCommandLine:
         assert main(["xacro", f"/dev/fd/{ours}"]) == 0
         assert '<link name="7"/>' in capfd.readouterr().out
         os.close(ours)
+
+    @pytest.mark.parametrize(
+        "robot",
+        [
+            "<property name='x' value='7'/><link name='l${x}'/>",
+            "<macro name='m' params='n'><link name='${n}'/></macro><m n='l7'/>",
+        ],
+    )
+    def test_one_of_indigo_is_expanded_as_from_a_file(self, robot: str, tmp_path: Path) -> None:
+        joint = "<joint name='j' type='fixed'><parent link='base'/><child link='l7'/></joint>"
+        text, report = XACRO.format(robot + joint), Diagnostics()
+        packages = Packages({}, start=tmp_path)
+        (tmp_path / "robot.urdf").write_text(text)
+
+        from_file = load(str(tmp_path / "robot.urdf"), Diagnostics(), packages=packages).robot
+        from_pipe = load_text(text, name="<stdin>", folder=tmp_path, packages=packages, report=report).robot
+
+        assert from_file is not None
+        assert from_pipe is not None
+        assert [link.name for link in from_file.links] == [link.name for link in from_pipe.links] == ["base", "l7"]
+        assert "is Indigo's syntax" in report.warnings[0]

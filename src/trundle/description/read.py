@@ -1,6 +1,7 @@
 """Reader selection for a file, folder or URI."""
 
 import os
+import re
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -16,6 +17,10 @@ from .sdf import DEEPEST
 # Each reader is imported on first use.
 _XACRO = "<xacro:"
 """Marker of an unexpanded file; the namespace alone remains in many expanded ones."""
+_INDIGO = re.compile(
+    r"<(?:include\b[^<>]*\bfilename|(?:property|macro|insert_block)\b[^<>]*\bname|if\b[^<>]*\bvalue)\s*="
+)
+"""Tags of Indigo's xacro, without prefix."""
 
 
 def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> LoadedDescription:
@@ -80,7 +85,7 @@ def load_text(
     if root.tag != "robot":
         return load_sdf(root, folder / name, packages, report, seed=seed)
     text = text if isinstance(text, str) else text.decode(errors="replace")
-    if _XACRO in text:
+    if _XACRO in text or ("xmlns:xacro" in text and _INDIGO.search(text)):
         path = Path(os.path.relpath(folder / name))  # named as in messages, relative to the working folder
         text, name = _expanded(path, packages, report, text.encode()), f"{name} (expanded)"
     return load_urdf(text, name, folder / name, packages, report)
