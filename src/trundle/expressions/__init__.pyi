@@ -1,5 +1,6 @@
 from .budget import Budget as Budget
 from .budget import ExpressionError as ExpressionError
+from .containers import known_keys as known_keys
 from .functions import MATH_NAMES as MATH_NAMES
 from .functions import PYTHON_NAMES as PYTHON_NAMES
 from .interpreter import Interpreter as Interpreter

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
 from typing import Any
 
-from trundle.expressions import Caller, Function, Interpreter, is_method, wrap_function
+from trundle.expressions import Caller, Function, Interpreter, is_method, known_keys, wrap_function
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
 """Functions callable without their namespace, with a warning."""
@@ -41,7 +41,10 @@ def new_interpreter(package: Any) -> Interpreter:
         if isinstance(owner, package.Table):
             return package.NameSpace.__getattr__(owner, name)
         if isinstance(owner, package.YamlDictWrapper) and not is_method(dict, name):
-            return package.YamlDictWrapper.__getattr__(owner, name)
+            try:
+                return package.YamlDictWrapper.__getattr__(owner, name)
+            except AttributeError as error:
+                raise AttributeError(f"{error}{known_keys(owner)}") from None
         return NotImplemented
 
     return Interpreter(dotted=dotted)
