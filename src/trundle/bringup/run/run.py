@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import Diagnostics, TrundleError
 from trundle.garbage import no_garbage
 from trundle.packages import Packages
 from trundle.page_address import AllowedNames, PageAddress
@@ -21,6 +21,7 @@ from trundle.spatial import NS_PER_S
 from ..console import Console
 from ..load_input import report_workspace
 from ..network_warning import warn_of_network
+from ..plugin_error import plugin_error
 from ..plugins import load_plugins, load_world_plugins
 from ..realtime_pacer import RealtimePacer, shorten_gil_interval
 from ..renderers import RENDERERS, RendererName
@@ -159,6 +160,7 @@ def _simulate(
 
     Raises:
         SimulationUnstableError: the physics is unstable, and the option is to exit.
+        TrundleError: a user's plugin raised an exception.
     """
     end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
     pacer = RealtimePacer(options.speed)
@@ -182,6 +184,12 @@ def _simulate(
             paused = _recover(simulation, options, error, resets, say)
             pacer.restart()
             continue
+        except TrundleError:
+            raise
+        except Exception as error:  # a plugin's code may raise anything
+            if (theirs := plugin_error(error)) is None:
+                raise
+            raise theirs from None
         if ros is not None:
             ros.tick(wait=pacer.speed is None)
         if recorder is not None and recorder.has_failed:
