@@ -117,8 +117,8 @@ class Mailbox:
 
     def unlink(self) -> None:
         """Have no other process find it; both sides keep the memory as long as they hold it."""
-        if self._descriptor is not None:
-            os.close(self._descriptor)
-            self._descriptor = None
+        descriptor, self._descriptor = self._descriptor, None
+        if descriptor is not None:
+            os.close(descriptor)
         elif self.address.path.parts[1] != "proc":
             self.address.path.unlink(missing_ok=True)

@@ -195,7 +195,8 @@ class Viewer:
         raise ViewerError(f"the viewer's process ended at once with exit code {self._process.wait()}")
 
     def _forget_boxes(self) -> None:
-        for box in (self._state_box, *self._image_boxes, *self._figure_boxes):
+        boxes = (self._state_box, *self._image_boxes, *self._figure_boxes)
+        self._state_box, self._image_boxes, self._figure_boxes = None, [], []  # first: two threads may close
+        for box in boxes:
             if box is not None:
                 box.unlink()
-        self._state_box, self._image_boxes, self._figure_boxes = None, [], []
