@@ -111,7 +111,7 @@ class TestEveryReader:
         from trundle.render.textures import load_texture
 
         assert png_of(fifo) is None
-        assert load_texture(fifo) is None
+        assert load_texture(fifo) == self.SAID
         with pytest.raises(TrundleError, match=self.SAID):
             read_heights(fifo)
 
