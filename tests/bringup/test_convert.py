@@ -247,7 +247,8 @@ def test_standard_input_that_makes_no_sense(text: str, said: str) -> None:
 
 
 def test_a_launch_file_is_known_by_its_root(cart: Path) -> None:
-    text = "\ufeff<?xml version='1.0'?>\n<!-- <robot> -->\n<launch><node pkg='topic_tools' type='relay' name='n'/></launch>"
+    node = "<node pkg='topic_tools' type='relay' name='n'/>"
+    text = f"\ufeff<?xml version='1.0'?>\n<!-- <robot> -->\n<launch>{node}</launch>"
     file = cart.parent / "robot.xml"
     file.write_text(text)
     said = "a launch of 1 nodes with 0 parameters; no findings\n"
