@@ -55,7 +55,7 @@ class Block:
     text: str
     title: str | None
     mark: str
-    """What the comment before it says, or nothing."""
+    """Mark in the HTML comment above the block; empty if there is none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

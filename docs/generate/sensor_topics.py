@@ -16,7 +16,7 @@ def table() -> str:
 
 
 def with_table(page: str) -> str:
-    """The page, its table made anew."""
+    """Return the page with its table regenerated."""
     before, _, rest = page.partition(_HEAD)
     _, _, after = rest.partition("\n\n")
     return f"{before}{table()}\n\n{after}"
