@@ -1,0 +1,23 @@
+"""Environment of child processes in which ROS' Python packages can be imported."""
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+SITE = Path(__file__).parent / "site"
+"""Folder whose `sitecustomize.py` appends the finder."""
+
+
+def with_finder(env: Mapping[str, str], package_folders: Iterable[Path] = ()) -> dict[str, str]:
+    """Copy of an environment whose Python processes can import ROS' packages, and find the given ones.
+
+    Args:
+        env: environment; its PYTHONPATH and ROS_PACKAGE_PATH stay in effect.
+        package_folders: folders of ROS packages, for ROS_PACKAGE_PATH where it is not set.
+    """
+    path = [folder for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder and folder != str(SITE)]
+    made = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path])}
+    folders = os.pathsep.join(map(str, package_folders))
+    if folders and not env.get("ROS_PACKAGE_PATH"):
+        made["ROS_PACKAGE_PATH"] = folders
+    return made

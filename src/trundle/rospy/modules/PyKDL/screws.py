@@ -1,0 +1,101 @@
+"""Twist and Wrench: pairs of vectors at a point."""
+
+from .numbers import Numbers
+from .vector import Vector
+
+
+def _part(start):
+    def read(self):
+        return Part(self, start)
+
+    def write(self, vector):
+        self._values[start : start + 3] = list(vector)
+
+    return property(read, write)
+
+
+class Part(Vector):
+    """A Vector that is part of a Twist or Wrench: a change of it changes that."""
+
+    __slots__ = ("_start", "_whole")
+
+    def __init__(self, whole, start):
+        super().__init__(*whole._values[start : start + 3])
+        self._whole, self._start = whole, start
+
+    @classmethod
+    def _of(cls, values):
+        return Vector(*values)
+
+    def __setitem__(self, index, value):
+        super().__setitem__(index, value)
+        self._whole._values[self._start + index] = float(value)
+
+    def __add__(self, other):
+        return Vector(self) + Vector(other)
+
+    def __sub__(self, other):
+        return Vector(self) - Vector(other)
+
+    def __eq__(self, other):
+        return isinstance(other, Vector) and Vector(self) == Vector(other)
+
+    __hash__ = None
+
+
+class _Screw(Numbers):
+    __slots__ = ()
+    size = 6
+
+    def __init__(self, first=None, second=None):
+        if first is None and second is None:
+            self._values = [0.0] * 6
+        elif isinstance(first, type(self)) and second is None:
+            self._values = list(first._values)
+        elif isinstance(first, Vector) and isinstance(second, Vector):
+            self._values = [*first, *second]
+        else:
+            raise TypeError(f"{type(self).__name__} takes nothing, two Vectors or a copy, not ({first!r}, {second!r})")
+
+    def _vectors(self):
+        return Vector(*self._values[:3]), Vector(*self._values[3:])
+
+    def _rotated(self, rotation):
+        first, second = self._vectors()
+        return type(self)(rotation * first, rotation * second)
+
+
+class Twist(_Screw):
+    """Velocity `vel` of a point [m/s], angular velocity `rot` [rad/s]."""
+
+    __slots__ = ()
+    vel = _part(0)
+    rot = _part(3)
+
+    def RefPoint(self, v_base_AB):
+        """The same motion, at a point further by a vector."""
+        vel, rot = self._vectors()
+        return Twist(vel + rot * v_base_AB, rot)
+
+    def _moved(self, frame):
+        """In the frame's parent, at the parent's origin."""
+        vel, rot = self._rotated(frame.M)._vectors()
+        return Twist(vel + frame.p * rot, rot)
+
+
+class Wrench(_Screw):
+    """Force [N], and torque at a point [N·m]."""
+
+    __slots__ = ()
+    force = _part(0)
+    torque = _part(3)
+
+    def RefPoint(self, v_base_AB):
+        """The same load, at a point further by a vector."""
+        force, torque = self._vectors()
+        return Wrench(force, torque + force * v_base_AB)
+
+    def _moved(self, frame):
+        """In the frame's parent, at the parent's origin."""
+        force, torque = self._rotated(frame.M)._vectors()
+        return Wrench(force, torque + frame.p * force)

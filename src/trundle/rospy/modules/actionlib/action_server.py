@@ -1,0 +1,194 @@
+"""Server of an action, with any number of goals."""
+
+import threading
+
+from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
+
+import rospy
+
+from .action_types import ActionTypes
+from .goal_id_generator import GoalIDGenerator
+from .handle_tracker_deleter import HandleTrackerDeleter
+from .server_goal_handle import ServerGoalHandle
+from .status_tracker import StatusTracker
+
+
+def nop_cb(goal_handle):
+    """Ignore a goal."""
+
+
+class ActionServer(ActionTypes):
+    """Receives goals, and reports their status to their clients."""
+
+    def __init__(self, ns, ActionSpec, goal_cb, cancel_cb=nop_cb, auto_start=True):
+        """Prepare the action `ns`.
+
+        Args:
+            ns: name of the action.
+            ActionSpec: its XAction class.
+            goal_cb: called with the ServerGoalHandle of each new goal.
+            cancel_cb: called with the ServerGoalHandle of each goal to cancel.
+            auto_start: start at once, which may call back before the constructor's end; call `start` instead.
+
+        Raises:
+            ActionException: the class is not an action.
+        """
+        super().__init__(ActionSpec)
+        self.ns = ns
+        self.goal_callback = goal_cb
+        assert self.goal_callback
+        self.cancel_callback = cancel_cb
+        self.auto_start = auto_start
+        self.goal_sub = self.cancel_sub = None
+        self.status_pub = self.result_pub = self.feedback_pub = None
+        self.status_timer = None
+        self.lock = threading.RLock()
+        self.status_list = []
+        self.last_cancel = rospy.Time()
+        self.status_list_timeout = rospy.Duration()
+        self.id_generator = GoalIDGenerator()
+        self.started = False
+        if auto_start:
+            rospy.logwarn(f"action {ns}: auto_start=True may call back too early; pass False, and call start()")
+            self.start()
+
+    def register_goal_callback(self, cb):
+        """Replace the goal callback."""
+        self.goal_callback = cb
+
+    def register_cancel_callback(self, cancel_cb):
+        """Replace the cancel callback."""
+        self.cancel_callback = cancel_cb
+
+    def start(self):
+        """Go on the graph."""
+        with self.lock:
+            self.initialize()
+            self.started = True
+            self.publish_status()
+
+    def stop(self):
+        """Leave the graph; no goal should be running."""
+        with self.lock:
+            self.started = False
+            if self.status_timer:
+                self.status_timer.shutdown()
+            for endpoint in (self.goal_sub, self.cancel_sub, self.status_pub, self.feedback_pub, self.result_pub):
+                endpoint.unregister()
+
+    def initialize(self):
+        """Advertise, subscribe, and start the timer of the status."""
+        name = rospy.remap_name(self.ns)
+        pub_queue = rospy.get_param("actionlib_server_pub_queue_size", 50)
+        self.pub_queue_size = pub_queue if pub_queue >= 0 else 50
+        options = {"queue_size": self.pub_queue_size}
+        self.status_pub = rospy.Publisher(f"{name}/status", GoalStatusArray, latch=True, **options)
+        self.result_pub = rospy.Publisher(f"{name}/result", self.ActionResult, **options)
+        self.feedback_pub = rospy.Publisher(f"{name}/feedback", self.ActionFeedback, **options)
+        sub_queue = rospy.get_param("actionlib_server_sub_queue_size", -1)
+        self.sub_queue_size = sub_queue if sub_queue >= 0 else None
+        options = {"queue_size": self.sub_queue_size}
+        self.goal_sub = rospy.Subscriber(
+            f"{name}/goal", self.ActionGoal, callback=self.internal_goal_callback, **options
+        )
+        self.cancel_sub = rospy.Subscriber(f"{name}/cancel", GoalID, callback=self.internal_cancel_callback, **options)
+        self.status_frequency = self._status_frequency(name)
+        self.status_list_timeout = rospy.Duration(rospy.get_param(f"{name}/status_list_timeout", 5.0))
+        if self.status_frequency > 0.0:
+            period = rospy.Duration(1.0 / self.status_frequency)
+            self.status_timer = rospy.Timer(period, self.publish_status_async)
+
+    def _status_frequency(self, name):
+        """Rate of the status [Hz], from the parameters."""
+        old = f"{name}/status_frequency"
+        if rospy.has_param(old):
+            rospy.logwarn(f"the parameter {old} is deprecated; use actionlib_status_frequency")
+            return rospy.get_param(old, 5.0)
+        found = rospy.search_param("actionlib_status_frequency")
+        return 5.0 if found is None else rospy.get_param(found, 5.0)
+
+    def publish_result(self, status, result):
+        """Send a result, then the status."""
+        with self.lock:
+            self._publish(self.result_pub, self.ActionResult(status=status, result=result))
+            self.publish_status()
+
+    def publish_feedback(self, status, feedback):
+        """Send feedback."""
+        with self.lock:
+            self._publish(self.feedback_pub, self.ActionFeedback(status=status, feedback=feedback))
+
+    def publish_status_async(self, event):
+        """Send the status, as the timer asks."""
+        with self.lock:
+            if self.started:
+                self.publish_status()
+
+    def publish_status(self):
+        """Send the status of all goals, and forget those that ended long ago."""
+        with self.lock:
+            oldest = rospy.Time.now()
+            self.status_list = [
+                tracker
+                for tracker in self.status_list
+                if tracker.handle_destruction_time == rospy.Time()
+                or tracker.handle_destruction_time + self.status_list_timeout >= oldest
+            ]
+            self._publish(self.status_pub, GoalStatusArray(status_list=[each.status for each in self.status_list]))
+
+    def _publish(self, publisher, message):
+        message.header.stamp = rospy.Time.now()
+        if not rospy.is_shutdown():
+            publisher.publish(message)
+
+    def internal_goal_callback(self, goal):
+        """Take a goal from the topic."""
+        with self.lock:
+            if not self.started:
+                return
+            known = next((each for each in self.status_list if each.status.goal_id.id == goal.goal_id.id), None)
+            if known is not None:
+                self._repeat_goal(known)
+                return
+            tracker = StatusTracker(None, None, goal)
+            self.status_list.append(tracker)
+            handle = self._handle(tracker)
+            if goal.goal_id.stamp != rospy.Time() and goal.goal_id.stamp <= self.last_cancel:
+                handle.set_canceled(None, "the goal is not newer than the last cancel request")
+            else:
+                self.goal_callback(handle)
+
+    def _repeat_goal(self, tracker):
+        """A goal whose ID is known: sent twice, or canceled before it came."""
+        if tracker.status.status == GoalStatus.RECALLING:
+            tracker.status.status = GoalStatus.RECALLED
+            self.publish_result(tracker.status, self.ActionResultType())
+        if tracker.handle_tracker is None:
+            tracker.handle_destruction_time = rospy.Time.now()
+
+    def internal_cancel_callback(self, goal_id):
+        """Take a cancel request from the topic: of one ID, of all up to a time, or (both zero) of all."""
+        with self.lock:
+            if not self.started:
+                return
+            is_timed = goal_id.stamp != rospy.Time()
+            for tracker in list(self.status_list):
+                status = tracker.status
+                if (
+                    goal_id.id == status.goal_id.id
+                    or (is_timed and status.goal_id.stamp <= goal_id.stamp)
+                    or (not is_timed and goal_id.id == "")
+                ):
+                    handle = self._handle(tracker)
+                    if handle.set_cancel_requested():
+                        self.cancel_callback(handle)
+            if goal_id.id and not any(each.status.goal_id.id == goal_id.id for each in self.status_list):
+                tracker = StatusTracker(goal_id, GoalStatus.RECALLING)  # its goal may still come
+                tracker.handle_destruction_time = rospy.Time.now()
+                self.status_list.append(tracker)
+            self.last_cancel = max(self.last_cancel, goal_id.stamp)
+
+    def _handle(self, tracker):
+        if tracker.handle_tracker is None:
+            tracker.handle_tracker = HandleTrackerDeleter(self, tracker)
+        return ServerGoalHandle(tracker, self, tracker.handle_tracker)

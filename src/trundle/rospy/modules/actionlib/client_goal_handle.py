@@ -1,0 +1,83 @@
+"""A goal that was sent, in the hand of its client."""
+
+from actionlib_msgs.msg import GoalID, GoalStatus
+
+import rospy
+
+from .comm_state import CommState
+
+_TERMINAL = (
+    GoalStatus.PREEMPTED,
+    GoalStatus.SUCCEEDED,
+    GoalStatus.ABORTED,
+    GoalStatus.REJECTED,
+    GoalStatus.RECALLED,
+    GoalStatus.LOST,
+)
+
+
+class ClientGoalHandle:
+    """Asks for, and cancels, one goal. The client forgets the goal with its last handle."""
+
+    def __init__(self, comm_state_machine):
+        self.comm_state_machine = comm_state_machine
+
+    def __eq__(self, o):
+        return bool(o) and self.comm_state_machine == o.comm_state_machine
+
+    def __ne__(self, o):
+        return not self == o
+
+    def __hash__(self):
+        return hash(self.comm_state_machine)
+
+    def cancel(self):
+        """Ask the server to cancel the goal."""
+        machine = self.comm_state_machine
+        with machine.mutex:
+            machine.send_cancel_fn(GoalID(stamp=rospy.Time(0), id=machine.action_goal.goal_id.id))
+            machine.state = CommState.WAITING_FOR_CANCEL_ACK
+
+    def get_comm_state(self):
+        """CommState of the goal; LOST if the handle is empty."""
+        if not self.comm_state_machine:
+            rospy.logerr("get_comm_state of an empty ClientGoalHandle")
+            return CommState.LOST
+        return self.comm_state_machine.state
+
+    def get_goal_status(self):
+        """Newest GoalStatus number of the server."""
+        if not self.comm_state_machine:
+            rospy.logerr("get_goal_status of an empty ClientGoalHandle")
+            return GoalStatus.PENDING
+        return self.comm_state_machine.latest_goal_status.status
+
+    def get_goal_status_text(self):
+        """Newest text of the server."""
+        if not self.comm_state_machine:
+            rospy.logerr("get_goal_status_text of an empty ClientGoalHandle")
+            return "ERROR: the handle has no goal"
+        return self.comm_state_machine.latest_goal_status.text
+
+    def get_result(self):
+        """The result, or None if there is none yet."""
+        if not self.comm_state_machine:
+            rospy.logerr("get_result of an empty ClientGoalHandle")
+            return None
+        latest = self.comm_state_machine.latest_result
+        return latest.result if latest else None
+
+    def get_terminal_state(self):
+        """TerminalState of a goal that is DONE."""
+        if not self.comm_state_machine:
+            rospy.logerr("get_terminal_state of an empty ClientGoalHandle")
+            return GoalStatus.LOST
+        machine = self.comm_state_machine
+        with machine.mutex:
+            if machine.state != CommState.DONE:
+                rospy.logwarn(f"get_terminal_state of a goal that is {CommState.to_string(machine.state)}")
+            status = machine.latest_goal_status.status
+            if status in _TERMINAL:
+                return status
+            rospy.logerr(f"get_terminal_state: {GoalStatus.to_string(status)} is no end of a goal")
+            return GoalStatus.LOST

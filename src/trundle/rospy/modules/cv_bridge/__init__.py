@@ -1,0 +1,14 @@
+"""Image messages as numpy arrays, the images of OpenCV."""
+
+from .bridge import CvBridge, CvBridgeError
+
+__all__ = ["CvBridge", "CvBridgeError", "getCvType"]
+
+
+def getCvType(encoding):
+    """Number of OpenCV's type of an encoding.
+
+    Raises:
+        CvBridgeError: no such encoding.
+    """
+    return CvBridge().encoding_to_cvtype2(encoding)

@@ -1,0 +1,383 @@
+"""rosbag's Bag, over Trundle's readers and writers."""
+
+import collections
+import io
+import time
+from collections import namedtuple
+from itertools import pairwise
+from pathlib import Path
+from statistics import median
+
+import genpy
+import roslib.names
+import rospy
+from trundle.ros import BagSummary, byte_text
+
+from .exceptions import ROSBagException
+from .message_class import message_class
+from .read_file import ReadFile
+from .streams import SpooledStream
+from .write_file import WriteFile
+
+BagMessage = namedtuple("BagMessage", "topic message timestamp")
+BagMessageWithConnectionHeader = namedtuple(
+    "BagMessageWithConnectionHeader", "topic message timestamp connection_header"
+)
+_TypesAndTopics = namedtuple("TypesAndTopicsTuple", ["msg_types", "topics"])
+_Topic = namedtuple("TopicTuple", ["msg_type", "message_count", "connections", "frequency"])
+_Compressions = namedtuple("CompressionTuple", ["compression", "uncompressed", "compressed"])
+
+
+class Compression:
+    """Ways to compress chunks."""
+
+    NONE = "none"
+    BZ2 = "bz2"
+    LZ4 = "lz4"
+
+
+_COMPRESSIONS = (Compression.NONE, Compression.BZ2, Compression.LZ4)
+
+
+class Bag:
+    """A bag, to read or to write; also a context manager and an iterator of its messages."""
+
+    def __init__(
+        self,
+        f,
+        mode="r",
+        compression=Compression.NONE,
+        chunk_threshold=768 * 1024,
+        allow_unindexed=False,
+        options=None,
+        skip_index=False,
+    ):
+        """Open a bag.
+
+        Args:
+            f: path, or a binary stream.
+            mode: r to read, w to write a new file, a to write at the end of an old one.
+            compression: of `Compression`, when writing.
+            chunk_threshold: size from which a chunk is full [bytes].
+            allow_unindexed: open a bag whose recording was cut off.
+            options: {'compression': …, 'chunk_threshold': …}, in place of these arguments.
+            skip_index: has no effect.
+
+        Raises:
+            ValueError: an argument is invalid.
+            ROSBagUnindexedException: the bag has no index.
+            ROSBagException: the file is no bag.
+            OSError: the file cannot be opened.
+        """
+        del skip_index
+        if options is not None and not isinstance(options, dict):
+            raise ValueError("options must be of type dict")
+        options = options or {}
+        self._compression = _check_compression(options.get("compression", compression))
+        self._chunk_threshold = _check_threshold(options.get("chunk_threshold", chunk_threshold))
+        if not f:
+            raise ValueError("filename (or stream) is invalid")
+        if mode not in ("r", "w", "a"):
+            raise ValueError(f'mode "{mode}" is invalid')
+        self._mode = mode
+        self._stream = None
+        if isinstance(f, str | Path):
+            self._filename = str(f)
+            path = Path(f)
+        else:
+            self._stream = SpooledStream(f, mode)
+            self._filename = getattr(f, "name", None)
+            path = self._stream.path
+        if mode == "r":
+            self._file = ReadFile(path, allow_unindexed)
+        else:
+            self._file = WriteFile(path, self._compression, self._chunk_threshold, append=mode == "a")
+
+    def __iter__(self):
+        return self.read_messages()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, exc_type, exc_value, traceback):
+        self.close()
+
+    @property
+    def options(self):
+        """Compression and chunk threshold, as a dictionary."""
+        return {"compression": self._compression, "chunk_threshold": self._chunk_threshold}
+
+    @property
+    def filename(self):
+        """Path, as given."""
+        return self._filename
+
+    @property
+    def version(self):
+        """Format: 102 or 200."""
+        reader = getattr(self._file, "reader", None)
+        return 102 if reader is not None and reader.version.startswith("1.2") else 200
+
+    @property
+    def mode(self):
+        """r, w or a."""
+        return self._mode
+
+    @property
+    def size(self):
+        """Size of the file [bytes]."""
+        file = self._opened()
+        return file.size if isinstance(file, WriteFile) else file.path.stat().st_size
+
+    @property
+    def compression(self):
+        """Compression of what is written."""
+        return self._compression
+
+    @compression.setter
+    def compression(self, compression):
+        _check_compression(compression)
+        if compression != self._compression:
+            raise ROSBagException("the compression of a bag cannot change once it is open; give it to Bag(…)")
+
+    @property
+    def chunk_threshold(self):
+        """Size from which a chunk is full [bytes]."""
+        return self._chunk_threshold
+
+    @chunk_threshold.setter
+    def chunk_threshold(self, chunk_threshold):
+        self._chunk_threshold = _check_threshold(chunk_threshold)
+
+    def read_messages(
+        self,
+        topics=None,
+        start_time=None,
+        end_time=None,
+        connection_filter=None,
+        raw=False,
+        return_connection_header=False,
+    ):
+        """Iterator of BagMessages, in order of time.
+
+        Args:
+            topics: a topic or several; default: all.
+            start_time: first genpy.Time.
+            end_time: last genpy.Time.
+            connection_filter: called with (topic, datatype, md5sum, msg_def, header); True keeps a connection.
+            raw: messages are tuples (type, bytes, MD5, position, class).
+            return_connection_header: BagMessageWithConnectionHeader in place of BagMessage.
+
+        Raises:
+            ROSBagException: the file is damaged.
+        """
+        file = self._opened()
+        names = None
+        if topics:
+            names = {roslib.names.canonicalize_name(each) for each in ([topics] if isinstance(topics, str) else topics)}
+
+        def is_wanted(connection):
+            if names is not None and connection.topic not in names:
+                return False
+            return connection_filter is None or connection_filter(
+                connection.topic, connection.type, connection.md5sum, connection.definition, _header(connection)
+            )
+
+        start_ns, end_ns = (each and each.to_nsec() for each in (start_time, end_time))
+        return self._read(file.messages(is_wanted, start_ns, end_ns), raw, return_connection_header)
+
+    def _read(self, messages, raw, return_connection_header):
+        for index, message in enumerate(messages):
+            connection = message.connection
+            kind = message_class(connection.type, connection.md5sum, connection.definition)
+            if raw:
+                value = (connection.type, message.data, connection.md5sum, (0, index), kind)
+            else:
+                value = kind()
+                value.deserialize(message.data)
+            stamp = rospy.Time(message.stamp_ns // 10**9, message.stamp_ns % 10**9)
+            if return_connection_header:
+                yield BagMessageWithConnectionHeader(connection.topic, value, stamp, _header(connection))
+            else:
+                yield BagMessage(connection.topic, value, stamp)
+
+    def flush(self):
+        """Write what is buffered."""
+        file = self._opened()
+        if isinstance(file, WriteFile):
+            file.flush()
+
+    def write(self, topic, msg, t=None, raw=False, connection_header=None):
+        """Write a message.
+
+        Args:
+            topic: topic's name.
+            msg: the message; with `raw` a tuple as read_messages yields.
+            t: genpy.Time of recording; default: now.
+            raw: see `msg`.
+            connection_header: of the topic's connection, if this is its first message.
+
+        Raises:
+            ValueError: an argument is invalid.
+            ROSBagException: a raw message is of an unknown type.
+        """
+        file = self._opened()
+        if not isinstance(file, WriteFile):
+            raise io.UnsupportedOperation("write")
+        if not topic:
+            raise ValueError("topic is invalid")
+        if not msg:
+            raise ValueError("msg is invalid")
+        stamp = genpy.Time.from_sec(time.time()) if t is None else t
+        if raw:
+            connection, data = self._raw(file, topic, msg, connection_header)
+        else:
+            buffer = io.BytesIO()
+            msg.serialize(buffer)
+            data = buffer.getvalue()
+            connection = file.connection(topic, msg._type, msg._md5sum, msg._full_text, connection_header)
+        file.write(connection, stamp.to_nsec(), data)
+
+    def _raw(self, file, topic, msg, header):
+        if len(msg) not in (4, 5):
+            raise ValueError("msg must be of length 4 or 5")
+        type_name, data, md5sum, pytype = msg[0], msg[1], msg[2], msg[-1]
+        connection = file.topic_type(topic)
+        if connection is None:
+            pytype = pytype or genpy.message.get_message_class(type_name)
+            if pytype is None:
+                raise ROSBagException(f"cannot locate message class and no message class provided for [{type_name}]")
+            connection = file.connection(topic, type_name, md5sum, pytype._full_text, header)
+        return connection, data
+
+    def reindex(self):
+        """Iterator of positions, while the messages of an unindexed bag are found; its index is written on close."""
+        file = self._opened()
+        yield 0
+        yield sum(file.counts.values()) and self.size
+
+    def close(self):
+        """Close the file; a written one gets its index."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+            if self._stream is not None:
+                self._stream.close()
+
+    def get_compression_info(self):
+        """Named tuple: prevailing compression, size without it, size with it [bytes]."""
+        chunks = self._opened().chunks
+        if not chunks:
+            return _Compressions(self._compression, 0, 0)
+        counts = collections.Counter(chunk.compression for chunk in chunks)
+        prevailing = max(counts, key=lambda name: (counts[name], name))
+        return _Compressions(prevailing, sum(chunk.size for chunk in chunks), sum(chunk.compressed for chunk in chunks))
+
+    def get_message_count(self, topic_filters=None):
+        """Number of messages: of all topics, a topic, or several."""
+        if isinstance(topic_filters, str):
+            topic_filters = [topic_filters]
+        counts = self._opened().counts
+        return sum(count for each, count in counts.items() if topic_filters is None or each.topic in topic_filters)
+
+    def get_start_time(self):
+        """Time of the first message [s].
+
+        Raises:
+            ROSBagException: the bag is empty.
+        """
+        return genpy.Time(0, min(self._ends()[0])).to_sec()
+
+    def get_end_time(self):
+        """Time of the last message [s].
+
+        Raises:
+            ROSBagException: the bag is empty.
+        """
+        return genpy.Time(0, max(self._ends()[1])).to_sec()
+
+    def _ends(self):
+        """First and last stamps of all topics [ns]."""
+        file = self._opened()
+        if isinstance(file, ReadFile) and file.reader is not None and any(file.counts.values()):
+            return [file.reader.start_ns], [file.reader.end_ns]
+        stamps = [times for times in file.stamps_ns.values() if times]
+        if not stamps:
+            raise ROSBagException("Bag contains no message")
+        return [min(times) for times in stamps], [max(times) for times in stamps]
+
+    def get_type_and_topic_info(self, topic_filters=None):
+        """Named tuple of `msg_types` (type → MD5) and `topics` (name → type, count, connections, frequency [Hz])."""
+        if isinstance(topic_filters, str):
+            topic_filters = [topic_filters]
+        counts, stamps = self._opened().counts, self._opened().stamps_ns
+        types = {each.type: each.md5sum for each in sorted(counts, key=lambda each: each.type)}
+        topics = {}
+        for name in sorted({each.topic for each in counts}):
+            if topic_filters is None or name in topic_filters:
+                own = [each for each in counts if each.topic == name]
+                total = sum(counts[each] for each in own)
+                topics[name] = _Topic(own[0].type, total, len(own), _frequency(sorted(stamps.get(name, []))))
+        return _TypesAndTopics(types, topics)
+
+    def set_encryptor(self, encryptor=None, param=None):
+        """Accept no encryptor; there is none."""
+        if encryptor is not None:
+            raise ROSBagException(f"encryption ({encryptor}) is not supported; write the bag without it")
+
+    def __str__(self):
+        summary = self._summary()
+        return summary.text() if summary else f"path: {self._filename}\nsize: {byte_text(self.size)}"
+
+    def _get_yaml_info(self, key=None):
+        """Text of `rosbag info --yaml`; with a key: that value."""
+        summary = self._summary()
+        text = summary.yaml() if summary else f"path: {self._filename}\nsize: {self.size}\nindexed: False\n"
+        if key is None:
+            return text
+        import yaml
+
+        return str(yaml.safe_load(text).get(key, ""))
+
+    def _summary(self):
+        reader = getattr(self._opened(), "reader", None)
+        return BagSummary(reader, str(self._filename), with_rates=True) if reader is not None else None
+
+    def _opened(self):
+        if self._file is None:
+            raise ValueError("I/O operation on closed bag")
+        return self._file
+
+
+def _check_compression(compression):
+    if compression not in _COMPRESSIONS:
+        raise ValueError(f"compression must be one of: {', '.join(_COMPRESSIONS)}")
+    return compression
+
+
+def _check_threshold(chunk_threshold):
+    if chunk_threshold < 0:
+        raise ValueError("chunk_threshold must be greater than or equal to zero")
+    return chunk_threshold
+
+
+def _header(connection):
+    """Connection header, as bytes."""
+    header = {
+        "topic": connection.topic,
+        "type": connection.type,
+        "md5sum": connection.md5sum,
+        "message_definition": connection.definition,
+    }
+    if connection.caller:
+        header["callerid"] = connection.caller
+    if connection.latching:
+        header["latching"] = "1"
+    return {key: value.encode() for key, value in header.items()}
+
+
+def _frequency(stamps_ns):
+    """Median frequency [Hz]; None of fewer than two messages, or if most come at once."""
+    periods = [(b - a) / 1e9 for a, b in pairwise(stamps_ns)]
+    period = median(periods) if periods else 0.0
+    return 1.0 / period if period > 0.0 else None

@@ -1,0 +1,27 @@
+"""Message classes of a bag's connections."""
+
+import functools
+
+import genpy.dynamic
+import genpy.message
+
+from .exceptions import ROSBagException
+
+
+@functools.lru_cache(maxsize=512)
+def message_class(type_name, md5sum, definition):
+    """Class of a connection's messages: the installed one if its MD5 is the same, else one made of the definition.
+
+    Raises:
+        ROSBagException: the definition is invalid.
+    """
+    try:
+        installed = genpy.message.get_message_class(type_name)
+    except Exception:  # a broken installed package is no reason not to read the bag
+        installed = None
+    if installed is not None and installed._md5sum == md5sum:
+        return installed
+    try:
+        return genpy.dynamic.generate_dynamic(type_name, definition)[type_name]
+    except (genpy.MessageException, KeyError) as error:
+        raise ROSBagException(f"the bag's definition of {type_name} is invalid: {error}") from None

@@ -1,0 +1,5 @@
+"""Base exception."""
+
+
+class ROSLibException(Exception):
+    """Base class."""

@@ -1,0 +1,74 @@
+"""Parameters of which the master sends changes."""
+
+import threading
+from typing import Any
+
+from .. import core, graph
+
+
+class ParamServerCache:
+    """Values of watched parameters by global name; {} for one that is not set."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._values: dict[str, Any] = {}
+
+    def get(self, key: str) -> Any:
+        """Value of a watched parameter, or of a part of one.
+
+        Raises:
+            KeyError: it is not watched, or not set.
+        """
+        with self._lock:
+            if key in self._values:
+                value = self._values[key]
+                if value == {}:
+                    raise KeyError(key)
+                return value
+            raise KeyError(key)
+
+    def set(self, key: str, value: Any) -> None:
+        """Set the value of a parameter that is watched from now on."""
+        with self._lock:
+            self._values[key] = value
+
+    def update(self, key: str, value: Any) -> None:
+        """Set a watched parameter, or a part of one."""
+        with self._lock:
+            for watched in self._values:
+                if key == watched:
+                    self._values[watched] = value
+                elif key.startswith(f"{watched.rstrip('/')}/"):
+                    self._values[watched] = _with_part(self._values[watched], key[len(watched) :], value)
+
+
+cache = ParamServerCache()
+
+
+def get_param_server_cache() -> ParamServerCache:
+    """Values of watched parameters."""
+    return cache
+
+
+def watch(name: str) -> Any:
+    """Watch a parameter; returns its value, {} if it is not set."""
+    node = graph.node
+    if node is None:
+        raise KeyError(name)
+    value = graph.run(lambda: node.params.watch(name, lambda key, new: cache.update(key, new)))
+    if not core.is_shutdown():
+        cache.set(name, value)
+    return value
+
+
+def _with_part(tree: Any, path: str, value: Any) -> Any:
+    """Copy of a parameter tree with a part replaced."""
+    result = dict(tree) if isinstance(tree, dict) else {}
+    at: dict[str, Any] = result
+    *folders, last = [part for part in path.split("/") if part]
+    for part in folders:
+        there = at.get(part)
+        at[part] = dict(there) if isinstance(there, dict) else {}
+        at = at[part]
+    at[last] = value
+    return result

@@ -1,0 +1,20 @@
+"""Messages whose arrays of numbers are numpy arrays."""
+
+from typing import Any
+
+import numpy
+
+
+def numpy_msg(msg_type: Any) -> Any:
+    """Class of a message type with numpy arrays."""
+
+    def serialize(self: Any, buff: Any) -> Any:
+        return self.serialize_numpy(buff, numpy)
+
+    def deserialize(self: Any, str: bytes) -> Any:
+        return self.deserialize_numpy(str, numpy)
+
+    methods = {"serialize": serialize, "deserialize": deserialize, "_numpy_module": numpy, "__slots__": []}
+    made: Any = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), methods)
+    made.__slots__ = msg_type.__slots__
+    return made

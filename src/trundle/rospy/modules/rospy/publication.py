@@ -1,0 +1,216 @@
+"""Topic of this node: its publisher on the graph, shared by all `rospy.Publisher` of the topic."""
+
+import threading
+import time
+from collections.abc import Callable
+from queue import SimpleQueue
+from typing import Any
+
+from trundle.ros.node.local_graph import LocalSubscriber
+from trundle.ros.node.node import Node
+from trundle.ros.node.publisher import Publisher as GraphPublisher
+from trundle.ros.transport.framing import Pieces
+from trundle.ros.transport.tcpros import FrameProtocol
+
+from . import core, graph
+from .msg import framed
+
+_CONGESTED_S = 0.001
+
+
+class SubscribeListener:
+    """Base class of listeners of a publisher's connections."""
+
+    def peer_subscribe(
+        self, topic_name: str, topic_publish: Callable[[Any], object], peer_publish: Callable[[Any], object]
+    ) -> None:
+        """Called when a subscriber connects.
+
+        Args:
+            topic_name: global name.
+            topic_publish: publishes to all subscribers.
+            peer_publish: publishes to the new one.
+        """
+
+    def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
+        """Called when a subscriber has gone; `num_peers` are left."""
+
+
+class Publication:
+    """A topic that this node publishes."""
+
+    def __init__(self, topic: str, data_class: Any) -> None:
+        self.resolved_name = self.name = topic
+        self.data_class = data_class
+        self.type = data_class._type
+        self.queue_size: int | None = None
+        self.is_latch = False
+        self.latch: Any = None
+        self.headers: dict[str, str] = {}
+        self.subscriber_listeners: list[SubscribeListener] = []
+        self.ref_count = 0
+        self.closed = False
+        self.seq = 0
+        self._turn = threading.RLock()
+        """Held while a message is numbered and sent."""
+        self._publisher: FramePublisher | None = None
+        self._calls: SimpleQueue[Callable[[], None]] | None = None
+
+    def start(self, node: Node) -> None:
+        """Advertise."""
+        made = FramePublisher(node, self)
+
+        def make() -> GraphPublisher:
+            return made
+
+        node.endpoints.add_publisher(self.resolved_name, self.type, make)
+        self._publisher = made
+
+    def configure(
+        self, *, listener: SubscribeListener | None, latch: bool, headers: dict[str, str] | None, queue_size: int | None
+    ) -> None:
+        """Apply the options of a `rospy.Publisher`."""
+        if listener is not None:
+            self.subscriber_listeners.append(listener)
+            if self._calls is None:
+                self._calls = SimpleQueue()
+                threading.Thread(target=self._call_listeners, name="rospy-listeners", daemon=True).start()
+        self.is_latch |= latch
+        self.headers.update(headers or {})
+        if queue_size is not None:
+            self.queue_size = queue_size
+        if self._publisher is not None:
+            self._publisher.configure()
+
+    def get_num_connections(self) -> int:
+        """Number of subscribers."""
+        return 0 if self._publisher is None else self._publisher.subscribers
+
+    def has_connections(self) -> bool:
+        """True if there are subscribers."""
+        return self.get_num_connections() > 0
+
+    def publish(self, message: Any) -> None:
+        """Send a message to all subscribers.
+
+        Raises:
+            genpy.SerializationError: a field's value does not fit.
+        """
+        publisher = self._publisher
+        if publisher is None or self.closed:
+            return
+        with self._turn:
+            if self.is_latch:
+                self.latch = message
+            elif not publisher.has_subscribers:
+                return
+            self.seq += 1
+            publisher.publish_frame(framed(self.seq, message))
+        while self.queue_size is None and publisher.is_congested and not core.is_shutdown():
+            time.sleep(_CONGESTED_S)  # without a queue, publishing waits for the slowest subscriber
+
+    def connected(self, send: Callable[[Pieces], object]) -> None:
+        """Call the listeners about a new subscriber, to which `send` sends; on the loop."""
+
+        def publish(message: Any) -> None:
+            with self._turn:
+                self.seq += 1
+                send(framed(self.seq, message))
+
+        self._call(lambda each: each.peer_subscribe(self.resolved_name, self.publish, publish))
+
+    def disconnected(self) -> None:
+        """Call the listeners about a subscriber that has gone; on the loop."""
+        left = self.get_num_connections()
+        self._call(lambda each: each.peer_unsubscribe(self.resolved_name, left))
+
+    def close(self) -> None:
+        """Stop publishing."""
+        self.closed = True
+        graph.forget_starter(self.start)
+        if self._publisher is not None:
+            self._publisher.unregister()
+            if not core.is_shutdown():
+                graph.wait_registered()
+
+    def _call(self, function: Callable[[SubscribeListener], object]) -> None:
+        if self._calls is not None:
+            for listener in list(self.subscriber_listeners):
+                self._calls.put(lambda listener=listener: function(listener))  # pyright: ignore[reportArgumentType]
+
+    def _call_listeners(self) -> None:
+        assert self._calls is not None
+        while True:
+            call = self._calls.get()
+            try:
+                call()
+            except Exception:
+                core.logerr("bad subscribe listener", exc_info=True)
+
+
+class FramePublisher(GraphPublisher):
+    """Publisher of messages that are serialized already: pieces with the length first."""
+
+    def __init__(self, node: Node, publication: Publication) -> None:
+        cls = publication.data_class
+        super().__init__(
+            node,
+            publication.resolved_name,
+            publication.type,
+            latch=publication.is_latch,
+            queue_size=publication.queue_size or None,
+            on_connect=None,
+            raw_type=(cls._md5sum, cls._full_text),
+            unregister=node.endpoints.remove_publisher,
+        )
+        self._publication = publication
+        self._frame = self._framed
+
+    def configure(self) -> None:
+        """Take over changed options."""
+        from collections import deque
+
+        self.latch = self._publication.is_latch
+        self._queue_size = self._publication.queue_size or None
+        self._outbox = deque(self._outbox, maxlen=self._queue_size)
+
+    @property
+    def is_congested(self) -> bool:
+        """True while every subscriber reads too slowly."""
+        return self._subscriber_links.is_congested
+
+    def publish_frame(self, pieces: Pieces) -> None:
+        """Send a serialized message; thread-safe."""
+        self.publish(pieces)  # pyright: ignore[reportArgumentType]
+
+    def header_fields(self) -> dict[str, str]:
+        return {**super().header_fields(), **self._publication.headers}
+
+    def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
+        super().accept(link, header)
+        if link in self._subscriber_links.remote:
+            self._publication.connected(lambda pieces: link.out.send([pieces], None))
+
+    def release(self, link: FrameProtocol) -> None:
+        was_there = link in self._subscriber_links.remote
+        super().release(link)
+        if was_there:
+            self._publication.disconnected()
+
+    def attach(self, subscriber: LocalSubscriber, name: str) -> None:
+        super().attach(subscriber, name)
+        loop = self._node.loop
+        self._publication.connected(lambda pieces: loop.call_soon(lambda: self._deliver(pieces, subscriber, None)))
+
+    def detach(self, subscriber: LocalSubscriber) -> None:
+        super().detach(subscriber)
+        self._publication.disconnected()
+
+    def _checked(self, message: Any) -> Any:
+        return message
+
+    def _framed(self, message: Any) -> Pieces | None:
+        return message
+
+    def _deliver(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
+        subscriber.receive_bytes(b"".join(message)[4:], self)

@@ -1,0 +1,223 @@
+"""Topic that this node subscribes to: its subscription on the graph, shared by all `rospy.Subscriber` of the topic.
+
+A thread of the topic deserializes the messages and calls the callbacks, so that slow callbacks of one topic do not
+delay those of others, and messages that are dropped cost nothing.
+"""
+
+import logging
+import threading
+import traceback
+from collections.abc import Callable, Mapping
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from trundle.ros.node.local_graph import LocalPublisher
+from trundle.ros.node.node import Node
+from trundle.ros.node.publisher import Publisher as GraphPublisher
+from trundle.ros.node.subscription import Subscription as GraphSubscription
+
+from . import core, graph
+from .exceptions import ROSException
+
+_MAX_WAITING_BYTES = 256 * 1024 * 1024
+"""Limit of messages that wait for slow callbacks, where the program sets none."""
+_Callback = tuple[Callable[..., object], Any]
+
+
+class Subscription:
+    """A topic that this node subscribes to."""
+
+    def __init__(self, topic: str, data_class: Any) -> None:
+        self.resolved_name = self.name = topic
+        self.data_class = data_class
+        self.type = data_class._type
+        self.md5sum = data_class._md5sum
+        self.callbacks: list[_Callback] = []
+        self.queue_size: int | None = None
+        self.buff_size = 65536
+        self.tcp_nodelay = False
+        self.ref_count = 0
+        self.closed = False
+        self._lock = threading.RLock()
+        self._waiting: SimpleQueue[tuple[bytes | memoryview, Mapping[str, str]] | None] = SimpleQueue()
+        self._waiting_bytes = 0
+        self._latched: dict[str, Any] = {}
+        """Publisher → its latched message, for callbacks added later."""
+        self._subscription: ByteSubscription | None = None
+        self._thread: threading.Thread | None = None
+
+    def start(self, node: Node) -> None:
+        """Subscribe."""
+        self._thread = threading.Thread(target=self._run, name=f"rospy {self.resolved_name}", daemon=True)
+        self._thread.start()
+        self._subscription = ByteSubscription(node, self)
+        node.endpoints.add_subscription(self._subscription)
+
+    def get_num_connections(self) -> int:
+        """Number of publishers."""
+        return 0 if self._subscription is None else self._subscription.publishers
+
+    def set_queue_size(self, queue_size: Any) -> None:
+        """Set how many messages wait for callbacks; None or -1: no limit.
+
+        Raises:
+            ROSException: zero, or not an integer.
+        """
+        if queue_size == 0:
+            raise ROSException("queue size may not be set to zero")
+        if queue_size is not None and type(queue_size) is not int:
+            raise ROSException("queue size must be an integer")
+        self.queue_size = None if queue_size == -1 else queue_size
+
+    def set_buff_size(self, buff_size: Any) -> None:
+        """Check a buffer's size; messages of any size are received.
+
+        Raises:
+            ROSException: not a positive integer.
+        """
+        if type(buff_size) is not int:
+            raise ROSException("buffer size must be an integer")
+        if buff_size <= 0:
+            raise ROSException("buffer size must be a positive integer")
+        self.buff_size = buff_size
+
+    def set_tcp_nodelay(self, tcp_nodelay: bool) -> None:
+        """Ask publishers for TCP_NODELAY, which they have anyway on this machine."""
+        self.tcp_nodelay = tcp_nodelay
+
+    def add_callback(self, callback: Callable[..., object], callback_args: Any) -> None:
+        """Add a callback; it gets latched messages at once.
+
+        Raises:
+            ROSException: the subscription is closed.
+        """
+        if self.closed:
+            raise ROSException(f"subscriber [{self.resolved_name}] has been closed")
+        with self._lock:
+            self.callbacks = [*self.callbacks, (callback, callback_args)]
+            latched = list(self._latched.values())
+        for message in latched:
+            self._call(message, callback, callback_args)
+
+    def remove_callback(self, callback: Callable[..., object], callback_args: Any) -> None:
+        """Remove a callback.
+
+        Raises:
+            KeyError: it was not added.
+        """
+        if self.closed:
+            return
+        with self._lock:
+            for number, (there, arguments) in enumerate(self.callbacks):
+                if there == callback and arguments is callback_args:
+                    self.callbacks = [*self.callbacks[:number], *self.callbacks[number + 1 :]]
+                    return
+        raise KeyError("no matching cb")
+
+    def receive(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
+        """Queue a message for the topic's thread; on the loop."""
+        if self.queue_size is not None:
+            while self._waiting.qsize() >= self.queue_size and self._drop_oldest():
+                pass
+        while self._waiting_bytes > _MAX_WAITING_BYTES and self._drop_oldest():
+            pass
+        self._waiting_bytes += len(data)
+        self._waiting.put((data, header))
+
+    def close(self) -> None:
+        """Unsubscribe."""
+        self.closed = True
+        self.callbacks = []
+        graph.forget_starter(self.start)
+        self._waiting.put(None)
+        if self._subscription is not None:
+            self._subscription.unregister()
+            if not core.is_shutdown():
+                graph.wait_registered()
+
+    def _drop_oldest(self) -> bool:
+        try:
+            oldest = self._waiting.get_nowait()
+        except Empty:
+            return False
+        if oldest is None:
+            self._waiting.put(None)
+            return False
+        self._waiting_bytes -= len(oldest[0])
+        return True
+
+    def _run(self) -> None:
+        read = self._reader()
+        while (entry := self._waiting.get()) is not None:
+            data, header = entry
+            self._waiting_bytes -= len(data)
+            try:
+                message = read(data)
+            except Exception as error:
+                logging.getLogger("rospy.topics").error("%s: cannot deserialize: %s", self.resolved_name, error)
+                continue
+            message._connection_header = header
+            with self._lock:
+                if header.get("latching") == "1":
+                    self._latched[header.get("callerid", "")] = message
+                callbacks = self.callbacks
+            for callback, arguments in callbacks:
+                self._call(message, callback, arguments)
+
+    def _reader(self) -> Callable[[bytes | memoryview], Any]:
+        cls = self.data_class
+        from trundle.rospy.message_methods import METHODS, codec
+
+        if getattr(cls, "deserialize", None) is METHODS["deserialize"]:
+            return codec(cls).read
+        return lambda data: cls().deserialize(bytes(data))
+
+    def _call(self, message: Any, callback: Callable[..., object], arguments: Any) -> None:
+        try:
+            if arguments is None:
+                callback(message)
+            else:
+                callback(message, arguments)
+        except Exception:
+            what = f"bad callback: {callback}\n{traceback.format_exc()}"
+            if core.is_shutdown():
+                logging.getLogger("rospy.topics").warning("during shutdown, %s", what)
+            else:
+                core.logerr(what)
+
+
+class ByteSubscription(GraphSubscription):
+    """Subscription that passes on bytes; publishers get its real type."""
+
+    def __init__(self, node: Node, subscription: Subscription) -> None:
+        super().__init__(
+            node,
+            subscription.resolved_name,
+            subscription.type,
+            lambda _: None,
+            queue_size=subscription.queue_size,
+            tcp_nodelay=subscription.tcp_nodelay,
+            on_loop=True,
+            unregister=node.endpoints.remove_subscription,
+        )
+        self.is_raw = True
+        self._subscription = subscription
+        self._local_header: tuple[LocalPublisher, dict[str, str]] | None = None
+
+    @property
+    def md5sum(self) -> str:
+        return self._subscription.md5sum
+
+    def receive_data(self, data: bytes | memoryview, header: Mapping[str, str], *, from_outside: bool = True) -> None:
+        del from_outside
+        self.received += 1
+        self._subscription.receive(data, header)
+
+    def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
+        if self._local_header is None or self._local_header[0] is not publisher:
+            fields = publisher.header_fields() if isinstance(publisher, GraphPublisher) else {}
+            self._local_header = publisher, fields
+        self.receive_data(data, self._local_header[1])
+
+    def _request(self) -> dict[str, str]:
+        return {**super()._request(), "message_definition": self._subscription.data_class._full_text}

@@ -1,0 +1,226 @@
+"""Lookup of transforms in tf's terms, and listener that keeps them up to date."""
+
+import yaml
+
+import tf2_ros
+
+from .message_transforms import MessageTransforms, xyz_to_mat44, xyzw_to_mat44
+from .twist import frame_twist
+
+__all__ = [
+    "TransformListener",
+    "Transformer",
+    "TransformerROS",
+    "strip_leading_slash",
+    "xyz_to_mat44",
+    "xyzw_to_mat44",
+]
+
+
+def strip_leading_slash(s):
+    """Frame name as in tf2."""
+    return s[1:] if s.startswith("/") else s
+
+
+class Transformer:
+    """Buffer of transforms; frame names may start with a slash."""
+
+    def __init__(self, interpolate=True, cache_time=None):
+        """Start empty.
+
+        Args:
+            interpolate: has no effect; tf2 always interpolates.
+            cache_time: rospy.Duration to keep transforms for; None: 10 s.
+        """
+        del interpolate
+        self._buffer = tf2_ros.Buffer(cache_time, debug=False)
+        self._using_dedicated_thread = False
+
+    def allFramesAsDot(self, current_time=None):
+        """The tree of frames for Graphviz."""
+        return self._buffer._allFramesAsDot(current_time) if current_time else self._buffer._allFramesAsDot()
+
+    def allFramesAsString(self):
+        """One sentence a frame."""
+        return self._buffer.all_frames_as_string()
+
+    def setTransform(self, transform, authority="default_authority"):
+        """Add a TransformStamped."""
+        self._buffer.set_transform(transform, authority)
+
+    def canTransform(self, target_frame, source_frame, time):
+        """True if `lookupTransform` would succeed."""
+        return self._buffer.can_transform(strip_leading_slash(target_frame), strip_leading_slash(source_frame), time)
+
+    def canTransformFull(self, target_frame, target_time, source_frame, source_time, fixed_frame):
+        """True if `lookupTransformFull` would succeed."""
+        return self._buffer.can_transform_full(
+            strip_leading_slash(target_frame),
+            target_time,
+            strip_leading_slash(source_frame),
+            source_time,
+            strip_leading_slash(fixed_frame),
+        )
+
+    def waitForTransform(self, target_frame, source_frame, time, timeout, polling_sleep_duration=None):
+        """Wait until a transform is there.
+
+        Raises:
+            tf.Exception: it did not come in time, or nothing listens to /tf.
+        """
+        del polling_sleep_duration
+        self._check_listening()
+        self._check_found(
+            self._buffer.can_transform(
+                strip_leading_slash(target_frame),
+                strip_leading_slash(source_frame),
+                time,
+                timeout,
+                return_debug_tuple=True,
+            ),
+            source_frame,
+            target_frame,
+        )
+
+    def waitForTransformFull(
+        self,
+        target_frame,
+        target_time,
+        source_frame,
+        source_time,
+        fixed_frame,
+        timeout,
+        polling_sleep_duration=None,
+    ):
+        """Wait until a transform between two times is there; see `waitForTransform`."""
+        del polling_sleep_duration
+        self._check_listening()
+        self._check_found(
+            self._buffer.can_transform_full(
+                strip_leading_slash(target_frame),
+                target_time,
+                strip_leading_slash(source_frame),
+                source_time,
+                strip_leading_slash(fixed_frame),
+                timeout,
+                return_debug_tuple=True,
+            ),
+            source_frame,
+            target_frame,
+        )
+
+    def chain(self, target_frame, target_time, source_frame, source_time, fixed_frame):
+        """Frames on the way from the source to the target."""
+        return self._buffer._chain(target_frame, target_time, source_frame, source_time, fixed_frame)
+
+    def clear(self):
+        """Drop all but static transforms."""
+        self._buffer.clear()
+
+    def frameExists(self, frame_id):
+        """True if the frame has a parent."""
+        return frame_id in self.getFrameStrings()
+
+    def getFrameStrings(self):
+        """Names of the frames that have a parent."""
+        return list(yaml.safe_load(self._buffer.all_frames_as_yaml()) or {})
+
+    def getLatestCommonTime(self, source_frame, dest_frame):
+        """Newest rospy.Time at which the two are connected."""
+        return self._buffer.get_latest_common_time(strip_leading_slash(source_frame), strip_leading_slash(dest_frame))
+
+    def lookupTransform(self, target_frame, source_frame, time):
+        """Translation [x, y, z] and rotation [x, y, z, w] of the source in the target frame.
+
+        Raises:
+            tf.LookupException: no such frame.
+            tf.ConnectivityException: not in one tree.
+            tf.ExtrapolationException: not at this time.
+        """
+        return _as_lists(
+            self._buffer.lookup_transform(strip_leading_slash(target_frame), strip_leading_slash(source_frame), time)
+        )
+
+    def lookupTransformFull(self, target_frame, target_time, source_frame, source_time, fixed_frame):
+        """Translation and rotation between two times; see `lookupTransform`."""
+        return _as_lists(
+            self._buffer.lookup_transform_full(
+                strip_leading_slash(target_frame),
+                target_time,
+                strip_leading_slash(source_frame),
+                source_time,
+                strip_leading_slash(fixed_frame),
+            )
+        )
+
+    def lookupTwist(self, tracking_frame, observation_frame, time, averaging_interval):
+        """Linear [m/s] and angular [rad/s] velocity of a frame as seen from another, as two 3-tuples."""
+        return self.lookupTwistFull(
+            tracking_frame,
+            observation_frame,
+            observation_frame,
+            (0.0, 0.0, 0.0),
+            tracking_frame,
+            time,
+            averaging_interval,
+        )
+
+    def lookupTwistFull(
+        self,
+        tracking_frame,
+        observation_frame,
+        reference_frame,
+        ref_point,
+        reference_point_frame,
+        time,
+        averaging_interval,
+    ):
+        """Velocity of a frame at a reference point, in a reference frame, averaged over an interval."""
+        return frame_twist(
+            self,
+            tracking_frame,
+            observation_frame,
+            reference_frame,
+            ref_point,
+            reference_point_frame,
+            time,
+            averaging_interval,
+        )
+
+    def setUsingDedicatedThread(self, value):
+        """State that transforms come in on another thread, so that waiting makes sense."""
+        self._using_dedicated_thread = value
+
+    def getTFPrefix(self):
+        """''; tf2 has no prefix."""
+        return ""
+
+    def _check_listening(self):
+        if not self._using_dedicated_thread:
+            raise tf2_ros.TransformException(
+                "a Transformer that no thread feeds cannot wait: use a TransformListener, or setUsingDedicatedThread"
+            )
+
+    def _check_found(self, answer, source_frame, target_frame):
+        is_found, why = answer
+        if not is_found:
+            raise tf2_ros.TransformException(why or f"no transform from '{source_frame}' to '{target_frame}'")
+
+
+class TransformerROS(Transformer, MessageTransforms):
+    """Transformer that also transforms stamped messages."""
+
+
+class TransformListener(TransformerROS):
+    """Transformer that is fed by /tf and /tf_static."""
+
+    def __init__(self, *args, **kwargs):
+        """Subscribe; arguments as of Transformer."""
+        super().__init__(*args, **kwargs)
+        self._listener = tf2_ros.TransformListener(self._buffer)
+        self.setUsingDedicatedThread(True)
+
+
+def _as_lists(message):
+    t, r = message.transform.translation, message.transform.rotation
+    return [t.x, t.y, t.z], [r.x, r.y, r.z, r.w]

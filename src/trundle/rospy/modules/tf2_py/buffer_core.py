@@ -1,0 +1,250 @@
+"""Buffer of transforms, without ROS' communication."""
+
+import math
+import sys
+import threading
+
+from geometry_msgs.msg import TransformStamped
+
+import rospy
+
+from .exceptions import InvalidArgumentException, LookupException, TransformException
+from .history import FixedFrame, History, Sample
+from .rigid import compose, with_matrix_sign
+from .tree import FrameTree
+
+
+class BufferCore:
+    """Transforms of the last seconds, looked up by frame and time."""
+
+    def __init__(self, cache_time=None):
+        """Start empty; `cache_time` is a rospy.Duration, 10 s if None."""
+        self._cache_ns = 10 * 10**9 if cache_time is None else cache_time.to_nsec()
+        self._tree = FrameTree()
+        self._authorities = {}
+        self._lock = threading.RLock()
+
+    def set_transform(self, transform, authority):
+        """Add a TransformStamped, said by `authority`."""
+        self._set(transform, authority, History)
+
+    def set_transform_static(self, transform, authority):
+        """Add a TransformStamped that is valid at every time."""
+        self._set(transform, authority, FixedFrame)
+
+    def lookup_transform_core(self, target_frame, source_frame, time):
+        """TransformStamped of the source in the target frame; time 0 is the latest common time.
+
+        Raises:
+            TransformException: there is no such transform.
+        """
+        _check_types(target_frame, source_frame)
+        with self._lock:
+            self._check(("target_frame", target_frame), ("source_frame", source_frame))
+            stamp, pose = self._tree.transform(target_frame, source_frame, time.to_nsec())
+        return _message(target_frame, source_frame, stamp, pose)
+
+    def lookup_transform_full_core(self, target_frame, target_time, source_frame, source_time, fixed_frame):
+        """TransformStamped of the source at one time in the target at another; the fixed frame relates the times.
+
+        Raises:
+            TransformException: there is no such transform.
+        """
+        _check_types(target_frame, source_frame, fixed_frame)
+        with self._lock:
+            self._check(("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame))
+            _, fixed_from_source = self._tree.transform(fixed_frame, source_frame, source_time.to_nsec())
+            stamp, target_from_fixed = self._tree.transform(target_frame, fixed_frame, target_time.to_nsec())
+        translation, rotation = compose(target_from_fixed, fixed_from_source)
+        return _message(target_frame, source_frame, stamp, (translation, with_matrix_sign(rotation)))
+
+    def can_transform_core(self, target_frame, source_frame, time):
+        """(1, '') if the lookup would succeed, else (0, why)."""
+        _check_types(target_frame, source_frame)
+        return self._try(
+            (("target_frame", target_frame), ("source_frame", source_frame)),
+            lambda: self._tree.transform(target_frame, source_frame, time.to_nsec()),
+        )
+
+    def can_transform_full_core(self, target_frame, target_time, source_frame, source_time, fixed_frame):
+        """(1, '') if the full lookup would succeed, else (0, why)."""
+        _check_types(target_frame, source_frame, fixed_frame)
+
+        def look_up():
+            self._tree.transform(target_frame, fixed_frame, target_time.to_nsec())
+            self._tree.transform(fixed_frame, source_frame, source_time.to_nsec())
+
+        return self._try(
+            (("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame)), look_up
+        )
+
+    def get_latest_common_time(self, source_frame, dest_frame):
+        """Newest rospy.Time at which the two are connected; 0 if all frames between them are static.
+
+        Raises:
+            LookupException: no such frame.
+            TransformException: not connected.
+        """
+        with self._lock:
+            for frame in (source_frame, dest_frame):
+                if frame not in self._tree.names:
+                    raise LookupException(f'"{frame}" passed to get_latest_common_time does not exist. ')
+            try:
+                return rospy.Time(0, self._tree.latest_common_time(source_frame, dest_frame))
+            except TransformException as error:
+                raise TransformException(str(error)) from None
+
+    def clear(self):
+        """Drop all but static transforms."""
+        with self._lock:
+            for history in self._tree.histories.values():
+                history.clear()
+
+    def all_frames_as_yaml(self):
+        """Parent, broadcaster, rate and times of each frame, as YAML."""
+        text = "".join(
+            f"{frame}: \n  parent: '{parent}'\n  broadcaster: '{authority}'\n  rate: {rate:.3f}\n"
+            f"  most_recent_transform: {newest:.3f}\n  oldest_transform: {oldest:.3f}\n"
+            f"  buffer_length: {newest - oldest:.3f}\n"
+            for frame, parent, authority, rate, newest, oldest in self._statistics()
+        )
+        return text or "{}"
+
+    def all_frames_as_string(self):
+        """One sentence a frame."""
+        return "".join(f"Frame {frame} exists with parent {parent}.\n" for frame, parent, *_ in self._statistics())
+
+    def _allFramesAsDot(self, current_time=None):
+        """The tree as a graph for Graphviz; `current_time` is a rospy.Time."""
+        rows = self._statistics()
+        if not rows:
+            return 'digraph G {\n"no tf data recieved"}'  # as tf2 spells it
+        lines = []
+        for frame, parent, authority, rate, newest, oldest in rows:
+            label = f"Broadcaster: {authority}\\nAverage rate: {rate:.3f} Hz\\nMost recent transform: {newest:.3f} "
+            if current_time is not None:
+                label += f"( {current_time.to_sec() - newest:.3f} sec old)"
+            lines.append(f'"{parent}" -> "{frame}"[label="{label}\\nBuffer length: {newest - oldest:.3f} sec\\n"];\n')
+        if current_time is not None:
+            children = {row[0] for row in rows}
+            roots = dict.fromkeys(row[1] for row in rows if row[1] not in children)
+            lines += [_legend(current_time, root) for root in roots]
+        return "digraph G {\n" + "".join(lines) + "}"
+
+    def _frameExists(self, frame_id):
+        """True if the frame is known, as child or parent."""
+        return frame_id in self._tree.names
+
+    def _getFrameStrings(self):
+        """Names of all frames."""
+        with self._lock:
+            return list(self._tree.names)
+
+    def _chain(self, target_frame, target_time, source_frame, source_time, fixed_frame):
+        """Frames on the way from the source to the target."""
+        with self._lock:
+            self._check(("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame))
+            to_fixed = self._tree.chain(fixed_frame, source_frame, source_time.to_nsec())
+            return [*to_fixed, *self._tree.chain(target_frame, fixed_frame, target_time.to_nsec())[1:]]
+
+    def _set(self, transform, authority, kind):
+        """Check a transform and add it to the frame's history; faults go to stderr."""
+        parent, child = (name.removeprefix("/") for name in (transform.header.frame_id, transform.child_frame_id))
+        t, q = transform.transform.translation, transform.transform.rotation
+        stamp = transform.header.stamp.to_nsec()
+        norm = math.hypot(q.x, q.y, q.z, q.w)
+        fault = _fault(parent, child, norm, t)
+        if fault:
+            print(f"{fault}, said by {authority}; ignored", file=sys.stderr)
+            return
+        pose = (t.x, t.y, t.z), (q.x / norm, q.y / norm, q.z / norm, q.w / norm)
+        with self._lock:
+            history = self._tree.histories.get(child)
+            if not isinstance(history, kind):
+                history = self._tree.histories[child] = kind(self._cache_ns) if kind is History else kind()
+            self._tree.names.setdefault(child)
+            self._tree.names.setdefault(parent)
+            if not history.add(Sample(stamp, parent, pose)):
+                newest = history.latest()[0]
+                why = (
+                    "TF_REPEATED_DATA: its stamp is there already"
+                    if newest - stamp <= self._cache_ns
+                    else "TF_OLD_DATA"
+                )
+                print(
+                    f"{why}: transform of '{child}' at {stamp / 1e9:f}, said by {authority}; ignored", file=sys.stderr
+                )
+                return
+            self._authorities[child] = authority
+
+    def _check(self, *arguments):
+        for argument, frame in arguments:
+            self._tree.check_name(frame, "lookupTransform", argument)
+
+    def _try(self, arguments, look_up):
+        """(1, '') if the names are good and `look_up` succeeds, else (0, why)."""
+        with self._lock:
+            for argument, frame in arguments:
+                try:
+                    self._tree.check_name(frame, "canTransform", argument)
+                except InvalidArgumentException as error:
+                    print(error, file=sys.stderr)
+                    return 0, ""
+                except LookupException:
+                    return 0, f"canTransform: {argument} {frame} does not exist."
+            try:
+                look_up()
+            except TransformException as error:
+                return 0, str(error)
+        return 1, ""
+
+    def _statistics(self):
+        """(frame, parent, authority, rate [Hz], newest stamp [s], oldest stamp [s]) of each frame with data."""
+        with self._lock:
+            rows = []
+            for frame, history in self._tree.histories.items():
+                newest, parent = history.latest()
+                if parent is None:
+                    continue
+                oldest = history.oldest_stamp()
+                rate = history.count() / max((newest - oldest) / 1e9, 0.0001)
+                rows.append((frame, parent, self._authorities[frame], rate, newest / 1e9, oldest / 1e9))
+            return rows
+
+
+def _legend(time, root):
+    return (
+        'edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'
+        f'"Recorded at time: {time.to_sec():.3f}"[ shape=plaintext ] ;\n }}->"{root}";\n'
+    )
+
+
+def _fault(parent, child, norm, translation):
+    """Fault that makes a transform unusable; '' if there is none."""
+    if child == parent:
+        return f"TF_SELF_TRANSFORM: frame_id and child_frame_id are both '{child}'"
+    if not child:
+        return "TF_NO_CHILD_FRAME_ID: a transform without child_frame_id"
+    if not parent:
+        return f"TF_NO_FRAME_ID: the transform of '{child}' has no frame_id"
+    if not math.isfinite(norm + translation.x + translation.y + translation.z):
+        return f"TF_NAN_INPUT: the transform of '{child}' is not finite"
+    if abs(norm * norm - 1.0) > 1e-2:
+        return f"TF_DENORMALIZED_QUATERNION: the rotation of '{child}' has length {norm:g}"
+    return ""
+
+
+def _check_types(*frames):
+    for frame in frames:
+        if not isinstance(frame, str):
+            raise TypeError(f"a frame's name must be str, not {type(frame).__name__}")
+
+
+def _message(target, source, stamp, pose):
+    message = TransformStamped()
+    message.header.frame_id = target
+    message.header.stamp = rospy.Time(stamp // 10**9, stamp % 10**9)
+    message.child_frame_id = source
+    t, q = message.transform.translation, message.transform.rotation
+    (t.x, t.y, t.z), (q.x, q.y, q.z, q.w) = pose
+    return message

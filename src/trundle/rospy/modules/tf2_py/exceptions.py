@@ -1,0 +1,33 @@
+"""Exceptions of transform lookups.
+
+TransformException
+├── ConnectivityException
+├── LookupException
+├── ExtrapolationException
+├── InvalidArgumentException
+└── TimeoutException
+"""
+
+
+class TransformException(Exception):
+    """A transform cannot be given."""
+
+
+class ConnectivityException(TransformException):
+    """The two frames are in different trees."""
+
+
+class LookupException(TransformException):
+    """A frame does not exist."""
+
+
+class ExtrapolationException(TransformException):
+    """The time is outside the buffered history."""
+
+
+class InvalidArgumentException(TransformException):
+    """A frame name is empty or starts with a slash."""
+
+
+class TimeoutException(TransformException):
+    """No answer in time."""

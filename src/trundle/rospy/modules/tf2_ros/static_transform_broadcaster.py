@@ -1,0 +1,21 @@
+"""Publisher of transforms that never change."""
+
+from tf2_msgs.msg import TFMessage
+
+import rospy
+
+
+class StaticTransformBroadcaster:
+    """Publishes on /tf_static, latched: every message carries all transforms sent so far."""
+
+    def __init__(self):
+        self.pub_tf = rospy.Publisher("/tf_static", TFMessage, queue_size=100, latch=True)
+        self.net_message = TFMessage()
+
+    def sendTransform(self, transform):
+        """Send one TransformStamped or a list of them; the last one of each child is kept."""
+        latest = {known.child_frame_id: known for known in self.net_message.transforms}
+        for new in transform if isinstance(transform, list) else [transform]:
+            latest[new.child_frame_id] = new
+        self.net_message = TFMessage(list(latest.values()))
+        self.pub_tf.publish(self.net_message)

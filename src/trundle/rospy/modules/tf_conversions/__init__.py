@@ -1,0 +1,5 @@
+"""Conversions of poses between messages, tf, matrices and KDL frames."""
+
+from .posemath import fromCameraParams, fromMatrix, fromMsg, fromTf, toMatrix, toMsg, toTf
+
+__all__ = ["fromCameraParams", "fromMatrix", "fromMsg", "fromTf", "toMatrix", "toMsg", "toTf"]

@@ -1,0 +1,15 @@
+import rospy
+
+for name in """
+AnyMsg DEBUG Duration ERROR FATAL Header INFO MasterProxy Message Publisher ROSException ROSInitException
+ROSInternalException ROSInterruptException ROSSerializationException ROSTimeMovedBackwardsException Rate Service
+ServiceException ServiceProxy SubscribeListener Subscriber Time Timer TransportException TransportInitError
+TransportTerminated WARN client core delete_param exceptions get_caller_id get_master get_name get_namespace
+get_node_uri get_param get_param_cached get_param_names get_published_topics get_ros_root get_rostime get_time has_param
+impl init_node is_shutdown logdebug logdebug_once logdebug_throttle logdebug_throttle_identical logerr logerr_once
+logerr_throttle logerr_throttle_identical logfatal logfatal_once logfatal_throttle logfatal_throttle_identical loginfo
+loginfo_once loginfo_throttle loginfo_throttle_identical logout logwarn logwarn_once logwarn_throttle
+logwarn_throttle_identical msg msproxy myargv names on_shutdown parse_rosrpc_uri remap_name resolve_name rostime
+search_param service set_param signal_shutdown sleep spin timer topics wait_for_message wait_for_service
+""".split():
+    print(name, hasattr(rospy, name))

@@ -1,0 +1,184 @@
+"""What the Python libraries of ROS do here beyond the originals, or without what those need."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests.rospy.programs import environment
+
+PATIENCE_S = 120.0
+
+
+def _run(code: str, folder: Path) -> str:
+    """Output of code in a Python of its own, where importing OpenCV fails."""
+    prologue = "import sys\nsys.modules['cv2'] = None\n"
+    env = environment(sys.executable, "http://localhost:1", folder) | {"ROS_PACKAGE_PATH": str(folder)}
+    done = subprocess.run(
+        [sys.executable, "-c", prologue + code],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        check=False,
+    )
+    return done.stdout + done.stderr
+
+
+def test_images_convert_without_opencv(tmp_path: Path) -> None:
+    code = """
+import numpy as np
+from cv_bridge import CvBridge, CvBridgeError
+from sensor_msgs.msg import Image
+bridge = CvBridge()
+red = np.zeros((2, 3, 3), np.uint8)
+red[..., 2] = 200
+message = bridge.cv2_to_imgmsg(red, "bgr8")
+print(message.encoding, message.width, message.height, message.step)
+print(bridge.imgmsg_to_cv2(message, "rgb8")[0, 0].tolist(), bridge.imgmsg_to_cv2(message, "mono8")[0, 0])
+print(bridge.imgmsg_to_cv2(message, "rgba8").shape, bridge.imgmsg_to_cv2(message, "bgr16")[0, 0].tolist())
+depth = bridge.cv2_to_imgmsg(np.full((2, 2), 1.5, np.float32), "32FC1")
+print(bridge.imgmsg_to_cv2(depth).tolist(), bridge.cv2_to_imgmsg(red).encoding)
+padded = Image(height=2, width=2, encoding="mono8", step=4, data=bytes([1, 2, 0, 0, 3, 4, 0, 0]))
+print(bridge.imgmsg_to_cv2(padded).tolist())
+big = Image(height=1, width=2, encoding="16UC1", step=4, is_bigendian=1, data=bytes([1, 0, 0, 2]))
+print(bridge.imgmsg_to_cv2(big).tolist())
+picture = bridge.cv2_to_compressed_imgmsg(red, "png")
+print(picture.format, bridge.compressed_imgmsg_to_cv2(picture)[0, 0].tolist())
+print(bridge.compressed_imgmsg_to_cv2(picture, "rgb8")[0, 0].tolist(), bridge.encoding_to_cvtype2("bgr8"))
+for bad in (
+    lambda: bridge.imgmsg_to_cv2(Image(encoding="nope")),
+    lambda: bridge.imgmsg_to_cv2(Image(height=9, width=9, encoding="mono8", step=9, data=b"short")),
+    lambda: bridge.imgmsg_to_cv2(depth, "bgr8"),
+    lambda: bridge.cv2_to_imgmsg(red, "mono8"),
+    lambda: bridge.compressed_imgmsg_to_cv2(type(picture)(data=b"no image")),
+    lambda: bridge.imgmsg_to_cv2(Image(height=2, width=2, encoding="bayer_rggb8", step=2, data=bytes(4)), "bgr8"),
+):
+    try:
+        print("no error", bad())
+    except CvBridgeError as error:
+        print("error:", error)
+"""
+    said = _run(code, tmp_path).splitlines()
+    assert said[:10] == [
+        "bgr8 3 2 9",
+        "[200, 0, 0] 60",
+        "(2, 3, 4) [0, 0, 51400]",
+        "[[1.5, 1.5], [1.5, 1.5]] 8UC3",
+        "[[1, 2], [3, 4]]",
+        "[[256, 2]]",
+        "png [0, 0, 200]",
+        "[200, 0, 0] 16",
+        "error: Unrecognized image encoding [nope]",
+        said[9],
+    ]
+    assert all(line.startswith("error:") for line in said[8:])
+    assert len(said) == 14
+    assert "pip install opencv-python-headless" in said[-1]
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """Package with a .cfg file."""
+    folder = tmp_path / "pumps"
+    (folder / "cfg").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>pumps</name><version>1.0.0</version></package>")
+    (folder / "cfg/Pump.cfg").write_text(
+        "#!/usr/bin/env python\n"
+        'PACKAGE = "pumps"\n'
+        "from dynamic_reconfigure.parameter_generator_catkin import *\n"
+        "gen = ParameterGenerator()\n"
+        'modes = gen.enum([gen.const("Slow", int_t, 0, "little"), gen.const("Fast", int_t, 1, "much")], "speeds")\n'
+        'gen.add("flow", double_t, 1, "litres per second", 0.5, 0, 2)\n'
+        'gen.add("mode", int_t, 2, "speed", 0, 0, 1, edit_method=modes)\n'
+        'gen.add_group("limits", state=False).add("name", str_t, 4, "of the pump")\n'
+        'exit(gen.generate(PACKAGE, "pumps", "Pump"))\n'
+    )
+    return folder
+
+
+def test_a_cfg_file_is_a_module_without_a_build(package: Path) -> None:
+    code = """
+from pumps.cfg import PumpConfig as c
+print(c.defaults, c.min["flow"], c.max["flow"], c.level, c.all_level, c.type, c.Pump_Fast)
+print(c.config_description["groups"][0]["name"], [p["name"] for p in c.extract_params(c.config_description)])
+from dynamic_reconfigure.encoding import decode_description, encode_description
+print(decode_description(encode_description(c))["groups"]["limits"]["parameters"][0]["name"])
+"""
+    assert _run(code, package.parent).splitlines() == [
+        "{'flow': 0.5, 'mode': 0, 'name': ''} 0.0 2.0 {'flow': 1, 'mode': 2, 'name': 4} 7 "
+        "{'flow': 'double', 'mode': 'int', 'name': 'str'} 1",
+        "limits ['flow', 'mode', 'name']",
+        "name",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ('gen.add("flow", double_t, 1, "twice", "much")', "cfg/Pump.cfg:10: error: TypeError: 'flow' has type double"),
+        ("gen.add(", "cfg/Pump.cfg:10: error: SyntaxError"),
+        ('gen.add("1st", int_t, 1, "bad")', "'1st' is no name of a parameter"),
+    ],
+)
+def test_a_faulty_cfg_file_is_named_with_its_line(package: Path, line: str, said: str) -> None:
+    file = package / "cfg/Pump.cfg"
+    file.write_text(file.read_text().replace("exit(", "exit_code = (") + line + "\n")
+    assert said in _run("import pumps.cfg.PumpConfig", package.parent)
+
+
+def test_smach_takes_plain_userdata_only_from_the_network(tmp_path: Path) -> None:
+    code = """
+import base64, os, pickle
+from smach_ros import local_data
+print(local_data.decode(local_data.encode({"a": [1, "b", None], "f": lambda: 1})))
+class Evil:
+    def __reduce__(self):
+        return os.system, ("echo run",)
+for data in (base64.b64encode(pickle.dumps({"x": Evil()})).decode(), "!!", base64.b64encode(b"\\x80").decode()):
+    try:
+        print(local_data.decode(data))
+    except ValueError as error:
+        print("refused")
+"""
+    assert _run(code, tmp_path).splitlines() == ["{'a': [1, 'b', None]}", "refused", "refused", "refused"]
+
+
+@pytest.mark.parametrize(
+    ("statement", "said"),
+    [
+        ("import moveit_commander", "follow_joint_trajectory"),
+        ("from PyKDL import Chain", "cannot import name 'Chain'"),
+        ("import PyKDL; PyKDL.Chain", "python3-pykdl"),
+    ],
+)
+def test_what_is_missing_is_named_with_a_way_out(statement: str, said: str, tmp_path: Path) -> None:
+    assert said in _run(statement, tmp_path)
+
+
+def test_a_bag_that_is_appended_to_keeps_its_messages_until_it_is_closed(tmp_path: Path) -> None:
+    code = f"""
+import genpy, rosbag
+from std_msgs.msg import String
+path = {str(tmp_path / "a.bag")!r}
+with rosbag.Bag(path, "w") as bag:
+    bag.write("/a", String("one"), genpy.Time(1))
+appending = rosbag.Bag(path, "a")
+appending.write("/a", String("two"), genpy.Time(2))
+print([m.message.data for m in rosbag.Bag(path)])
+appending.close()
+print([m.message.data for m in rosbag.Bag(path)])
+"""
+    assert _run(code, tmp_path).splitlines() == ["['one']", "['one', 'two']"]
+    assert [each.name for each in tmp_path.iterdir() if each.suffix == ".bag"] == ["a.bag"]
+
+
+def test_urdf_parser_py_and_angles_and_every_library_import(tmp_path: Path) -> None:
+    names = (
+        "PyKDL actionlib angles cv_bridge diagnostic_updater dynamic_reconfigure.server dynamic_reconfigure.client "
+        "image_geometry interactive_markers.interactive_marker_server interactive_markers.menu_handler laser_geometry "
+        "message_filters ros_numpy rosbag sensor_msgs.point_cloud2 smach smach_ros tf tf.transformations "
+        "tf2_geometry_msgs tf2_py tf2_ros tf2_sensor_msgs tf_conversions.posemath urdf_parser_py.urdf xacro"
+    )
+    code = f"import importlib\nfor name in {names.split()!r}: importlib.import_module(name)\nprint('all')"
+    assert _run(code, tmp_path) == "all\n"
