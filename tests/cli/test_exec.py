@@ -97,10 +97,18 @@ def test_a_tool_takes_its_words_as_they_are(graph: Any) -> None:
     assert graph.trundle("exec", "rosparam", "rosparam", "get", "/none")[0] == 1
 
 
-def test_a_script_whose_python_has_no_rospy_is_told_the_way_out(programs: list[Path]) -> None:
+def test_a_script_imports_rospy_without_an_installed_ros(programs: list[Path]) -> None:
     programs[1].unlink()
-    programs[0].write_text(f"#!{sys.executable} -s\nimport rospy\n")
+    programs[0].write_text(f"#!{sys.executable} -s\nimport rospy\nprint(rospy.__name__)\n")
+    done = subprocess.run(COMMAND, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    assert (done.returncode, done.stdout) == (0, "rospy\n")
+
+
+def test_a_script_whose_python_has_no_rospy_is_told_the_way_out(programs: list[Path], tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
+    programs[1].unlink()
+    programs[0].write_text(f"#!{tmp_path / 'other/bin/python3'}\nimport rospy\n")
     done = subprocess.run(COMMAND, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 1
     first, *_ = done.stderr.splitlines()
-    assert first.startswith(f"trundle exec: {programs[0]}: its Python has no rospy, which comes with ROS")
+    assert first.startswith(f"trundle exec: {programs[0]}: its Python has no rospy; ")

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from trundle.bringup.console import Console
     from trundle.bringup.gazebo.world import GazeboWorld
+    from trundle.bringup.graph_page import GraphPage
     from trundle.nodes import BuiltinReplacement
     from trundle.ros import Node
-    from trundle.viewer import GraphPage
 
 EXAMPLES = """
   trundle exec --list                                 nodes that run without ROS
@@ -57,6 +57,7 @@ def main(args: argparse.Namespace) -> int:
         same_named_programs,
     )
     from trundle.packages import Packages
+    from trundle.rospy.environment import with_finder
 
     packages = Packages(os.environ, start=Path.cwd())
     folder = packages.find_package(args.package)
@@ -76,10 +77,10 @@ def main(args: argparse.Namespace) -> int:
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
             sys.stdout.flush()
-            if lacks_rospy(path, os.environ):
+            if lacks_rospy(path, with_finder(os.environ)):
                 print(f"trundle exec: {path}: {missing_rospy_advice('rospy')}", file=sys.stderr, flush=True)
             try:
-                os.execvp(command[0], command)
+                os.execvpe(command[0], command, with_finder(os.environ, packages.package_folders()))
             except OSError as error:
                 raise UsageError(f"{command[0]} cannot be run: {error.strerror}") from None
         case BuiltinReplacement() as stand_in:
@@ -183,9 +184,6 @@ async def _show_findings(show: "Console") -> None:
 
 def _page() -> "GraphPage":
     """Page of a node with a window."""
-    from trundle.diagnostics import Diagnostics
-    from trundle.packages import Packages
-    from trundle.viewer import GraphPage
+    from trundle.bringup.graph_page import GraphPage
 
-    packages = Packages(os.environ, start=Path.cwd())
-    return GraphPage(packages=packages, report=Diagnostics(), say=lambda text: print(text, flush=True))
+    return GraphPage(say=lambda text: print(text, flush=True))

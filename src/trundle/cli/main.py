@@ -2,6 +2,7 @@
 
 A command is a module or a package `trundle.cli.<name>`: the first line of its docstring is its help, `EXAMPLES` opens
 `--help`, `configure(parser)` declares the arguments and `main(args)` does the work and returns the exit code.
+`trundle --as rostopic …` runs a command under the name that it has in ROS, as `trundle shell` does.
 """
 
 import argparse
@@ -17,6 +18,7 @@ from trundle import __version__
 from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, parse_arguments
 
+from .originals import ORIGINALS
 from .quiet_imports import quiet_imports
 
 COMMANDS: dict[str, str] = {
@@ -43,6 +45,10 @@ COMMANDS: dict[str, str] = {
     "log": "show what nodes log",
     "exec": "run a node of a package",
     "pack": "find packages and what they need",
+    "shell": "open a shell with the commands of ROS 1 and Gazebo: roslaunch, rostopic, gazebo, …",
+    "activate": "print what makes them available in this shell",
+    "doctor": "list what this machine has and lacks, and what that costs",
+    "new": "write a package, robot, world, plugin, node, launch file or message that runs at once",
 }
 """Command → one line of help; in the order of `trundle --help`."""
 
@@ -50,7 +56,7 @@ REMAPPED = ("bag", "service", "tf", "topic")
 """Commands that take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf in launch files."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Commands that exit with 0 on Ctrl-C, as their originals do."""
-_INTERMIXED = ("launch", "test", "xacro")
+_INTERMIXED = ("launch", "test", "xacro", "originals.catkin_create_pkg")
 """Commands with options between arguments, as in roslaunch: `trundle launch robot.launch --headless gui:=false`."""
 _DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Errors when writing an open file."""
@@ -87,6 +93,8 @@ def run_command(command: Sequence[str], arguments: Sequence[str]) -> int:
 
 
 def _main(arguments: list[str]) -> int:
+    if arguments[:1] == ["--as"]:
+        return _run_original(arguments[1:])
     if "_ARGCOMPLETE" in os.environ:
         _complete()
     if not arguments or arguments[0] in ("-h", "--help", "help"):
@@ -99,9 +107,39 @@ def _main(arguments: list[str]) -> int:
     if name not in COMMANDS:
         print(f"trundle: no command {name!r}; commands: {', '.join(COMMANDS)}", file=sys.stderr)
         return EXIT_USAGE
-    parser = make_parser(name)
+    return _run(name, arguments[1:], program=f"trundle {name}")
+
+
+def _run_original(arguments: Sequence[str]) -> int:
+    """Run a command under its name in ROS or Gazebo; 0 after Ctrl-C, as those return."""
+    if not arguments or arguments[0] not in ORIGINALS:
+        print(f"trundle --as: expected one of {', '.join(ORIGINALS)}", file=sys.stderr)
+        return EXIT_USAGE
+    program = arguments[0]
+    name, *words = ORIGINALS[program]
+    if "_ARGCOMPLETE" in os.environ:
+        _complete_original(program)
+    if name == "exec" and words and arguments[1:2] in (["-h"], ["--help"]):  # which exec would pass on to the node
+        print(f"usage: {program} [ARGUMENTS]\n\nexamples:\n  {program}\n\nOpen {program}'s panel of the page.")
+        return EXIT_OK
     try:
-        words = parse_arguments(arguments[1:]) if name in REMAPPED else Arguments(rest=tuple(arguments[1:]))
+        code = _run(name, [*words, *arguments[1:]], program=f"trundle {name}" if words else program)
+    except KeyboardInterrupt:
+        return EXIT_OK
+    return EXIT_OK if code == EXIT_INTERRUPTED else code
+
+
+def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
+    """Run a command's module.
+
+    Args:
+        name: of its module.
+        arguments: after its name.
+        program: name in messages.
+    """
+    parser = make_parser(name, program=program)
+    try:
+        words = parse_arguments(arguments) if name in REMAPPED else Arguments(rest=tuple(arguments))
         _apply_remap_arguments(words)
         parse = parser.parse_intermixed_args if name in _INTERMIXED else parser.parse_args
         parsed = parse(words.rest, argparse.Namespace(words=words, run_command=run_command))
@@ -113,16 +151,16 @@ def _main(arguments: list[str]) -> int:
     except SystemExit as stop:  # raised by argparse: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
     except TrundleError as error:
-        print(error if _has_location(str(error)) else f"trundle {name}: error: {error}", file=sys.stderr)
+        print(error if _has_location(str(error)) else f"{program}: error: {error}", file=sys.stderr)
         return EXIT_INPUT
     except BrokenPipeError:  # `trundle topic echo … | head`
         _discard_stdout()
         return EXIT_OK
     except OSError as error:  # mostly files that cannot be written
         if error.filename is not None:
-            print(f"trundle {name}: error: {error.filename}: {error.strerror}", file=sys.stderr)
+            print(f"{program}: error: {error.filename}: {error.strerror}", file=sys.stderr)
         elif error.errno in _DISK_ERRORS:
-            print(f"trundle {name}: error: the output cannot be written: {error.strerror}", file=sys.stderr)
+            print(f"{program}: error: the output cannot be written: {error.strerror}", file=sys.stderr)
             _discard_stdout()
         else:
             raise
@@ -165,11 +203,22 @@ def _command(name: str) -> CommandModule:
         return cast(CommandModule, importlib.import_module(f"trundle.cli.{name}"))
 
 
-def make_parser(name: str, parser: argparse.ArgumentParser | None = None) -> argparse.ArgumentParser:
+def make_parser(
+    name: str, parser: argparse.ArgumentParser | None = None, *, program: str = ""
+) -> argparse.ArgumentParser:
+    """Return the parser of a command's module.
+
+    Args:
+        name: of the module.
+        parser: the one to extend; None: a new one.
+        program: its name in usage and examples; empty: `trundle NAME`.
+    """
     command = _command(name)
+    program = program or f"trundle {name}"
     summary = (command.__doc__ or "").partition("\n")[0]
-    parser = parser or argparse.ArgumentParser(prog=f"trundle {name}", formatter_class=_Formatter)
-    parser.description = f"examples:\n{command.EXAMPLES.strip(chr(10))}\n\n{summary}"
+    parser = parser or argparse.ArgumentParser(prog=program, formatter_class=_Formatter)
+    examples = command.EXAMPLES.strip("\n").replace(f"trundle {name}", program)
+    parser.description = f"examples:\n{examples}\n\n{summary}"
     command.configure(parser)
     return parser
 
@@ -206,4 +255,21 @@ def _complete() -> None:
         subparser = subparsers.add_parser(name, help=summary, formatter_class=_Formatter)
         if name in typed:
             complete(make_parser(name, subparser), name)
+    argcomplete.autocomplete(parser)
+
+
+def _complete_original(program: str) -> None:
+    """Serve the completion request of a command under its name in ROS; does not return."""
+    import argcomplete
+
+    from .completion import complete
+
+    name, *words = ORIGINALS[program]
+    line = os.environ.get("COMP_LINE", "")
+    typed, replaced = line.partition(" ")[0], " ".join([program, *words])
+    os.environ["COMP_LINE"] = replaced + line[len(typed) :]
+    point = int(os.environ.get("COMP_POINT") or len(line))
+    os.environ["COMP_POINT"] = str(point + len(replaced) - len(typed))
+    parser = make_parser(name, program=program)
+    complete(parser, name)
     argcomplete.autocomplete(parser)

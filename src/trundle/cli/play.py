@@ -10,12 +10,13 @@ EXAMPLES = """
   trundle run world.sdf --record run.log              record states at 50 Hz
   trundle play run.log                                show it in a loop
   trundle play run.log --speed 0.2                    slowly
+  trundle play drive.bag                              a bag, with its topics in the page's displays
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE", type=Path, help="state log written by `trundle run --record`")
+    parser.add_argument("file", metavar="FILE", type=Path, help="state log of `trundle run --record`, .bag or .mcap")
     parser.add_argument("--speed", type=_positive, default=1.0, metavar="X", help="real-time factor (1)")
     parser.add_argument("--pause", action="store_true", help="start paused")
     parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")

@@ -40,6 +40,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="action when the physics diverges (pause with a page, exit without)",
     )
     parser.add_argument("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
+    parser.add_argument(
+        "--timeline",
+        type=_megabytes,
+        default=256,
+        metavar="MB",
+        help="memory for the last minutes, which the page goes back to; 0: none (256)",
+    )
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
     add_page_access(parser)
     add_allow_outside(parser)
@@ -49,7 +56,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Simulate until the duration is over or Ctrl-C."""
     with quiet_imports():
-        from trundle.bringup.run.run import RunOptions, run
+        from trundle.bringup.run.run import run
+        from trundle.bringup.run.run_options import RunOptions
 
     options = RunOptions(
         headless=args.headless,
@@ -65,6 +73,7 @@ def main(args: argparse.Namespace) -> int:
         renderer=args.renderer,
         strict=args.strict,
         record=args.record,
+        timeline_mb=args.timeline,
         on_instability=args.on_instability,
     )
     outcome = run(args.file, options)
@@ -82,4 +91,11 @@ def _positive(text: str) -> float:
     value = float(text)
     if not value > 0:
         raise argparse.ArgumentTypeError(f"{text} is not a duration; give seconds, such as 10")
+    return value
+
+
+def _megabytes(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a size; give megabytes, such as 256")
     return value

@@ -3,6 +3,8 @@
 import shutil
 import time
 
+from trundle.ros import byte_text
+
 _EVERY_S = 1.0
 _BESIDE_PATH = 37
 """Columns besides the path."""
@@ -45,15 +47,6 @@ class ProgressMeter:
             return f"{path:<{width}} 100% {total:>19} {_clock(elapsed_s)}    "
         left = _clock(elapsed_s * (self._total / done - 1.0)) if done else "--:--"
         return f"{path:<{width}} {100 * done // self._total:3}% {byte_text(done):>8} / {total:>8} {left} ETA"
-
-
-def byte_text(size: float) -> str:
-    """Human-readable size: `3.9 KB`."""
-    for suffix in ("KB", "MB", "GB"):
-        size /= 1024.0
-        if size < 1024.0:
-            return f"{size:.1f} {suffix}"
-    return f"{size / 1024.0:.1f} TB"
 
 
 def _clock(seconds: float) -> str:

@@ -1,0 +1,5 @@
+"""catkin without CMake: packages, workspaces, and the devel space that makes their packages found."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,32 @@
+# The commands of ROS 1 and Gazebo, first on PATH; trundle_deactivate undoes it. For fish.
+
+set -gx TRUNDLE_SHELL @FOLDER@
+set -gx PATH $TRUNDLE_SHELL/bin $PATH
+set -gx --path PYTHONPATH @SITE@ $PYTHONPATH
+if not set -q ROS_DISTRO
+    set -gx ROS_DISTRO noetic
+    set -gx ROS_VERSION 1
+    set -g _trundle_distro set
+end
+
+function roscd
+    if test "$argv[1]" = --help; or test (count $argv) -gt 1
+        printf 'usage: roscd package\n\nJump to target package.\n'
+        return 0
+    end
+    set -l target ($TRUNDLE_SHELL/bin/roscd $argv); and cd $target
+end
+
+function trundle_deactivate
+    if not set -q TRUNDLE_SHELL
+        return 0
+    end
+    set -gx PATH (string match -v -- $TRUNDLE_SHELL/bin $PATH)
+    set -gx --path PYTHONPATH (string match -v -- @SITE@ $PYTHONPATH)
+    rm -rf $TRUNDLE_SHELL
+    if set -q _trundle_distro
+        set -e ROS_DISTRO ROS_VERSION _trundle_distro
+    end
+    set -e TRUNDLE_SHELL
+    functions -e roscd trundle_deactivate
+end

@@ -1,0 +1,61 @@
+# The commands of ROS 1 and Gazebo, first on PATH; trundle_deactivate undoes it. For bash, zsh and sh.
+
+TRUNDLE_SHELL=@FOLDER@
+PATH="$TRUNDLE_SHELL/bin:$PATH"
+PYTHONPATH=@SITE@"${PYTHONPATH:+:$PYTHONPATH}" # ROS' Python packages, where none are installed
+export TRUNDLE_SHELL PATH PYTHONPATH
+if [ -z "${ROS_DISTRO+x}" ]; then
+  ROS_DISTRO=noetic
+  ROS_VERSION=1
+  export ROS_DISTRO ROS_VERSION
+  _trundle_distro=set
+fi
+
+roscd() {
+  if [ "${1-}" = "--help" ] || [ "$#" -gt 1 ]; then
+    printf 'usage: roscd package\n\nJump to target package.\n'
+    return 0
+  fi
+  _trundle_target="$("$TRUNDLE_SHELL/bin/roscd" "$@")" && cd "${_trundle_target:-.}"
+}
+
+# LIST ENTRY: the list without the first such entry
+_trundle_without() {
+  _trundle_list=":$1:"
+  case "$_trundle_list" in
+    *":$2:"*) _trundle_list="${_trundle_list%%":$2:"*}:${_trundle_list#*":$2:"}" ;;
+  esac
+  _trundle_list="${_trundle_list#:}"
+  printf '%s' "${_trundle_list%:}"
+}
+
+trundle_deactivate() {
+  if [ -z "${TRUNDLE_SHELL-}" ]; then
+    return 0
+  fi
+  PATH="$(_trundle_without "$PATH" "$TRUNDLE_SHELL/bin")"
+  PYTHONPATH="$(_trundle_without "${PYTHONPATH-}" @SITE@)"
+  if [ -z "$PYTHONPATH" ]; then
+    unset PYTHONPATH
+  fi
+  rm -rf "$TRUNDLE_SHELL"
+  if [ -n "${BASH_VERSION-}" ]; then
+    complete -r @NAMES@ 2> /dev/null
+    hash -r
+  fi
+  if [ -n "${_trundle_prompt+x}" ]; then
+    PS1="$_trundle_prompt"
+  fi
+  if [ -n "${_trundle_distro-}" ]; then
+    unset ROS_DISTRO ROS_VERSION
+  fi
+  unset TRUNDLE_SHELL _trundle_prompt _trundle_distro _trundle_target
+  unset -f roscd trundle_deactivate _trundle_without
+}
+
+case $- in
+  *i*)
+    _trundle_prompt="${PS1-}"
+    PS1="(trundle) ${PS1-}"
+    ;;
+esac

@@ -1,0 +1,116 @@
+"""`trundle new`: what it writes has no findings, its tests pass, and nothing is overwritten."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle.cli import main
+from trundle.scaffold import ROBOTS
+
+_TIMEOUT_S = 300.0
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    folder = tmp_path / "own"  # packages beside it count, and other tests' folders lie beside tmp_path
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+    return folder
+
+
+def _pytest(folder: Path) -> None:
+    """Run the tests that were written, in a process of their own."""
+    words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test"]
+    env = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "COV"))}
+    done = subprocess.run(words, cwd=folder, env=env, capture_output=True, text=True, timeout=_TIMEOUT_S, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("kind", ROBOTS)
+def test_each_robot_is_checked_without_a_warning(kind: str, folder: Path) -> None:
+    assert main(["new", "robot", "rover", "--kind", kind]) == 0
+    assert main(["check", "urdf/rover.urdf.xacro", "--strict"]) == 0
+    assert main(["check", "launch/rover.launch", "--strict"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("what", "name", "files"),
+    [
+        ("world", "yard", ["worlds/yard.world"]),
+        ("plugin", "hover_box", ["models/hover_box"]),
+        ("launch", "bringup", ["launch/bringup.launch"]),
+    ],
+)
+def test_worlds_models_and_launch_files_are_checked_without_a_warning(
+    what: str, name: str, files: list[str], folder: Path
+) -> None:
+    assert main(["new", what, name]) == 0
+    for file in files:
+        assert main(["check", file, "--strict"]) == 0
+
+
+@pytest.mark.slow
+def test_the_tests_they_bring_along_pass(folder: Path) -> None:
+    for kind in ROBOTS:
+        assert main(["new", "robot", f"my_{kind}", "--kind", kind]) == 0
+    assert main(["new", "world", "yard"]) == 0
+    assert main(["new", "plugin", "hover_box"]) == 0
+    _pytest(folder)
+
+
+@pytest.mark.slow
+def test_a_package_its_node_and_its_message_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert main(["new", "package", "patrol"]) == 0
+    package = folder / "patrol"
+    monkeypatch.chdir(package)
+    assert main(["new", "message", "WheelSpeed"]) == 0
+    assert main(["new", "node", "circle"]) == 0
+    assert main(["new", "launch", "bringup"]) == 0
+    assert main(["check", "launch/patrol.launch", "--strict"]) == 0
+    _pytest(package)
+    for test in ("patrol", "circle"):
+        words = [sys.executable, "-m", "trundle", "test", f"test/{test}.test"]
+        env = {**os.environ, "ROS_TEST_RESULTS_DIR": str(folder / "results"), "ROS_HOME": str(folder / "ros")}
+        done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=_TIMEOUT_S, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_nothing_is_written_over(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "launch").mkdir()
+    (folder / "launch/rover.launch").write_text("mine")
+
+    assert main(["new", "robot", "rover"]) == 1
+
+    assert "launch/rover.launch exists already; nothing is written" in capsys.readouterr().err
+    assert (folder / "launch/rover.launch").read_text() == "mine"
+    assert not (folder / "urdf").exists()
+    (folder / "taken").mkdir()
+    assert main(["new", "package", "taken"]) == 1
+    assert list((folder / "taken").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["node", "patrol"], "a node belongs into a package"),
+        (["message", "Speed"], "a message belongs into a package"),
+        (["robot", "../rover"], "is not a name"),
+        (["world", "yard", "--kind", "arm"], "--kind is a robot's"),
+    ],
+)
+def test_wrong_requests_say_what_to_do(
+    words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["new", *words]) == 1
+    assert said in capsys.readouterr().err
+    assert list(folder.iterdir()) == []
+
+
+def test_a_message_has_a_name_in_camel_case(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "package", "patrol"]) == 0
+    assert main(["new", "message", "wheel_speed", "-C", "patrol"]) == 1
+    assert "like WheelSpeed" in capsys.readouterr().err

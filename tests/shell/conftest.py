@@ -1,0 +1,17 @@
+"""A user's environment for shells: a home folder, and a master's port of the test's own."""
+
+import os
+import socket
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture
+def env(tmp_path: Path) -> dict[str, str]:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    foreign = ("ROS_", "GAZEBO_", "TRUNDLE_", "CMAKE_", "PROMPT_COMMAND", "BASH_ENV")
+    kept = {key: value for key, value in os.environ.items() if not key.startswith(foreign)}
+    return {**kept, "HOME": str(tmp_path), "SHELL": "/bin/bash", "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
