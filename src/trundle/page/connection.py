@@ -1,0 +1,131 @@
+"""One client: its subscriptions, what it asks for, and its queue."""
+
+from collections.abc import Hashable, Mapping, Sequence
+from typing import Protocol
+
+import msgspec
+
+from .channel import Channel
+from .outbox import BINARY, TEXT, Buffer, Outbox
+from .protocol import ERROR, Subscribe, Unsubscribe, message_header
+
+_STATUS = "status"
+_MAX_SUBSCRIPTIONS = 10_000
+
+
+class ChannelTable(Protocol):
+    """Channels that there are now."""
+
+    def find(self, channel_id: int) -> Channel | None:
+        """Return the channel with an id."""
+        ...
+
+
+class Connection:
+    """Client of the protocol; used on the loop only."""
+
+    def __init__(self, outbox: Outbox, channels: ChannelTable, *, is_own: bool) -> None:
+        """Create; `is_own`: it speaks `trundle.v1`."""
+        self.outbox = outbox
+        self.is_own = is_own
+        self.drops: dict[str, int] = {}
+        """Messages dropped so far, by topic."""
+        self.drops_changed = False
+        self._channels = channels
+        self._subscriptions: dict[int, Channel] = {}
+        self._numbers: dict[Channel, int] = {}
+        """Channel → number of the subscription."""
+
+    # -- to the client
+
+    def send_message(self, channel: Channel, time_ns: int, pieces: Sequence[Buffer]) -> None:
+        """Send a message of a channel that the client subscribes to."""
+        header = message_header(self._numbers[channel], time_ns)
+        self.outbox.send(BINARY, (header, *pieces), channel if channel.is_droppable else None)
+
+    def send_json(self, message: object) -> None:
+        """Send a text message that is never dropped."""
+        self.outbox.send(TEXT, (msgspec.json.encode(message),))
+
+    def send_binary(self, pieces: Sequence[Buffer], stream: Hashable = None) -> None:
+        """Send a binary message; those of a stream may be dropped."""
+        self.outbox.send(BINARY, pieces, stream)
+
+    def send_status(self, level: int, message: str, status_id: str | None = None) -> None:
+        """Send a status message; one with an id replaces the last one with that id."""
+        fields: dict[str, object] = {"op": "status", "level": level, "message": message}
+        if status_id is not None:
+            fields["id"] = status_id
+        self.outbox.send(TEXT, (msgspec.json.encode(fields),), _STATUS)
+
+    def send_drops(self, channel: Channel, time_ns: int) -> None:
+        """Send the counts of dropped messages, if they have changed."""
+        if self.drops_changed and not self.is_waiting(channel):
+            self.drops_changed = False
+            self.send_message(channel, time_ns, (msgspec.json.encode(self.drops),))
+
+    def offer(self, channels: Sequence[Channel]) -> None:
+        """Advertise channels, those of `trundle.v1` only to a client that speaks it."""
+        offers = [channel.offer() for channel in channels if self.is_own or not channel.is_own]
+        if offers:
+            self.send_json({"op": "advertise", "channels": offers})
+
+    def withdraw(self, channels: Sequence[Channel]) -> None:
+        """Unadvertise channels; their subscriptions end."""
+        gone = set(channels)
+        for number in [number for number, channel in self._subscriptions.items() if channel in gone]:
+            self._end_subscription(number)
+        ids = [channel.id for channel in channels if self.is_own or not channel.is_own]
+        if ids:
+            self.send_json({"op": "unadvertise", "channelIds": ids})
+
+    def is_waiting(self, channel: Channel) -> bool:
+        """True if a message of a channel was not sent yet."""
+        return self.outbox.has_waiting(channel)
+
+    def count_drop(self, channel: Hashable) -> None:
+        """Count a message that the client does not get."""
+        if isinstance(channel, Channel):
+            self.drops[channel.topic] = self.drops.get(channel.topic, 0) + 1
+            self.drops_changed = True
+
+    # -- from the client
+
+    def subscribe(self, operation: Subscribe) -> None:
+        """Subscribe to channels; what cannot be is answered with a status message."""
+        for wanted in operation.subscriptions:
+            channel = self._channels.find(wanted.channel_id)
+            if channel is None or (channel.is_own and not self.is_own):
+                self.send_status(ERROR, f"there is no channel {wanted.channel_id}")
+            elif wanted.id in self._subscriptions:
+                self.send_status(ERROR, f"subscription {wanted.id} is in use already")
+            elif channel in self._numbers:
+                self.send_status(ERROR, f"{channel.topic} is subscribed to already")
+            elif len(self._subscriptions) >= _MAX_SUBSCRIPTIONS:
+                self.send_status(ERROR, f"more than {_MAX_SUBSCRIPTIONS} subscriptions")
+            else:
+                self._subscriptions[wanted.id] = channel
+                self._numbers[channel] = wanted.id
+                channel.subscribe(self)
+
+    def unsubscribe(self, operation: Unsubscribe) -> None:
+        """End subscriptions."""
+        for number in operation.subscription_ids:
+            if number in self._subscriptions:
+                self._end_subscription(number)
+            else:
+                self.send_status(ERROR, f"there is no subscription {number}")
+
+    def watched(self) -> Mapping[int, Channel]:
+        """Return the channels that the client subscribes to, by the number of the subscription."""
+        return self._subscriptions
+
+    def end_subscriptions(self) -> None:
+        """End all subscriptions."""
+        for number in list(self._subscriptions):
+            self._end_subscription(number)
+
+    def _end_subscription(self, number: int) -> None:
+        channel = self._subscriptions.pop(number)
+        del self._numbers[channel]
+        channel.unsubscribe(self)

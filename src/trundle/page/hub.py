@@ -1,0 +1,168 @@
+"""Clients and channels of the page, and the messages that go to every client."""
+
+import asyncio
+import time
+from collections.abc import Callable, Iterable, Mapping
+from typing import Protocol
+
+from .channel import Channel
+from .connection import Connection
+from .protocol import ENCODING, WARNING, time_message
+
+_PERIOD_S = 1 / 60
+_TIME_PERIOD_S = 0.05
+_DROPS_PERIOD_S = 1.0
+_TIME = "time"
+
+
+class Polled(Protocol):
+    """Part of the page that is polled while there are clients."""
+
+    def poll(self, now_s: float, time_ns: int) -> None:
+        """Do what is due.
+
+        Args:
+            now_s: monotonic time [s].
+            time_ns: time of the page [ns].
+        """
+        ...
+
+
+class DropsChannel(Channel):
+    """Counts of dropped messages, to each client its own."""
+
+    def __init__(self) -> None:
+        super().__init__("trundle/drops", encoding="json", is_own=True)
+
+
+class Hub:
+    """Channels and conditions, advertised to all clients; used on the loop only."""
+
+    def __init__(
+        self, *, session_id: str, capabilities: tuple[str, ...], simulated_time_ns: Callable[[], int | None]
+    ) -> None:
+        """Create.
+
+        Args:
+            session_id: distinguishes this server from one before it at the same address.
+            capabilities: what clients may ask for, in the protocol's words.
+            simulated_time_ns: returns the time [ns]; None where wall time is used.
+        """
+        self.clients: set[Connection] = set()
+        self.polled: list[Polled] = []
+        self._session_id = session_id
+        self._capabilities = capabilities
+        self._simulated_time_ns = simulated_time_ns
+        self._channels: dict[int, Channel] = {}
+        self._conditions: dict[str, str] = {}
+        """Status messages that hold now, by id."""
+        self._drops = DropsChannel()
+        self.add_channels([self._drops])
+        self._time_ns: int | None = None
+        self._time_due_s = self._drops_due_s = 0.0
+        self._has_clients = asyncio.Event()
+
+    # -- channels
+
+    def find(self, channel_id: int) -> Channel | None:
+        """Return the channel with an id."""
+        return self._channels.get(channel_id)
+
+    def add_channels(self, channels: Iterable[Channel]) -> None:
+        """Advertise new channels."""
+        added = list(channels)
+        self._channels |= {channel.id: channel for channel in added}
+        for client in self.clients:
+            client.offer(added)
+
+    def remove_channels(self, channels: Iterable[Channel]) -> None:
+        """Unadvertise channels."""
+        removed = list(channels)
+        for channel in removed:
+            del self._channels[channel.id]
+        for client in list(self.clients):
+            client.withdraw(removed)
+
+    # -- clients
+
+    def add_client(self, client: Connection) -> None:
+        """Greet a client: the server's capabilities, channels, and the conditions that hold."""
+        self.clients.add(client)
+        self._has_clients.set()
+        client.send_json({
+            "op": "serverInfo",
+            "name": "trundle",
+            "capabilities": self._capabilities,
+            "supportedEncodings": [ENCODING],
+            "metadata": {},
+            "sessionId": self._session_id,
+        })  # fmt: skip
+        client.offer(list(self._channels.values()))
+        for status_id, message in self._conditions.items():
+            client.send_status(WARNING, message, status_id)
+
+    def remove_client(self, client: Connection) -> None:
+        """Forget a client that has gone."""
+        self.clients.discard(client)
+        client.end_subscriptions()
+        if not self.clients:
+            self._has_clients.clear()
+
+    def set_condition(self, status_id: str, message: str | None) -> None:
+        """Show a status message until it is replaced; None: it does not hold any more."""
+        if message == self._conditions.get(status_id):
+            return
+        if message is None:
+            del self._conditions[status_id]
+            for client in self.clients:
+                client.send_json({"op": "removeStatus", "statusIds": [status_id]})
+            return
+        self._conditions[status_id] = message
+        for client in self.clients:
+            client.send_status(WARNING, message, status_id)
+
+    @property
+    def conditions(self) -> Mapping[str, str]:
+        """Status messages that hold now, by id."""
+        return self._conditions
+
+    # -- time
+
+    def now_ns(self) -> int:
+        """Return the time that messages get [ns]: simulated time where there is one, else wall time."""
+        simulated = self._simulated_time_ns()
+        return time.time_ns() if simulated is None else simulated
+
+    async def wait_client(self) -> None:
+        """Wait until there is a client."""
+        await self._has_clients.wait()
+
+    async def run(self) -> None:
+        """Poll what is due while there are clients."""
+        while True:
+            await self._has_clients.wait()
+            started = time.monotonic()
+            for part in self.polled:
+                part.poll(started, self.now_ns())
+            self._send_time(started)
+            self._send_drops(started)
+            await asyncio.sleep(max(0.0, started + _PERIOD_S - time.monotonic()))
+
+    def _send_time(self, now_s: float) -> None:
+        now_ns = self.now_ns()
+        if now_ns == self._time_ns or now_s < self._time_due_s:
+            return
+        self._time_due_s = now_s + _TIME_PERIOD_S
+        self._time_ns = now_ns
+        message = (time_message(now_ns),)
+        for client in self.clients:
+            if not client.outbox.has_waiting(_TIME):
+                client.send_binary(message, _TIME)
+
+    def _send_drops(self, now_s: float) -> None:
+        if now_s < self._drops_due_s:
+            return
+        self._drops_due_s = now_s + _DROPS_PERIOD_S
+        for client in self.clients:
+            if client in self._drops.clients:
+                client.send_drops(self._drops, self.now_ns())

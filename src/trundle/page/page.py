@@ -1,0 +1,229 @@
+"""The page: what clients and the owner say, sent to the part that it is for."""
+
+import asyncio
+import time
+from collections.abc import Callable, Mapping
+from importlib.metadata import version
+from pathlib import Path
+
+import msgspec
+
+from trundle.diagnostics import UsageError
+from trundle.ros import GraphLoop, MessageError, WallClock, open_bag
+
+from .assets import Assets
+from .bag_source import BagSource
+from .camera_channel import TYPE as IMAGE
+from .camera_channel import CameraChannel
+from .connection import Connection
+from .hub import Hub
+from .mailbox import Mailbox
+from .outbox import Outbox
+from .owner import Owner, PictureError, respond
+from .protocol import (
+    CAPABILITIES,
+    ERROR,
+    GRAPH_CAPABILITIES,
+    ClientOperation,
+    FetchAsset,
+    PageRequest,
+    Subscribe,
+    Unsubscribe,
+    operation_decoder,
+)  # fmt: skip
+from .requests import ClientAction, Definition, RenderView
+from .ros_graph import RosGraph
+from .session import Session
+from .session_channel import SessionChannel
+from .wire import AddFile, FromServer, OpenMailbox, Respond, SetNotice, SetSession, SetWorld, Start, ToServer
+from .world_channels import BoxChannel, PosesChannel, StateChannel, WorldChannel, joints_channel, lines_channel
+
+_NO_GRAPH = "this page has no ROS graph"
+_action_decoder = msgspec.json.Decoder(ClientAction | Definition)
+
+
+class Page:
+    """Content of the page; used on the loop only."""
+
+    def __init__(self, start: Start, *, loop: GraphLoop, assets: Assets, send: Callable[[FromServer], None]) -> None:
+        """Create; `send` writes a message to the owner."""
+        self.foxglove_url = ""
+        self._session: Session = start.session
+        self._has_graph = start.graph is not None
+        self._messages = loop.messages
+        self._assets = assets
+        self._owner = Owner(send)
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._session_channel = SessionChannel(self.session_json)
+        self._world = WorldChannel()
+        self._state = StateChannel()
+        boxes: tuple[BoxChannel, ...] = ()
+        if start.bag is None:
+            boxes = (self._state, PosesChannel(self._world), joints_channel(self._world), lines_channel())
+        self._boxes: dict[str, BoxChannel] = {box.topic: box for box in boxes}
+        self.hub = Hub(
+            session_id=str(time.time_ns()),
+            capabilities=CAPABILITIES + (GRAPH_CAPABILITIES if self._has_graph else ()),
+            simulated_time_ns=self._simulated_time_ns,
+        )
+        self.hub.add_channels([self._session_channel, self._world, *boxes])
+        self.hub.polled += boxes
+        self._bag = None if start.bag is None else BagSource(open_bag(Path(start.bag.path)), start.bag, self.hub)
+        if self._bag is not None:
+            self.hub.polled.append(self._bag)
+        self._graph = None if start.graph is None else RosGraph(start.graph, loop, self.hub, self._owner)
+
+    async def run(self) -> None:
+        """Serve until cancelled."""
+        parts = [self.hub.run()] if self._graph is None else [self.hub.run(), self._graph.run()]
+        await asyncio.gather(*parts)
+
+    async def stop(self) -> None:
+        """Stop robots that are driven."""
+        if self._graph is not None:
+            await self._graph.stop()
+
+    # -- for the owner
+
+    def receive_from_owner(self, message: ToServer) -> None:
+        """Handle a message of the owner."""
+        match message:
+            case SetSession(session):
+                self._session = session
+                self._session_channel.publish_change()
+            case SetNotice(notice_id, text):
+                self.hub.set_condition(notice_id, text)
+            case AddFile(url, content):
+                self._world.files[url] = content
+            case SetWorld(manifest):
+                self._world.set(manifest)
+                for topic in () if self._has_graph else self._world.camera_topics:
+                    self._box(topic)
+            case OpenMailbox(stream, address):
+                try:
+                    self._box(stream).open(Mailbox.open(address))
+                except FileNotFoundError:  # it is replaced already; the next one is on its way
+                    return
+            case Respond() as answer:
+                self._owner.receive(answer)
+
+    def _box(self, stream: str) -> BoxChannel:
+        """Return the channel of a stream, that of a camera made on first use."""
+        if stream not in self._boxes:
+            camera = CameraChannel(stream, schema=self._messages.definition(IMAGE))
+            self._boxes[stream] = camera
+            self.hub.add_channels([camera])
+            self.hub.polled.append(camera)
+        return self._boxes[stream]
+
+    def _simulated_time_ns(self) -> int | None:
+        if self._graph is not None and not isinstance(self._graph.clock, WallClock):
+            return self._graph.clock.now_ns()
+        return self._state.time_ns if self._bag is None else self._bag.time_ns
+
+    # -- for HTTP
+
+    def session_json(self) -> bytes:
+        """Return what `/session.json` says."""
+        fields = msgspec.to_builtins(self._session)
+        return msgspec.json.encode(fields | {"version": version("trundle"), "foxglove": self.foxglove_url})
+
+    def world_files(self) -> Mapping[str, bytes]:
+        """Return the files of the simulated world by URL."""
+        return self._world.files
+
+    async def render(self, view: RenderView) -> bytes:
+        """Return a picture of the scene as PNG.
+
+        Raises:
+            PictureError: it cannot be drawn; the text says why.
+        """
+        if self._bag is not None:
+            raise PictureError("a bag is drawn by browsers with WebGL alone")
+        return await self._owner.render(view)
+
+    # -- for clients
+
+    def join(self, outbox: Outbox, *, is_own: bool) -> Connection:
+        """Add a client."""
+        client = Connection(outbox, self.hub, is_own=is_own)
+        self.hub.add_client(client)
+        if self._graph is not None:
+            self._graph.join(client)
+        return client
+
+    def leave(self, client: Connection) -> None:
+        """Remove a client."""
+        if self._graph is not None:
+            self._graph.leave(client)
+        self.hub.remove_client(client)
+        self._owner.forget(client)
+        self._assets.forget(client)
+        self._update_watched()
+
+    def receive(self, client: Connection, message: bytes, *, is_text: bool) -> None:
+        """Handle a message of a client; what cannot be read is answered with a status message."""
+        try:
+            if is_text:
+                self._operate(client, operation_decoder.decode(message), message)
+            elif self._graph is not None:
+                self._graph.receive(client, message)
+            else:
+                client.send_status(ERROR, _NO_GRAPH)
+        except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
+            client.send_status(ERROR, f"a message cannot be read: {error}")
+
+    def _operate(self, client: Connection, operation: ClientOperation, message: bytes) -> None:
+        match operation:
+            case Subscribe():
+                client.subscribe(operation)
+                self._update_watched()
+            case Unsubscribe():
+                client.unsubscribe(operation)
+                self._update_watched()
+            case FetchAsset():
+                self._assets.fetch(client, operation)
+            case PageRequest():
+                self._request(client, operation.id, message)
+            case _ if self._graph is not None:
+                self._graph.operate(client, operation)
+            case _:
+                client.send_status(ERROR, _NO_GRAPH)
+
+    def _request(self, client: Connection, client_id: int | str, message: bytes) -> None:
+        if not client.is_own:
+            client.send_status(ERROR, "requests are for clients that speak trundle.v1")
+            return
+        try:
+            action = _action_decoder.decode(message)
+        except msgspec.ValidationError as error:
+            respond(client, client_id, f"not a request: {error}")
+            return
+        if not isinstance(action, Definition):
+            self._act(client, client_id, action)
+            return
+        task = asyncio.get_running_loop().create_task(self._define(client, client_id, action.type))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _define(self, client: Connection, client_id: int | str, type_name: str) -> None:
+        """Answer with the definition of a type, which may have to be searched."""
+        try:
+            respond(client, client_id, definition=await asyncio.to_thread(self._messages.definition, type_name))
+        except MessageError as error:
+            respond(client, client_id, str(error))
+
+    def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
+        """Have the bag or the owner do what a client asks for."""
+        if self._bag is None:
+            self._owner.request(client, client_id, action)
+            return
+        try:
+            self._bag.handle(action)
+        except UsageError as error:
+            respond(client, client_id, str(error))
+        else:
+            respond(client, client_id)
+
+    def _update_watched(self) -> None:
+        self._owner.set_watched(frozenset(topic for topic, box in self._boxes.items() if box.clients))

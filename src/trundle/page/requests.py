@@ -1,0 +1,143 @@
+"""Requests of a person at the page; the thread that owns the simulation or the graph polls `PageServer.requests`.
+
+They arrive as JSON; the field `request` names the class.
+"""
+
+import math
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+_MAX_STEPS = 1_000_000
+_MAX_TEXT = 4_000_000
+Count: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=_MAX_STEPS)]
+TimeNs: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
+Factor: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
+Values: TypeAlias = Annotated[tuple[float, ...], msgspec.Meta(max_length=64)]
+Text: TypeAlias = Annotated[str, msgspec.Meta(max_length=_MAX_TEXT)]
+
+
+class Action(msgspec.Struct, frozen=True, tag_field="request", tag=str.lower):
+    """Base of all requests."""
+
+
+class Play(Action, frozen=True):
+    """Let time run."""
+
+
+class Pause(Action, frozen=True):
+    """Hold time."""
+
+
+class Step(Action, frozen=True):
+    """Pause, then take physics steps."""
+
+    count: Count = 1
+
+
+class Reset(Action, frozen=True):
+    """Put time, poses or both back as loaded."""
+
+    what: Literal["all", "poses", "time"] = "all"
+
+
+class Reload(Action, frozen=True):
+    """Load the world again."""
+
+
+class SetSpeed(Action, frozen=True, tag="speed"):
+    """Pace time at a multiple of real time; None: as fast as possible."""
+
+    factor: Factor | None
+
+
+class Seek(Action, frozen=True):
+    """Go to a time of a recorded run or bag."""
+
+    time_ns: TimeNs
+
+
+class MoveJoint(Action, frozen=True, tag="joint"):
+    """Move a joint of a simulated model: one of position and velocity is given."""
+
+    model: str
+    joint: str
+    position: float | None = None
+    """[rad or m]"""
+    velocity: float | None = None
+    """[rad/s or m/s]"""
+
+    def __post_init__(self) -> None:
+        """Check that one is given."""
+        if (self.position is None) == (self.velocity is None):
+            raise ValueError("give one of 'position' and 'velocity'")
+
+
+class MoveSlider(Action, frozen=True, tag="slider"):
+    """Move a joint of joint_state_publisher_gui."""
+
+    joint: str
+    position: float
+    """[rad or m]"""
+
+
+class MoveJoystick(Action, frozen=True, tag="joystick"):
+    """Positions of a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order."""
+
+    axes: Values
+    buttons: Annotated[tuple[int, ...], msgspec.Meta(max_length=64)]
+
+
+class SaveRviz(Action, frozen=True, tag="save_rviz"):
+    """Replace the .rviz file that the page was started with."""
+
+    text: Text
+
+
+class Record(Action, frozen=True):
+    """Begin or end recording."""
+
+    on: bool
+
+
+class Definition(Action, frozen=True):
+    """Text of a message type; the server itself answers."""
+
+    type: Annotated[str, msgspec.Meta(max_length=200)]
+
+
+class RenderView(Action, frozen=True, tag="camera"):
+    """Draw the scene by Trundle's own renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
+
+    The camera looks at what the page frames first, from a distance, turned about z and raised.
+    """
+
+    width: Annotated[int, msgspec.Meta(ge=16, le=1920)]
+    """[px]"""
+    height: Annotated[int, msgspec.Meta(ge=16, le=1200)]
+    """[px]"""
+    azimuth: Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)] = 0.8
+    """[rad]"""
+    elevation: Annotated[float, msgspec.Meta(ge=-1.6, le=1.6)] = 0.5
+    """[rad]"""
+    distance: Annotated[float, msgspec.Meta(ge=0.01, le=1e5)] = 4.0
+    """[m]"""
+
+    def __post_init__(self) -> None:
+        """Check that the numbers are finite."""
+        if not all(map(math.isfinite, (self.azimuth, self.elevation, self.distance))):
+            raise ValueError("a view's numbers are finite")
+
+
+ClientAction: TypeAlias = (
+    Play | Pause | Step | Reset | Reload | SetSpeed | Seek | MoveJoint | MoveSlider | MoveJoystick | SaveRviz | Record
+)
+"""Requests that arrive over the page's socket."""
+PageAction: TypeAlias = ClientAction | RenderView
+
+
+class Request(msgspec.Struct, frozen=True, tag=True):
+    """One request, to be answered by `PageServer.respond` with its id."""
+
+    id: int
+    action: PageAction

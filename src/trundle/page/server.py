@@ -1,0 +1,103 @@
+"""The page's process: HTTP, WebSockets and a node of the graph, fed by its owner, ended by the end of its input.
+
+Run as `python -m trundle.page.server` by `PageServer.start` alone. Standard input and output carry the messages of
+`wire`; nothing else may write there.
+"""
+
+import contextlib
+import logging
+import os
+import signal
+import socket
+import sys
+from concurrent.futures import Future
+from pathlib import Path
+
+from trundle.access import Access
+from trundle.page_address import AllowedNames, PageAddress
+from trundle.ros import GraphLoop
+
+from .assets import Assets
+from .client_files import ClientFiles
+from .http_server import HttpServer
+from .listening import AddressError, listen
+from .page import Page
+from .wire import FromServer, Refused, Served, Start, frame, read_frame, start_decoder, to_server_decoder
+
+_STOP_S = 0.5
+
+
+class OwnerPipe:
+    """Pipe to the owner, written on the loop only: what it says is short, and the owner reads at once."""
+
+    def __init__(self) -> None:
+        self._descriptor = os.dup(1)
+        os.dup2(2, 1)
+
+    def send(self, message: FromServer) -> None:
+        """Send a message; an owner that is gone is noticed where its pipe ends."""
+        data = frame(message)
+        try:
+            while data:
+                data = data[os.write(self._descriptor, data) :]
+        except OSError:
+            return
+
+
+def main() -> None:
+    """Serve until standard input ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    pipe = OwnerPipe()
+    try:
+        start = start_decoder.decode(read_frame(sys.stdin.buffer))
+        address = PageAddress(
+            host=start.host, port=start.port, allowed=AllowedNames(hosts=start.hosts, origins=start.origins)
+        )
+        listening = listen(address)
+    except EOFError:
+        return
+    except AddressError as error:
+        pipe.send(Refused(str(error)))
+        return
+    loop = GraphLoop()
+    loop.start()
+    page = loop.run(_serve(start, loop, listening, address, pipe))
+    _receive(page, loop)
+    with contextlib.suppress(TimeoutError):
+        loop.run(page.stop(), _STOP_S)
+    os._exit(0)  # nothing else needs an orderly end
+
+
+async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: PageAddress, pipe: OwnerPipe) -> Page:
+    """Serve the page and say where it is."""
+    port = int(listening.getsockname()[1])
+    access = Access(host=at.host, port=port, allowed=at.allowed)
+    page = Page(start, loop=loop, assets=Assets(os.environ, Path(start.source)), send=pipe.send)
+    reachable = "127.0.0.1" if at.host in ("0.0.0.0", "") else at.host
+    authority = f"[{reachable}]:{port}" if ":" in reachable else f"{reachable}:{port}"
+    page.foxglove_url = f"ws://{authority}/?token={access.token}"
+    await HttpServer(page, access, ClientFiles()).start(listening)
+    loop.spawn(page.run()).add_done_callback(_end)
+    pipe.send(Served(url=access.url(reachable, port), foxglove_url=page.foxglove_url))
+    return page
+
+
+def _end(run: "Future[None]") -> None:
+    """End the process after a bug: its owner then stops what is driven."""
+    if not run.cancelled():
+        logging.getLogger(__name__).critical("the page has failed", exc_info=run.exception())
+        os._exit(1)
+
+
+def _receive(page: Page, loop: GraphLoop) -> None:
+    """Receive the owner's messages until it closes the pipe or is gone."""
+    try:
+        while True:
+            message = to_server_decoder.decode(read_frame(sys.stdin.buffer))
+            loop.call_soon(lambda message=message: page.receive_from_owner(message))
+    except (EOFError, OSError):
+        return
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""Purpose of a page, as `/session.json` says it: title, panels and topics that its owner asks for."""
+
+from typing import Literal
+
+import msgspec
+
+
+class RvizFile(msgspec.Struct, frozen=True, kw_only=True):
+    """The .rviz file that the page was started with."""
+
+    name: str
+    text: str
+    writable: bool
+    """True if `SaveRviz` may replace it."""
+
+
+class JointSlider(msgspec.Struct, frozen=True, kw_only=True):
+    """A joint of joint_state_publisher_gui."""
+
+    name: str
+    lower: float
+    """[rad or m]"""
+    upper: float
+    """[rad or m]"""
+    position: float
+    """[rad or m]"""
+
+
+class Session(msgspec.Struct, frozen=True, kw_only=True):
+    """Purpose of the page; empty lists ask for nothing."""
+
+    title: str
+    kind: Literal["simulation", "graph", "log", "bag"]
+    robot: str | None = None
+    """Name of the robot that the page is about, for the tab's title."""
+    rviz: RvizFile | None = None
+    fixed_frame: str | None = None
+    namespace: str = "/"
+    """Namespace of the rviz node: of relative names in its file, of its tf and its parameters."""
+    remappings: dict[str, str] = {}
+    """Remappings of the rviz node: global name → global name."""
+    panels: tuple[str, ...] = ()
+    """rqt's programs whose panels are open from the start: `rqt_graph`."""
+    plots: tuple[str, ...] = ()
+    """Curves of the plots panel: `/odom/pose/pose/position/x`."""
+    images: tuple[str, ...] = ()
+    """Topics of pictures to show."""
+    drive_topic: str | None = None
+    """Topic of velocity commands; None: driving is not offered."""
+    sliders: tuple[JointSlider, ...] = ()
+    joystick: bool = False
+    """True if a joystick is to be shown: the launch starts a joy node."""

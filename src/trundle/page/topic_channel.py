@@ -1,0 +1,110 @@
+"""Channel of a ROS topic: its messages go out as the bytes that came in."""
+
+import asyncio
+from collections.abc import Callable, Collection
+
+from trundle.ros import Node, RawMessage, Subscription
+
+from .channel import Channel, Client
+from .outbox import Buffer
+
+_NEVER_DROPPED = ("visualization_msgs/", "map_msgs/", "nav_msgs/OccupancyGrid")
+"""Types whose messages build on those before: markers and maps."""
+_LINGER_S = 1.0
+"""Time that a subscription outlives its last client, who may be subscribing again: a new connection loses messages."""
+
+
+def is_droppable(topic: str, type_name: str) -> bool:
+    """True if a slow client may lose messages of a topic."""
+    return not (type_name.startswith(_NEVER_DROPPED) or topic.endswith("/tf_static"))
+
+
+class TopicChannel(Channel):
+    """One subscription, however many clients look; none without clients."""
+
+    def __init__(
+        self,
+        topic: str,
+        type_name: str,
+        *,
+        md5sum: str,
+        definition: str,
+        is_certain: bool,
+        now_ns: Callable[[], int],
+        retype: "Callable[[TopicChannel, RawMessage], None]",
+    ) -> None:
+        """Create.
+
+        Args:
+            topic: global name.
+            type_name: such as sensor_msgs/LaserScan.
+            md5sum: of the type.
+            definition: full definition of the type.
+            is_certain: True if both are a publisher's own; otherwise its messages may have another definition.
+            now_ns: returns the time that messages get [ns].
+            retype: called with a message whose type has another definition, after which the channel is replaced.
+        """
+        super().__init__(
+            topic,
+            schema_name=type_name,
+            schema=definition,
+            is_droppable=is_droppable(topic, type_name),
+        )
+        self._now_ns = now_ns
+        self._retype = retype
+        self._node: Node | None = None
+        self._subscription: Subscription | None = None
+        self._md5sum = md5sum
+        self._is_certain = is_certain
+        self._latched: dict[str, tuple[int, Buffer]] = {}
+        """Last latched message of each publisher, for clients that come later."""
+
+    @property
+    def is_subscribed(self) -> bool:
+        """True while the topic is subscribed to."""
+        return self._subscription is not None
+
+    def set_node(self, node: Node) -> None:
+        """Use another node from now on."""
+        self._node, self._subscription = node, None
+        self._latched.clear()
+        if self.clients:
+            self._begin()
+
+    def set_publishers(self, names: Collection[str]) -> None:
+        """Forget latched messages of nodes that publish no more."""
+        self._latched = {caller: message for caller, message in self._latched.items() if caller in names}
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        if self._subscription is None:
+            self._begin()
+        for time_ns, data in self._latched.values():
+            client.send_message(self, time_ns, (data,))
+
+    def unsubscribe(self, client: Client) -> None:
+        super().unsubscribe(client)
+        if not self.clients:
+            asyncio.get_running_loop().call_later(_LINGER_S, self._end)
+
+    def _end(self) -> None:
+        """Unsubscribe, if no client has come since."""
+        if not self.clients and self._subscription is not None:
+            self._subscription.unregister()
+            self._subscription = None
+            self._latched.clear()
+
+    def _begin(self) -> None:
+        if self._node is not None:
+            self._subscription = self._node.subscribe(self.topic, "*", self._receive, on_loop=True)
+
+    def _receive(self, message: RawMessage) -> None:
+        if message.md5sum != self._md5sum:
+            if not self._is_certain:
+                self._retype(self, message)
+            return
+        now_ns = self._now_ns()
+        if message.latching:
+            self.is_droppable = False
+            self._latched[message.caller] = now_ns, message.data
+        self.publish(now_ns, (message.data,))

@@ -1,0 +1,153 @@
+"""Messages between the page's server and the process that started it: msgpack behind a u32 of its length.
+
+They go through the server's standard input and output. Poses, pictures and the clock's state do not: they are many,
+only the newest counts, and they lie in mailboxes.
+"""
+
+import struct
+from typing import IO, TypeAlias
+
+import msgspec
+
+from .requests import Request
+from .session import Session
+from .shared_memory import MemoryAddress
+
+_LENGTH = struct.Struct("<I")
+
+
+class GraphAddress(msgspec.Struct, frozen=True, kw_only=True):
+    """The graph that the server joins as a node."""
+
+    master_uri: str
+    host: str | None = None
+    """Address that the node binds; None: loopback."""
+    name: str = "trundle_page"
+    """Base name; the server adds its process's number, so that two pages do not meet."""
+
+
+class BagFile(msgspec.Struct, frozen=True, kw_only=True):
+    """The bag that the server plays."""
+
+    path: str
+    speed: float
+    """Recorded seconds per second of wall time."""
+    paused: bool
+
+
+class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
+    """First message to the server."""
+
+    host: str
+    port: int | None
+    """None: 8080 or the next free one."""
+    hosts: tuple[str, ...]
+    origins: tuple[str, ...]
+    session: Session
+    graph: GraphAddress | None
+    """None: no graph."""
+    bag: BagFile | None = None
+    """None: the owner puts what is shown."""
+    source: str
+    """File or folder; those around it may be fetched."""
+
+
+class SetSession(msgspec.Struct, frozen=True, tag=True):
+    """Replaces the session."""
+
+    session: Session
+
+
+class SetNotice(msgspec.Struct, frozen=True, tag=True):
+    """Shows a warning until it is replaced."""
+
+    id: str
+    text: str | None
+    """None: it does not hold any more."""
+
+
+class AddFile(msgspec.Struct, frozen=True, tag=True):
+    """Brings a file that the next manifest names."""
+
+    url: str
+    content: bytes
+
+
+class SetWorld(msgspec.Struct, frozen=True, tag=True):
+    """Replaces the manifest of the simulated world; files that it does not name are forgotten."""
+
+    manifest: bytes
+    """JSON."""
+
+
+class OpenMailbox(msgspec.Struct, frozen=True, tag=True):
+    """A stream comes through this mailbox from now on."""
+
+    stream: str
+    """Topic: `trundle/poses`, or that of a camera."""
+    address: MemoryAddress
+
+
+class Respond(msgspec.Struct, frozen=True, tag=True):
+    """Answer to a request."""
+
+    id: int
+    error: str | None = None
+    picture: bytes | None = None
+    """PNG that answers `RenderView`."""
+
+
+class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):
+    """The server answers at these addresses."""
+
+    url: str
+    foxglove_url: str
+
+
+class Refused(msgspec.Struct, frozen=True, tag=True):
+    """The address cannot be served."""
+
+    reason: str
+
+
+class Watched(msgspec.Struct, frozen=True, tag=True):
+    """Streams that some client looks at."""
+
+    streams: frozenset[str]
+
+
+class Driven(msgspec.Struct, frozen=True, tag=True):
+    """Topics of velocity commands that some client drives with, each with its type."""
+
+    topics: dict[str, str]
+
+
+ToServer: TypeAlias = SetSession | SetNotice | AddFile | SetWorld | OpenMailbox | Respond
+FromServer: TypeAlias = Served | Refused | Request | Watched | Driven
+encoder = msgspec.msgpack.Encoder()
+start_decoder = msgspec.msgpack.Decoder(Start)
+to_server_decoder = msgspec.msgpack.Decoder(ToServer)
+from_server_decoder = msgspec.msgpack.Decoder(FromServer)
+
+
+def frame(message: Start | ToServer | FromServer) -> bytes:
+    """Encode a message with its length."""
+    body = encoder.encode(message)
+    return _LENGTH.pack(len(body)) + body
+
+
+def read_frame(stream: IO[bytes]) -> bytes:
+    """Read one message.
+
+    Raises:
+        EOFError: the stream has ended.
+    """
+    (length,) = _LENGTH.unpack(_read_exactly(stream, _LENGTH.size))
+    return _read_exactly(stream, length)
+
+
+def _read_exactly(stream: IO[bytes], size: int) -> bytes:
+    data = stream.read(size)
+    if len(data) < size:
+        raise EOFError
+    return data

@@ -1,0 +1,207 @@
+"""Channels of what the owner puts here: the simulated world, its poses, joints, lines and clock."""
+
+from collections.abc import Sequence
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from .channel import Channel, Client
+from .mailbox import Mailbox
+from .outbox import Buffer
+from .protocol import ENCODING
+from .streams import ARRAY_HEADER, JOINTS, LINES, POSES, STATE, WORLD
+
+_XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
+"""Columns of a pose on the wire, of x y z qw qx qy qz."""
+_NO_GENERATION = -1
+
+
+class WorldChannel(Channel):
+    """Manifest, and the files that it names."""
+
+    def __init__(self) -> None:
+        super().__init__(WORLD, encoding="json", is_droppable=False, is_own=True)
+        self.files: dict[str, bytes] = {}
+        """URL → content."""
+        self.generation = _NO_GENERATION
+        self.camera_topics: tuple[str, ...] = ()
+        self._manifest: bytes | None = None
+
+    def set(self, manifest: bytes) -> None:
+        """Replace the manifest, and forget the files that it does not name."""
+        outline = msgspec.json.decode(manifest, type=_Outline)
+        named = {file.url for file in outline.files} | {outline.collisions, *outline.resources}
+        self.files = {url: content for url, content in self.files.items() if url in named}
+        self.generation = outline.generation
+        self.camera_topics = tuple(camera.topic for camera in outline.cameras)
+        self._manifest = manifest
+        self.publish(0, (manifest,))
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        if self._manifest is not None:
+            client.send_message(self, 0, (self._manifest,))
+
+
+class BoxChannel(Channel):
+    """Channel that a mailbox feeds; a client whose last message still waits gets the newest one later."""
+
+    def __init__(self, topic: str, *, encoding: str, period_s: float, schema_name: str = "", schema: str = "") -> None:
+        """Create; new messages go out at most every `period_s`."""
+        super().__init__(topic, encoding=encoding, schema_name=schema_name, schema=schema, is_own=encoding != ENCODING)
+        self._period_s = period_s
+        self._due_s = 0.0
+        self._box: Mailbox | None = None
+        self._read: bytes | None = None
+        """Message that was read and not sent."""
+        self._behind: set[Client] = set()
+        """Clients that lack something of the newest message."""
+
+    def open(self, box: Mailbox) -> None:
+        """Read from another mailbox from now on."""
+        self._box = box
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        self._behind.add(client)
+
+    def unsubscribe(self, client: Client) -> None:
+        super().unsubscribe(client)
+        self._behind.discard(client)
+
+    def poll(self, now_s: float, time_ns: int) -> None:
+        """Send what came, if it is due.
+
+        Args:
+            now_s: monotonic time [s].
+            time_ns: time of the message [ns].
+        """
+        if not self.clients:
+            return
+        self.receive()
+        if self._read is not None and now_s >= self._due_s and self.is_current(self._read):
+            self._due_s = max(self._due_s, now_s - self._period_s) + self._period_s
+            change, self._read = self.encode_change(self._read), None
+            for client in self.clients - self._behind:
+                if client.is_waiting(self):
+                    client.count_drop(self)
+                    self._behind.add(client)
+                else:
+                    client.send_message(self, time_ns, change)
+        ready = {client for client in self._behind if not client.is_waiting(self)}
+        if ready and (whole := self.encode_whole()):
+            for client in ready:
+                client.send_message(self, time_ns, whole)
+            self._behind -= ready
+
+    def receive(self) -> bytes | None:
+        """Read the mailbox; return a new message."""
+        message = None if self._box is None else self._box.read()
+        if message is not None:
+            self._read = message
+        return message
+
+    def is_current(self, message: bytes) -> bool:
+        """False if a message cannot be sent yet."""
+        del message
+        return True
+
+    def encode_change(self, message: bytes) -> Sequence[Buffer]:
+        """Encode a new message for clients that have the last one."""
+        self._newest = message
+        return (message,)
+
+    def encode_whole(self) -> Sequence[Buffer]:
+        """Encode the newest message for clients that do not have the last one; empty before the first."""
+        return (self._newest,) if self._newest else ()
+
+    _newest = b""
+
+
+class RowsChannel(BoxChannel):
+    """Channel of rows that belong to a generation of the world."""
+
+    def __init__(self, topic: str, world: WorldChannel, *, period_s: float) -> None:
+        super().__init__(topic, encoding=topic.replace("/", "."), period_s=period_s)
+        self._world = world
+
+    def is_current(self, message: bytes) -> bool:
+        return ARRAY_HEADER.unpack_from(message)[1] == self._world.generation  # else its manifest is on the way
+
+
+class PosesChannel(RowsChannel):
+    """Poses: all of them first and after a loss, then only those that changed."""
+
+    def __init__(self, world: WorldChannel) -> None:
+        super().__init__(POSES, world, period_s=0.0)
+        self._time_ns, self._generation = 0, _NO_GENERATION
+        self._rows: NDArray[np.float64] = np.empty((0, 7))
+
+    def encode_change(self, message: bytes) -> Sequence[Buffer]:
+        last, last_generation = self._rows, self._generation
+        self._time_ns, self._generation, count = ARRAY_HEADER.unpack_from(message)
+        self._rows = np.frombuffer(message, dtype="<f8", offset=ARRAY_HEADER.size).reshape(count, 7)
+        if last_generation != self._generation or last.shape != self._rows.shape:
+            return self.encode_whole()
+        return self._encode(np.flatnonzero((self._rows != last).any(axis=1)))
+
+    def encode_whole(self) -> Sequence[Buffer]:
+        return () if self._generation == _NO_GENERATION else self._encode(np.arange(len(self._rows)))
+
+    def _encode(self, bodies: NDArray[np.intp]) -> Sequence[Buffer]:
+        header = ARRAY_HEADER.pack(self._time_ns, self._generation, len(bodies))
+        poses = self._rows[bodies][:, _XYZ_XYZW].astype("<f4")
+        return (header + bodies.astype("<u4").tobytes() + poses.tobytes(),)
+
+
+class StateChannel(BoxChannel):
+    """State of the clock, 10 Hz."""
+
+    def __init__(self) -> None:
+        super().__init__(STATE, encoding="json", period_s=0.1)
+        self.time_ns: int | None = None
+        """Simulated time [ns]."""
+
+    def poll(self, now_s: float, time_ns: int) -> None:
+        self.receive()  # the time counts for other channels too
+        super().poll(now_s, time_ns)
+
+    def receive(self) -> bytes | None:
+        message = super().receive()
+        if message is not None:
+            self.time_ns = _clock_decoder.decode(message).time_ns
+        return message
+
+
+def lines_channel() -> BoxChannel:
+    """Channel of lines."""
+    return BoxChannel(LINES, encoding=LINES.replace("/", "."), period_s=0.0)
+
+
+def joints_channel(world: WorldChannel) -> RowsChannel:
+    """Channel of joints, 10 Hz."""
+    return RowsChannel(JOINTS, world, period_s=0.1)
+
+
+class _Clock(msgspec.Struct):
+    time_ns: int
+
+
+_clock_decoder = msgspec.json.Decoder(_Clock)
+
+
+class _File(msgspec.Struct):
+    url: str
+
+
+class _Camera(msgspec.Struct):
+    topic: str
+
+
+class _Outline(msgspec.Struct):
+    generation: int
+    files: tuple[_File, ...] = ()
+    resources: tuple[str, ...] = ()
+    cameras: tuple[_Camera, ...] = ()
+    collisions: str | None = None

@@ -1,0 +1,51 @@
+"""A person at the dock's panels, in a real browser on a real graph."""
+
+from typing import Any
+
+from trundle.page import PageServer
+
+PATIENCE_MS = 60_000
+
+
+class PanelUser:
+    """Open panels, and look at what they show."""
+
+    def __init__(self, browser: Any, server: PageServer, *, size: tuple[int, int] = (1440, 900)) -> None:
+        """Open the page."""
+        self.page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        self.page.set_default_timeout(PATIENCE_MS)
+        self.faults: list[str] = []
+        self.page.on("pageerror", self._note)
+        self.page.goto(server.url)
+        self.page.wait_for_selector(".dv-tab")
+
+    def open(self, title: str) -> None:
+        """Bring a panel to the front, by its tab or by the dock's menu."""
+        tab = self.page.locator(".dv-tab", has_text=title)
+        if tab.count() == 0:
+            self.button("Open a panel").click()
+            self.page.get_by_role("menuitem", name=title, exact=True).click()
+        else:
+            tab.click()
+
+    def button(self, name: str) -> Any:
+        return self.page.get_by_role("button", name=name, exact=True)
+
+    def field(self, name: str) -> Any:
+        return self.page.get_by_role("textbox", name=name, exact=True)
+
+    def type(self, name: str, text: str) -> None:
+        """Type into a field and press Enter."""
+        self.field(name).fill(text)
+        self.field(name).press("Enter")
+
+    def sees(self, text: str, *, within: str = ".dockhost") -> None:
+        """Wait until a text stands in the dock."""
+        self.page.locator(within).get_by_text(text).first.wait_for()
+
+    def close(self) -> None:
+        self.page.close()
+        assert self.faults == []
+
+    def _note(self, error: Any) -> None:
+        self.faults.append(str(error))

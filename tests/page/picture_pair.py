@@ -1,0 +1,235 @@
+"""rviz and the page on one graph: pictures of the same file beside each other."""
+
+import json
+import math
+import threading
+import time
+import urllib.request
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from tests.graphs import PATIENCE_S, Graph, until
+from tests.page.picture_case import FRAMES, Case, Display, Message
+from tests.page.picture_cases import CASES, REMAPPINGS, VIEW
+from tests.page.picture_cases_scene import TEXTURED_URDF, URDF
+from tests.page.real_rviz import BACKGROUND, Picture, RealRviz, rviz_file
+
+from trundle.page import PageServer, Session
+from trundle.page.session import RvizFile
+from trundle.ros import StaticTransformBroadcaster
+from trundle.ros.clients.tf_buffer import Transform
+
+OUT = Path(__file__).parents[2] / "out" / "rviz_pictures"
+MESHES = Path(__file__).parents[1] / "data"
+"""Folder of the package `pictures`."""
+_VIEW_CANVAS = "canvas[aria-label='3D view']"
+_ONLY_THE_VIEW = f"body * {{ visibility: hidden !important }} {_VIEW_CANVAS} {{ visibility: visible !important }}"
+_RAILS = "for (const part of ['left.open', 'dock.open', 'right.open.graph']) localStorage[`trundle.${part}`] = false"
+"""With all panels shut, the page looks at the middle of what its dock's row of tabs leaves free."""
+_ABOVE = 8
+"""Gap above the free part of the 3D view [px]."""
+SEEN = 25
+"""Difference of a colour that counts as drawn [0…255]."""
+_FIELD_OF_VIEW = math.pi / 4
+"""rviz's, vertical [rad]."""
+_PERIOD_S = 0.5
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How two pictures agree on what they add to their empty ones."""
+
+    overlap: float
+    """Pixels that both drew, as a share of those that either did."""
+    colour: float
+    """Mean difference of a colour's component where both drew [0…255]; the worst of the three."""
+
+    def __bool__(self) -> bool:
+        return self.overlap >= 0.8 and self.colour <= 25.5
+
+
+def drawn(picture: Picture, empty: Picture) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """Mark the pixels that differ from the empty picture."""
+    return np.abs(picture - empty).max(axis=-1) > SEEN
+
+
+def _is_something(picture: Picture, empty: Picture) -> bool:
+    """Tell if something is drawn, and the picture is not that of a view that has not begun."""
+    share = drawn(picture, empty).mean()
+    return 5e-5 < share < 0.9
+
+
+def coarse(picture: Picture, grain: int) -> Picture:
+    """Average squares of a picture."""
+    height, width = (size // grain * grain for size in picture.shape[:2])
+    squares = picture[:height, :width].reshape(height // grain, grain, width // grain, grain, 3)
+    return squares.mean(axis=(1, 3)).astype(np.int16)
+
+
+def agreement(ours: Picture, ours_empty: Picture, real: Picture, real_empty: Picture) -> Agreement:
+    mine, its = drawn(ours, ours_empty), drawn(real, real_empty)
+    both, either = mine & its, mine | its
+    if not both.any():
+        return Agreement(0.0, 255.0)
+    return Agreement(float(both.sum() / either.sum()), float(np.abs(ours - real)[both].mean(axis=0).max()))
+
+
+class ClientPage:
+    """The page in a browser, loaded once per file; its 3D view is taller than rviz's and centred as that."""
+
+    def __init__(self, browser_page: Any, server: PageServer, *, width: int, height: int) -> None:
+        self.page, self._server = browser_page, server
+        self._height = height
+        browser_page.add_init_script(_RAILS)
+        self._open()
+        below = browser_page.evaluate("parseFloat(document.documentElement.style.getPropertyValue('--in-b'))")
+        box, seen = self._box(), browser_page.viewport_size
+        tall = height + below - _ABOVE  # the middle of the free part is that of rviz's height from the top
+        size = {"width": seen["width"] + width - box["width"], "height": seen["height"] + tall - box["height"]}
+        browser_page.set_viewport_size({key: round(value) for key, value in size.items()})
+        half = math.tan(_FIELD_OF_VIEW / 2) * tall / height
+        self._view = VIEW | {"Field of View": 2 * math.atan(half)}
+
+    def show(self, displays: Sequence[Display]) -> None:
+        rviz = RvizFile(name="case.rviz", text=rviz_file(displays, self._view), writable=True)
+        self._server.set_session(Session(title="pictures", kind="graph", rviz=rviz, remappings=REMAPPINGS))
+        until(lambda: self._served_file() == rviz.text)
+        self._open()
+        self.page.add_style_tag(content=_ONLY_THE_VIEW)
+
+    def shot(self) -> Picture:
+        """Take the part of the 3D view that is as high as rviz's."""
+        clip = self._box() | {"height": self._height}
+        return picture_of(self.page.screenshot(clip=clip))
+
+    def picture(self, displays: Sequence[Display], is_drawn: Callable[[Picture], bool]) -> Picture:
+        """Show a file; take the 3D view once two pictures of it are equal and drawn as asked."""
+        self.show(displays)
+        end = time.monotonic() + PATIENCE_S
+        last = None
+        while time.monotonic() < end:
+            now = self.shot()
+            if last is not None and is_drawn(now) and np.abs(now - last).max() < 3:
+                return now
+            last = now
+            time.sleep(0.3)
+        pytest.fail(f"the page drew nothing that stood still within {PATIENCE_S:g} s")
+
+    def _served_file(self) -> str | None:
+        with urllib.request.urlopen(f"{self._server.url}/session.json", timeout=PATIENCE_S) as answer:
+            file = json.load(answer)["rviz"]
+        return None if file is None else file["text"]
+
+    def _open(self) -> None:
+        self.page.goto(self._server.url)
+        self.page.wait_for_selector(_VIEW_CANVAS, timeout=1000 * PATIENCE_S)
+
+    def _box(self) -> dict[str, float]:
+        return self.page.locator(_VIEW_CANVAS).bounding_box()
+
+
+def picture_of(png: bytes) -> Picture:
+    return np.asarray(Image.open(BytesIO(png)).convert("RGB")).astype(np.int16)
+
+
+class Pair:
+    """Both on one graph, and what each draws without displays."""
+
+    def __init__(self, graph: Graph, rviz: RealRviz, browser_page: Any, server: PageServer) -> None:
+        self.graph, self.rviz, self.server = graph, rviz, server
+        screen = rviz.picture(rviz_file([], VIEW), np.s_[:, :], _has_empty_view)
+        self.view = _box(_background(screen))
+        self.real_empty = screen[self.view]
+        height, width = self.real_empty.shape[:2]
+        self.page = ClientPage(browser_page, server, width=width, height=height)
+        self.empty = self.page.picture([], lambda now: _background(now).mean() > 0.99)
+        assert self.empty.shape == self.real_empty.shape
+
+    def agreement(self, case: Case, *, patience_s: float = PATIENCE_S) -> Agreement:
+        """Draw a case on both and compare; what loads late has time to come."""
+        real = rviz_file([case.real or case.display], VIEW)
+        with repeating(self.graph, case.repeated):
+            its = self.rviz.picture(real, self.view, lambda now: _is_something(now, self.real_empty))
+            mine = self.page.picture([case.display], lambda now: _is_something(now, self.empty))
+            end = time.monotonic() + patience_s
+            while not (found := self._compare(mine, its, case.grain)) and time.monotonic() < end:
+                time.sleep(_PERIOD_S)
+                its, mine = self.rviz.shot()[self.view], self.page.shot()
+        save_pair(case.name, its, mine)
+        return found
+
+    def _compare(self, mine: Picture, its: Picture, grain: int) -> Agreement:
+        return agreement(*(coarse(picture, grain) for picture in (mine, self.empty, its, self.real_empty)))
+
+
+def save_pair(name: str, real: Picture, ours: Picture) -> None:
+    """Write rviz's picture and the page's beside each other."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    Image.fromarray(np.concatenate([real, ours], axis=1).astype(np.uint8)).save(OUT / f"{name}.png")
+
+
+def _box(mask: np.ndarray[Any, np.dtype[np.bool_]]) -> tuple[slice, slice]:
+    rows, columns = np.nonzero(mask)
+    return np.s_[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+
+
+def _has_empty_view(screen: Picture) -> bool:
+    """Tell if rviz's 3D view is there, and nothing in it."""
+    mask = _background(screen)
+    return bool(mask.sum() > 100_000 and mask[_box(mask)].all())
+
+
+def _background(picture: Picture) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    return (picture == BACKGROUND).all(axis=-1)
+
+
+def publish(graph: Graph, messages: Sequence[Message]) -> None:
+    """Publish messages, latched, with the frames and the robots."""
+    node = graph.node("pictures")
+    for name, urdf in (("/robot_description", URDF), ("/sign_description", TEXTURED_URDF)):
+        graph.loop.run(node.params.set(name, urdf), PATIENCE_S)
+    still = (1.0, 0.0, 0.0, 0.0)
+    frames = [
+        Transform(parent="map", child=name, stamp_ns=0, translation=at, rotation=still) for name, at in FRAMES.items()
+    ]
+    StaticTransformBroadcaster(node).send_transform(*frames)
+    for topic, type_name, fields in messages:
+        node.advertise(topic, type_name, latch=True).publish(dict(fields))
+    graph.ready(node)
+
+
+def publish_cases(graph: Graph) -> None:
+    publish(graph, [message for case in CASES for message in case.messages])
+
+
+@contextmanager
+def repeating(graph: Graph, messages: Sequence[Message]) -> Generator[None]:
+    """Publish messages in turn, twice a second."""
+    if not messages:
+        yield
+        return
+    node = graph.node("repeating")
+    publishers = [(node.advertise(topic, kind), dict(fields)) for topic, kind, fields in messages]
+    over = threading.Event()
+
+    def run() -> None:
+        while not over.wait(_PERIOD_S / len(publishers)):
+            publisher, fields = publishers[0]
+            publisher.publish(fields)
+            publishers.append(publishers.pop(0))
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
+        graph.loop.run(node.shutdown(), PATIENCE_S)

@@ -1,0 +1,119 @@
+"""A person in front of the 3D view of a real graph, which looks straight down: a pixel is a centimetre."""
+
+import io
+import json
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from tests.graphs import PATIENCE_S
+from tests.page.panel_user import PanelUser
+
+from trundle.page import PageServer
+
+PX_PER_M = 100.0
+_TOP = 48
+"""The bar and a gap [px]."""
+VIEW_CANVAS = "canvas[aria-label='3D view']"
+Point = tuple[float, float]
+Colour = tuple[int, int, int]
+
+
+def rviz_text(*displays: dict[str, Any]) -> str:
+    """Return an .rviz file of these displays over a black background, seen from above.
+
+    JSON is YAML.
+    """
+    view = {"Class": "rviz/TopDownOrtho", "Scale": PX_PER_M, "X": 0, "Y": 0, "Angle": 0}
+    options = {"Fixed Frame": "map", "Background Color": "0; 0; 0"}
+    content = {"Displays": displays, "Global Options": options, "Views": {"Current": view}}
+    return json.dumps({"Visualization Manager": content})
+
+
+class SceneUser(PanelUser):
+    """Use tools at points of the ground [m], look at the picture."""
+
+    def __init__(self, browser: Any, server: PageServer) -> None:
+        """Open the page; a browser that draws on the CPU has a pixel for each of this size."""
+        super().__init__(browser, server, size=(1280, 760))
+
+    def at(self, point: Point) -> Point:
+        """Return the place of a point of the ground in the page [px]; the origin is in the middle of the panels."""
+        style = "getComputedStyle(document.documentElement)"
+        left, right, bottom = (
+            self.page.evaluate(f"parseFloat({style}.getPropertyValue('--in-{edge}'))") for edge in "lrb"
+        )
+        width, height = self.page.viewport_size["width"], self.page.viewport_size["height"]
+        return (
+            (left + width - right) / 2 + PX_PER_M * point[0],
+            (_TOP + height - bottom) / 2 - PX_PER_M * point[1],
+        )
+
+    def tool(self, name: str) -> None:
+        self.page.get_by_role("toolbar", name="Tools").get_by_role("button", name=name, exact=True).click()
+
+    def click(self, point: Point, *, button: str = "left") -> None:
+        self.page.mouse.click(*self.at(point), button=button)
+
+    def drag(self, *points: Point) -> None:
+        """Press at the first point, go over the others in small steps, let go at the last."""
+        self.page.mouse.move(*self.at(points[0]))
+        self.page.mouse.down()
+        for point in points[1:]:
+            self.page.mouse.move(*self.at(point), steps=10)
+        self.page.mouse.up()
+
+    def picture(self) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 3) of the ground within 2.5 m across and 1.5 m along of the origin."""
+        left, top = self.at((-2.5, 1.5))
+        clip = {"x": left, "y": top, "width": 5 * PX_PER_M, "height": 3 * PX_PER_M}
+        return np.asarray(Image.open(io.BytesIO(self.page.screenshot(clip=clip))).convert("RGB"))
+
+    def area(self, colour: Colour) -> float:
+        """Area of the ground that has a colour [m²]."""
+        return float((np.abs(self.picture().astype(int) - colour) < 12).all(axis=-1).sum() / PX_PER_M**2)
+
+    def until(self, condition: Callable[[], object], *, what: str = "") -> None:
+        """Wait until something is seen."""
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < end, f"waited in vain {what}"
+            self.page.wait_for_timeout(50)
+
+    def until_area(self, colour: Colour, area: float, *, within: float = 0.1) -> None:
+        """Wait until this much of the ground [m²] has a colour, within a share of it."""
+        found: list[float] = []
+
+        def is_so() -> bool:
+            found.append(self.area(colour))
+            return abs(found[-1] - area) <= within * area + 1e-3
+
+        try:
+            self.until(is_so)
+        except AssertionError:
+            raise AssertionError(f"{colour} has {found[-1]} m², not {area}") from None
+
+    def side(self, name: str) -> None:
+        """Open a page of a side panel, by its tab or its rail."""
+        tab = self.page.get_by_role("tab", name=name)
+        (tab if tab.count() == 1 else self.page.locator(".rail").get_by_role("button", name=name)).click()
+
+    def open_rows(self, *names: str) -> None:
+        """Open rows of the tree of displays, one below the other."""
+        for name in names:
+            row = self.page.get_by_role("treeitem").filter(has_text=name).first
+            row.click()
+            if row.get_attribute("aria-expanded") == "false":
+                row.press("ArrowRight")
+
+    def property(self, name: str) -> Any:
+        """Editor of a property in the side panels."""
+        return self.page.locator(f'aside :is(input, select)[aria-label="{name}"]')
+
+    def set(self, name: str, value: str) -> None:
+        """Type a property's value and press Enter."""
+        self.property(name).fill(value)
+        self.property(name).press("Enter")

@@ -1,0 +1,120 @@
+"""Axe finds nothing serious on any page of the client, in any of its states."""
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.graphs import Graph, running_graph
+from tests.page.panel_user import PanelUser
+from tests.page.scene_user import rviz_text
+
+from trundle.page import GraphAddress, JointSlider, PageServer, RvizFile, Session
+from trundle.page.client_files import CLIENT
+from trundle.page_address import PageAddress
+
+AXE = Path(__file__).parents[2] / "web/node_modules/axe-core/axe.min.js"
+PANELS = ("Plots", "Topics", "Log", "Graph", "Timeline", "Nodes", "Parameters", "Services", "TF tree", "Images")
+CONTROLS = ("Reconfigure", "Joints", "Steering", "Joystick")
+SIDES = ("World", "Displays", "Inspector", "Views", "Tool properties")
+RVIZ = rviz_text(
+    {"Class": "rviz/LaserScan", "Name": "Scan", "Enabled": True, "Topic": "/scan"},
+    {"Class": "rviz/Group", "Name": "Group", "Enabled": True, "Displays": [{"Class": "rviz/Grid", "Enabled": True}]},
+    {"Class": "moveit_rviz_plugin/MotionPlanning", "Name": "Planning", "Enabled": True},
+)
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+    pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed in web/node_modules"),
+]
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        node = graph.node("robot")
+        node.subscribe("/cmd_vel", "geometry_msgs/Twist", lambda _message: None)
+        node.advertise("/scan", "sensor_msgs/LaserScan")
+        node.advertise("/image", "sensor_msgs/Image")
+        graph.ready(node)
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def server(graph: Graph) -> Iterator[PageServer]:
+    session = Session(
+        title="t",
+        kind="graph",
+        rviz=RvizFile(name="t.rviz", text=RVIZ, writable=True),
+        images=("/image",),
+        sliders=(JointSlider(name="arm", lower=-1.0, upper=1.0, position=0.5),),
+        joystick=True,
+    )
+    address = GraphAddress(master_uri=graph.core.uri)
+    with PageServer.start(session, at=PageAddress(port=0), graph=address, node=graph.node("owner")) as server:
+        yield server
+
+
+def _check(tab: Any, state: str) -> None:
+    found = tab.evaluate("axe.run().then((result) => result.violations)")
+    serious = [one for one in found if one["impact"] in ("serious", "critical")]
+    assert [f"{state}: {one['help']}: {node['html']}" for one in serious for node in one["nodes"]] == []
+
+
+@pytest.fixture(params=["dark", "light"])
+def user(request: pytest.FixtureRequest, chromium: Any, server: PageServer) -> Iterator[PanelUser]:
+    user = PanelUser(chromium, server)
+    if user.page.evaluate("document.documentElement.dataset.theme") != request.param:
+        user.page.get_by_role("button", name=f"{request.param.capitalize()} theme").click()
+    user.page.evaluate(AXE.read_text())  # by the debugger: the policy has no inline scripts
+    yield user
+    user.close()
+
+
+def _dialog(user: PanelUser, keys: str, name: str) -> None:
+    user.page.keyboard.press(keys)
+    user.page.get_by_role("dialog", name=name).wait_for()
+    _check(user.page, name)
+    user.page.keyboard.press("Escape")
+
+
+def test_panels_sides_and_dialogs(user: PanelUser) -> None:
+    for panel in (*PANELS, *CONTROLS):
+        user.open(panel)
+        _check(user.page, panel)
+    for side in SIDES:
+        tab = user.page.get_by_role("tab", name=side)
+        (tab if tab.count() else user.page.locator(".rail").get_by_role("button", name=side)).first.click()
+        _check(user.page, side)
+    user.page.get_by_role("tab", name="Displays").click()
+    user.button("Add").click()
+    user.page.get_by_role("treeitem").filter(has_text="Scan").first.press("ArrowRight")
+    _check(user.page, "a display that is open, what can be added")
+    user.page.get_by_label("Size (m)").fill("wide")
+    _check(user.page, "a field that is wrong")
+    user.page.keyboard.press("Escape")
+    user.page.get_by_role("button", name="Enlarge image", exact=True).first.click()
+    _check(user.page, "an enlarged picture")
+    _dialog(user, "Control+k", "Search commands")
+    user.page.locator("canvas[aria-label='3D view']").focus()
+    _dialog(user, "?", "Keys")
+    user.button("Details").click()
+    _check(user.page, "the list of what is missing")
+
+
+def test_a_phone_s_sheet_and_a_lost_connection(chromium: Any, server: PageServer) -> None:
+    """Last, since it ends the server."""
+    tab = chromium.new_page(viewport={"width": 390, "height": 844})
+    tab.goto(server.url)
+    tab.get_by_label("Connected").first.wait_for()
+    tab.evaluate(AXE.read_text())
+    for page in ("World", "Displays", "Inspector", "Plots", "Log"):
+        tab.get_by_role("navigation").get_by_role("button", name=page, exact=True).click()
+        _check(tab, f"{page} on a phone")
+    os.kill(server.process_id, signal.SIGKILL)
+    tab.get_by_label("Connection lost").first.wait_for()
+    _check(tab, "a lost connection")
+    tab.close()

@@ -1,0 +1,88 @@
+"""Pictures by the owner's renderer, for browsers without WebGL."""
+
+import threading
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Callable
+
+import pytest
+
+from trundle.page import PageServer, RenderView, Request
+
+PNG = b"\x89PNG picture"
+
+
+def _fetch(url: str) -> tuple[int, bytes]:
+    try:
+        with urllib.request.urlopen(url, timeout=60) as answer:
+            assert answer.headers["Content-Type"] == "image/png"
+            return answer.status, answer.read()
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.read()
+
+
+def _answered(page: PageServer, query: str, answer: Callable[[Request], None]) -> tuple[int, bytes]:
+    """Fetch a picture while the owner answers."""
+    results: list[tuple[int, bytes]] = []
+    thread = threading.Thread(target=lambda: results.append(_fetch(f"{page.url}/camera.png?{query}")))
+    thread.start()
+    while thread.is_alive():
+        for request in page.requests():
+            answer(request)
+        time.sleep(0.005)
+    return results[0]
+
+
+def test_the_owner_draws_what_is_asked_for(page: PageServer) -> None:
+    views: list[object] = []
+
+    def draw(request: Request) -> None:
+        views.append(request.action)
+        page.respond_picture(request.id, PNG)
+
+    query = "width=640&height=480&azimuth=0.5&elevation=-0.25&distance=2&t=123.5"
+    assert _answered(page, query, draw) == (200, PNG)
+    assert views == [RenderView(width=640, height=480, azimuth=0.5, elevation=-0.25, distance=2.0)]
+
+
+def test_an_owner_that_cannot_draw_says_why(page: PageServer) -> None:
+    answer = _answered(page, "width=64&height=48", lambda request: page.respond(request.id, "no\nrenderer here"))
+
+    assert answer == (503, b"no renderer here\n")
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "",
+        "width=64",
+        "width=0&height=48",
+        "width=64&height=99999",
+        "width=64&height=48&distance=nan",
+        "width=x&height=1",
+    ],
+)
+def test_a_view_that_is_none_is_refused(page: PageServer, query: str) -> None:
+    status, reason = _fetch(f"{page.url}/camera.png?{query}")
+
+    assert status == 400
+    assert reason.startswith(b"not a view")
+    assert page.requests() == []
+
+
+def test_few_pictures_are_drawn_at_a_time(page: PageServer) -> None:
+    threads = [threading.Thread(target=_fetch, args=(f"{page.url}/camera.png?width=64&height=48",)) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    waiting: list[Request] = []
+    while len(waiting) < 4:
+        waiting += page.requests()
+        time.sleep(0.005)
+
+    assert _fetch(f"{page.url}/camera.png?width=64&height=48") == (503, b"4 pictures are being drawn already\n")
+    for request in waiting:
+        page.respond_picture(request.id, PNG)
+    for thread in threads:
+        thread.join()

@@ -1,0 +1,96 @@
+"""The built client in a real browser: it starts, connects, keeps to its policy, and is operable by all."""
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.graphs import Graph, running_graph
+
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page_address import PageAddress
+
+ROOT = Path(__file__).parents[2]
+CLIENT = ROOT / "src/trundle/page/client/index.html"
+AXE = ROOT / "web/node_modules/axe-core/axe.min.js"
+TIMEOUT_MS = 60_000
+LOOKS = [
+    pytest.param(("dark", 1440, 900), id="dark"),
+    pytest.param(("light", 1440, 900), id="light"),
+    pytest.param(("dark", 390, 844), id="phone"),
+]
+
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.slow,
+    pytest.mark.skipif(not CLIENT.is_file(), reason="the page's client is not built"),
+]
+
+
+@pytest.fixture(scope="module", params=LOOKS)
+def opened(request: pytest.FixtureRequest, chromium: Any, page: PageServer) -> Iterator[tuple[Any, list[str]]]:
+    """The page in a browser once it is connected, and all that the browser complained of."""
+    theme, width, height = request.param
+    context = chromium.new_context(viewport={"width": width, "height": height}, color_scheme=theme)
+    tab = context.new_page()
+    complaints: list[str] = []
+    tab.on("console", lambda said: said.type == "error" and complaints.append(said.text))
+    tab.on("pageerror", lambda error: complaints.append(str(error)))
+    tab.on("requestfailed", lambda failed: complaints.append(f"{failed.url}: {failed.failure}"))
+    tab.goto(page.url)
+    tab.get_by_label("Connected").first.wait_for(timeout=TIMEOUT_MS)
+    yield tab, complaints
+    context.close()
+
+
+def test_the_page_connects_and_nothing_is_complained_of(opened: tuple[Any, list[str]]) -> None:
+    """Also not of the content security policy, which Chromium reports on its console."""
+    tab, complaints = opened
+    tab.wait_for_timeout(500)
+
+    assert complaints == []
+    assert tab.title() == "cart"
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed in web/node_modules")
+def test_axe_finds_nothing_serious(opened: tuple[Any, list[str]]) -> None:
+    tab, _ = opened
+    tab.evaluate(AXE.read_text())  # by the debugger: the policy has no inline scripts
+    found = tab.evaluate("axe.run().then((result) => result.violations)")
+
+    serious = [one for one in found if one["impact"] in ("serious", "critical")]
+    assert [f"{one['help']}: {node['html']}" for one in serious for node in one["nodes"]] == []
+
+
+@pytest.fixture
+def graph_tab(chromium: Any) -> Iterator[tuple[Any, Graph]]:
+    """A page of a ROS graph with its topics open, and that graph."""
+    with running_graph() as graph:
+        session = Session(title="t", kind="graph", fixed_frame="map", panels=("rqt_topic",))
+        address = GraphAddress(master_uri=graph.core.uri)
+        with PageServer.start(session, at=PageAddress(port=0), graph=address) as page:
+            tab = chromium.new_page(viewport={"width": 1440, "height": 900})
+            tab.goto(page.url)
+            tab.get_by_label("Connected").first.wait_for(timeout=TIMEOUT_MS)
+            yield tab, graph
+            tab.close()
+
+
+def test_topics_of_a_graph_are_decoded_and_measured(graph_tab: tuple[Any, Graph]) -> None:
+    """TF goes through the worker into the tree of frames; /scan is counted as it comes, about 20 times a second."""
+    tab, graph = graph_tab
+    node = graph.node("talker")
+    tf, scan = node.advertise("/tf", "tf2_msgs/TFMessage"), node.advertise("/scan", "sensor_msgs/LaserScan")
+    frames = tab.get_by_text("2 frames")
+    rate = tab.get_by_role("row").filter(has_text="/scan").get_by_text(re.compile(r"^[1-9]\d*\.\d$"))
+    for turn in range(600):
+        pose = {"translation": {"x": math.sin(turn)}, "rotation": {"w": 1.0}}
+        tf.publish({"transforms": [{"header": {"frame_id": "map"}, "child_frame_id": "base", "transform": pose}]})
+        scan.publish({"header": {"frame_id": "base"}, "ranges": [1.0] * 360})
+        tab.wait_for_timeout(50)
+        if frames.count() == 1 and rate.count() == 1:
+            break
+
+    assert (frames.count(), rate.count()) == (1, 1)

@@ -1,0 +1,210 @@
+"""The dead man's switch: whatever ends, the robot gets one zero."""
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+from tests.graphs import Graph, running_graph, until
+from tests.page_client import ProtocolClient
+
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page_address import PageAddress
+from trundle.ros import Node
+
+STOP_S = 0.5
+"""Bar: time from the end of commands to the zero."""
+
+
+class Robot:
+    """Listener of velocities, with the time at which each came."""
+
+    def __init__(self, node: Node, topic: str, type_name: str = "geometry_msgs/Twist") -> None:
+        self.heard: list[tuple[float, float, float]] = []
+        self._is_stamped = type_name.endswith("Stamped")
+        node.subscribe(topic, type_name, self._hear)
+
+    def _hear(self, message: object) -> None:
+        twist = message.twist if self._is_stamped else message  # pyright: ignore[reportAttributeAccessIssue]
+        self.heard.append((time.monotonic(), twist.linear.x, twist.angular.z))
+
+    @property
+    def velocities(self) -> list[tuple[float, float]]:
+        return [(linear, angular) for _, linear, angular in self.heard]
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture
+def drive_page(graph: Graph) -> Iterator[PageServer]:
+    address = GraphAddress(master_uri=graph.core.uri)
+    node = graph.node("owner")
+    with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0), graph=address, node=node) as page:
+        yield page
+    graph.loop.run(node.shutdown())
+
+
+@pytest.fixture
+def robot(graph: Graph, request: pytest.FixtureRequest) -> Iterator[Robot]:
+    node = graph.node("robot")
+    yield Robot(node, "/cmd_vel")
+    graph.loop.run(node.shutdown())
+
+
+def _drive(client: ProtocolClient, robot: Robot, velocity: tuple[float, float] = (0.5, -0.25)) -> None:
+    """Drive until the robot has heard it."""
+    before = len(robot.heard)
+
+    def command() -> bool:
+        client.send("trundle/drive", topic="/cmd_vel", linear=velocity[0], angular=velocity[1])
+        return velocity in robot.velocities[before:]
+
+    client.until(command)
+
+
+def _until_stopped(robot: Robot) -> float:
+    """Time of the first zero."""
+    end = time.monotonic() + 60
+    while time.monotonic() < end:
+        if (0.0, 0.0) in robot.velocities:
+            return next(stamp for stamp, linear, angular in robot.heard if (linear, angular) == (0.0, 0.0))
+        time.sleep(0.002)
+    raise AssertionError("no zero came")
+
+
+def _assert_one_stop(robot: Robot) -> None:
+    """One zero came, and nothing after it."""
+    _until_stopped(robot)
+    time.sleep(0.5)
+    assert robot.velocities.count((0.0, 0.0)) == 1
+    assert robot.velocities[-1] == (0.0, 0.0)
+
+
+def test_commands_arrive_and_release_stops(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.url) as client:
+        _drive(client, robot)
+        client.send("trundle/release", topic="/cmd_vel")
+        client.send("trundle/release", topic="/cmd_vel")
+        _assert_one_stop(robot)
+
+
+def test_silence_stops(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.url) as client:
+        _drive(client, robot)
+        last = robot.heard[-1][0]
+        stopped = _until_stopped(robot)
+        assert stopped - last > 0.25  # not before the silence
+        _assert_one_stop(robot)
+
+
+def test_a_closed_socket_stops(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.url) as client:
+        _drive(client, robot)
+        client.socket.socket.shutdown(2)
+        _assert_one_stop(robot)
+
+
+def test_a_client_that_did_not_drive_stops_nothing(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.url) as driver:
+        _drive(driver, robot)
+        with ProtocolClient(drive_page.url) as other:
+            other.send("trundle/release", topic="/cmd_vel")
+            _drive(driver, robot)
+        for _ in range(5):
+            _drive(driver, robot)
+        assert (0.0, 0.0) not in robot.velocities
+
+
+def test_of_two_drivers_the_last_one_stops(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.url) as one, ProtocolClient(drive_page.url) as two:
+        _drive(one, robot)
+        _drive(two, robot, (0.1, 0.0))
+        one.send("trundle/release", topic="/cmd_vel")
+        _drive(two, robot, (0.2, 0.0))
+        assert (0.0, 0.0) not in robot.velocities
+        two.send("trundle/release", topic="/cmd_vel")
+        _assert_one_stop(robot)
+
+
+def _kill(page: PageServer) -> None:
+    os.kill(page.process_id, signal.SIGKILL)
+
+
+def _suspend(page: PageServer) -> None:
+    os.kill(page.process_id, signal.SIGSTOP)
+
+
+@pytest.mark.parametrize("end", [_kill, _suspend, PageServer.close], ids=["killed", "suspended", "closed"])
+def test_the_end_of_the_server_stops(drive_page: PageServer, robot: Robot, end: Callable[[PageServer], None]) -> None:
+    with ProtocolClient(drive_page.url) as client:
+        _drive(client, robot)
+        ended = time.monotonic()
+        ending = threading.Thread(target=end, args=(drive_page,))
+        ending.start()
+        stopped = _until_stopped(robot)
+        ending.join()
+
+    assert stopped - ended < STOP_S
+    assert robot.velocities[-1] == (0.0, 0.0)
+
+
+def test_a_server_that_goes_on_is_watched_again(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.url) as client:
+        for _ in range(2):
+            _drive(client, robot)
+            os.kill(drive_page.process_id, signal.SIGSTOP)
+            until(lambda: robot.velocities[-1] == (0.0, 0.0))
+            os.kill(drive_page.process_id, signal.SIGCONT)
+
+
+def test_a_topic_of_stamped_twists_gets_those(graph: Graph, drive_page: PageServer) -> None:
+    node = graph.node("stamped_robot")
+    robot = Robot(node, "/stamped", "geometry_msgs/TwistStamped")
+    graph.ready(node)
+    with ProtocolClient(drive_page.url) as client:
+
+        def command() -> bool:
+            client.send("trundle/drive", topic="/stamped", linear=1.0, angular=0.0)
+            return (1.0, 0.0) in robot.velocities
+
+        client.until(command)
+    _until_stopped(robot)
+    graph.loop.run(node.shutdown())
+
+
+@pytest.mark.parametrize(
+    ("fields", "reason"),
+    [
+        ({"topic": "/chatter"}, "carries std_msgs/String"),
+        ({"topic": "no name"}, "cannot be driven"),
+        ({"linear": "fast"}, "cannot be read"),
+    ],
+)
+def test_what_cannot_be_driven_is_named(
+    graph: Graph, drive_page: PageServer, fields: dict[str, object], reason: str
+) -> None:
+    node = graph.node("chatter")
+    node.advertise("/chatter", "std_msgs/String")
+    graph.ready(node)
+    with ProtocolClient(drive_page.url) as client:
+        client.until(lambda: "/chatter" in client.channels)
+        client.send("trundle/drive", **{"topic": "/cmd_vel", "linear": 1.0, "angular": 0.0} | fields)
+        client.until(lambda: client.statuses)
+        assert reason in client.statuses[0]["message"]
+    graph.loop.run(node.shutdown())
+
+
+def test_without_a_graph_nothing_is_driven() -> None:
+    with (
+        PageServer.start(Session(title="t", kind="log"), at=PageAddress(port=0)) as page,
+        ProtocolClient(page.url) as client,
+    ):
+        client.send("trundle/drive", topic="/cmd_vel", linear=1.0, angular=0.0)
+        client.until(lambda: client.statuses)
+        assert client.statuses[0]["message"] == "this page has no ROS graph"

@@ -1,0 +1,196 @@
+"""Panels that move things: steering, reconfigure, joints, joystick, timeline; plots and pictures."""
+
+import math
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.graphs import Graph, running_graph
+from tests.page.panel_user import PanelUser
+
+from trundle.page import ClockState, GraphAddress, JointSlider, PageServer, Session, TimelineSpan
+from trundle.page.client_files import CLIENT
+from trundle.page_address import PageAddress
+from trundle.ros import Node, Option, ReconfigureServer
+
+pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+
+SESSION = Session(
+    title="t",
+    kind="graph",
+    panels=("rqt_plot",),
+    plots=("/wave/data",),
+    images=("/pixels",),
+    drive_topic="/cmd_vel",
+    sliders=(JointSlider(name="arm", lower=-1.0, upper=1.0, position=0.5),),
+    joystick=True,
+)
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def node(graph: Graph) -> Node:
+    return graph.node("tester")
+
+
+@pytest.fixture(scope="module")
+def server(graph: Graph, node: Node) -> Iterator[PageServer]:
+    address = GraphAddress(master_uri=graph.core.uri)
+    with PageServer.start(SESSION, at=PageAddress(port=0), graph=address, node=node) as server:
+        yield server
+
+
+class Owner:
+    """Answers what a person asks for."""
+
+    def __init__(self, graph: Graph, server: PageServer) -> None:
+        self.graph, self.server = graph, server
+        self.asked: list[Any] = []
+
+    def next(self, kind: str) -> dict[str, Any]:
+        """Wait for the next request, which must be of this kind; return its fields."""
+        self.graph.until(self._came)
+        action = self.asked.pop(0)
+        assert action.__struct_config__.tag == kind
+        return {name: getattr(action, name) for name in action.__struct_fields__}
+
+    def _came(self) -> bool:
+        for request in self.server.requests():
+            self.server.respond(request.id)
+            self.asked.append(request.action)
+        return bool(self.asked)
+
+
+@pytest.fixture(scope="module")
+def owner(graph: Graph, server: PageServer) -> Owner:
+    return Owner(graph, server)
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
+    user = PanelUser(chromium, server)
+    yield user
+    user.close()
+
+
+def test_a_held_slider_steers_and_a_released_one_stops(graph: Graph, node: Node, user: PanelUser) -> None:
+    heard: list[tuple[float, float]] = []
+    node.subscribe("/cmd_vel", "geometry_msgs/Twist", lambda m: heard.append((m.linear.x, m.angular.z)))
+    user.open("Steering")
+    box = user.page.get_by_role("slider", name="Forward, v").bounding_box()
+    middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    user.page.mouse.move(*middle)
+    user.page.mouse.down()
+    user.page.mouse.move(middle[0] + box["width"] / 4, middle[1])
+    graph.until(lambda: len(heard) >= 5)
+    assert all(0.15 < linear < 0.35 for linear, _ in heard[-3:])  # half of the disc's limit, which is the sliders', too
+    user.page.mouse.up()
+    graph.until(lambda: heard[-1] == (0.0, 0.0))
+    user.page.wait_for_timeout(400)
+    assert [velocity for velocity in heard if velocity == (0.0, 0.0)] == [(0.0, 0.0)]
+
+
+def test_options_of_a_node_are_changed_and_taken_back(graph: Graph, node: Node, user: PanelUser) -> None:
+    options = [Option(name="rate", value=10.0, lower=1.0, upper=50.0), Option(name="on", value=False)]
+    applied: list[dict[str, object]] = []
+
+    def apply(values: dict[str, Any]) -> dict[str, Any]:
+        applied.append(dict(values))
+        return values
+
+    reconfigure = ReconfigureServer(node, options, apply, namespace="/driver")
+    user.open("Reconfigure")
+    user.type("rate", "25")
+    graph.until(lambda: applied and applied[-1]["rate"] == 25.0)
+    user.page.get_by_role("checkbox", name="on").check()
+    graph.until(lambda: applied[-1] == {"rate": 25.0, "on": True})
+    user.page.keyboard.press("Control+z")
+    graph.until(lambda: applied[-1] == {"rate": 25.0, "on": False})
+    reconfigure.unregister()
+
+
+def test_sliders_of_joints_are_asked_for(owner: Owner, user: PanelUser) -> None:
+    user.open("Joints")
+    user.type("arm [rad]", "-0.25")
+    assert owner.next("slider") == {"joint": "arm", "position": -0.25}
+    user.button("All to zero").click()
+    assert owner.next("slider") == {"joint": "arm", "position": 0.0}
+
+
+def test_a_held_button_of_the_joystick_is_pressed(owner: Owner, user: PanelUser) -> None:
+    user.open("Joystick")
+    user.page.get_by_role("button", name="X", exact=True).hover()
+    user.page.mouse.down()
+    assert owner.next("joystick")["buttons"][:4] == (0, 0, 1, 0)
+    user.page.mouse.up()
+    assert not any(owner.next("joystick")["buttons"])
+    user.page.get_by_role("slider", name="Left stick").press("ArrowUp", delay=200)
+    assert owner.next("joystick")["axes"][:2] == (0.0, 1.0)
+    assert owner.next("joystick")["axes"][:2] == (0.0, 0.0)
+
+
+def test_a_plot_shows_numbers_and_saves_them(graph: Graph, node: Node, user: PanelUser) -> None:
+    publisher = node.advertise("/wave", "std_msgs/Float64")
+    user.open("Plots")
+    graph.until(lambda: publisher.has_subscribers)
+    for index in range(100):
+        publisher.publish({"data": math.sin(index / 10)})
+        time.sleep(0.005)
+    publisher.publish({"data": 0.125})
+    user.page.locator(".legend b", has_text="0.125").wait_for()
+    with user.page.expect_download() as download:
+        user.button("CSV").click()
+    lines = download.value.path().read_text().splitlines()
+    assert lines[0] == "time,/wave/data"
+    values = [float(line.split(",")[1]) for line in lines[1:]]
+    assert values[-1] == 0.125
+    assert len(values) > 90
+
+    user.page.locator(".dockhost").get_by_role("button", name="Pause", exact=True).click()
+    publisher.publish({"data": 0.75})
+    user.page.wait_for_timeout(500)
+    assert user.page.locator(".legend b", has_text="0.750").count() == 0
+    user.page.locator(".dockhost").get_by_role("button", name="Go on", exact=True).click()
+    user.page.locator(".legend b", has_text="0.750").wait_for()
+    publisher.unregister()
+
+
+def test_a_picture_has_its_pixels_and_their_values(graph: Graph, node: Node, user: PanelUser) -> None:
+    publisher = node.advertise("/pixels", "sensor_msgs/Image", latch=True)
+    user.open("Images")
+    graph.until(lambda: publisher.has_subscribers)
+    pixels = np.zeros((2, 2, 3), np.uint8)
+    pixels[0, 0] = (250, 10, 20)
+    image = {"width": 2, "height": 2, "step": 6, "encoding": "rgb8", "data": pixels.tobytes()}
+    publisher.publish(image)
+    picture = user.page.get_by_role("img", name="Picture of /pixels")
+    picture.wait_for()
+    user.page.get_by_label("Zoom of /pixels").select_option("800 %")
+    picture.hover(position={"x": 4, "y": 4})
+    user.sees("0, 0: r 250 g 10 b 20")
+    with user.page.expect_download() as download:
+        user.button("Save as PNG").click()
+    from PIL import Image
+
+    assert Image.open(download.value.path()).convert("RGB").getpixel((0, 0)) == (250, 10, 20)
+    publisher.unregister()
+
+
+def test_a_recording_is_played_and_scrubbed(owner: Owner, user: PanelUser) -> None:
+    owner.server.put_state(ClockState(time_ns=2 * 10**9, paused=True, speed=1.0, timeline=TimelineSpan(0, 10 * 10**9)))
+    user.open("Timeline")
+    head = user.page.get_by_role("slider", name="Time")
+    head.wait_for()
+    assert head.get_attribute("aria-valuetext") == "0:02.00"
+    ruler = user.page.locator(".headarea").bounding_box()
+    user.page.mouse.click(ruler["x"] + ruler["width"] / 2, ruler["y"] + 10)
+    assert abs(owner.next("seek")["time_ns"] / 1e9 - 5.0) < 0.1
+    user.page.locator(".dockhost").get_by_role("button", name="Play", exact=True).click()
+    assert owner.next("play") == {}

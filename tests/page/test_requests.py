@@ -1,0 +1,88 @@
+"""Requests of a person reach the owner, and its answers the person."""
+
+from tests.page_client import ProtocolClient
+
+from trundle.page import MoveJoint, PageServer, Pause, Play, Request, Step
+
+
+def _taken(page: PageServer, client: ProtocolClient, count: int) -> list[Request]:
+    taken: list[Request] = []
+
+    def enough() -> bool:
+        taken.extend(page.requests())
+        return len(taken) >= count
+
+    client.until(enough)
+    return taken
+
+
+def test_a_request_is_answered_with_its_own_id(page: PageServer) -> None:
+    with ProtocolClient(page.url) as client:
+        client.send("trundle/request", id=5, request="play")
+        client.send("trundle/request", id="b", request="joint", model="arm", joint="elbow", position=0.5)
+        first, second = _taken(page, client, 2)
+        page.respond(first.id)
+        page.respond(second.id, "arm has no joint 'elbow'")
+        client.until(lambda: len([m for m in client.jsons if m["op"] == "trundle/response"]) == 2)
+
+    assert (first.action, second.action) == (Play(), MoveJoint(model="arm", joint="elbow", position=0.5))
+    assert [m for m in client.jsons if m["op"] == "trundle/response"] == [
+        {"op": "trundle/response", "id": 5, "ok": True},
+        {"op": "trundle/response", "id": "b", "ok": False, "error": "arm has no joint 'elbow'"},
+    ]
+
+
+def test_requests_of_two_clients_do_not_mix(page: PageServer) -> None:
+    with ProtocolClient(page.url) as one, ProtocolClient(page.url) as two:
+        one.send("trundle/request", id=1, request="pause")
+        (first,) = _taken(page, one, 1)
+        two.send("trundle/request", id=1, request="step", count=3)
+        (second,) = _taken(page, two, 1)
+        page.respond(second.id)
+        two.last("trundle/response")
+        one.settle()
+        page.respond(first.id)
+        one.last("trundle/response")
+
+    assert (first.action, second.action) == (Pause(), Step(3))
+    assert [len([m for m in c.jsons if m["op"] == "trundle/response"]) for c in (one, two)] == [1, 1]
+
+
+def test_a_request_that_is_none_is_refused_at_once(page: PageServer) -> None:
+    with ProtocolClient(page.url) as client:
+        client.send("trundle/request", id=1, request="step", count=0)
+        answer = client.last("trundle/response")
+
+    assert (answer["id"], answer["ok"]) == (1, False)
+    assert "count" in answer["error"]
+    assert page.requests() == []
+
+
+def test_the_65th_request_that_waits_is_refused(page: PageServer) -> None:
+    with ProtocolClient(page.url) as client:
+        for number in range(65):
+            client.send("trundle/request", id=number, request="play")
+        assert client.last("trundle/response") == {
+            "op": "trundle/response", "id": 64, "ok": False, "error": "64 requests wait already",
+        }  # fmt: skip
+        assert len(_taken(page, client, 64)) == 64
+
+
+def test_a_definition_is_answered_by_the_server(page: PageServer) -> None:
+    with ProtocolClient(page.url) as client:
+        client.send("trundle/request", id=1, request="definition", type="geometry_msgs/PointStamped")
+        assert "MSG: std_msgs/Header" in client.last("trundle/response")["definition"]
+        client.send("trundle/request", id=2, request="definition", type="no_msgs/None")
+        client.until(lambda: client.last("trundle/response")["id"] == 2)
+
+    assert "no message type 'no_msgs/None'" in client.last("trundle/response")["error"]
+
+
+def test_other_clients_are_not_offered_what_is_the_pages_own(page: PageServer) -> None:
+    for protocol in ("foxglove.websocket.v1", "foxglove.sdk.v1"):
+        with ProtocolClient(page.url, protocol=protocol) as client:
+            client.send("trundle/request", id=1, request="play")
+            client.until(lambda client=client: client.statuses)
+            assert client.socket.subprotocol == protocol
+            assert not [topic for topic in client.channels if topic.startswith("trundle/")]
+            assert page.requests() == []

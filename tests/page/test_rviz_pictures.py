@@ -1,0 +1,51 @@
+"""Debian's rviz and the page draw the same file on the same graph: each display alone, pictures beside each other."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import pytest
+from tests.graphs import running_graph
+from tests.page.picture_case import Case
+from tests.page.picture_cases import CASES, REMAPPINGS
+from tests.page.picture_pair import MESHES, OUT, Pair, publish_cases
+from tests.page.real_rviz import INSTALLED, NOT_INSTALLED, RealRviz
+
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page_address import PageAddress
+
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not INSTALLED, reason=NOT_INSTALLED)]
+
+
+@pytest.fixture(scope="module")
+def pair(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pair]:
+    with running_graph() as graph, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_PACKAGE_PATH", str(MESHES))
+        publish_cases(graph)
+        rviz = RealRviz(tmp_path_factory.mktemp("rviz"), graph, packages=MESHES, remappings=REMAPPINGS)
+        browser_page = chromium.new_page(viewport={"width": 900, "height": 700})
+        address = GraphAddress(master_uri=graph.core.uri)
+        session = Session(title="pictures", kind="graph")
+        try:
+            with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
+                yield Pair(graph, rviz, browser_page, server)
+        finally:
+            browser_page.close()
+            rviz.close()
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_the_page_draws_what_rviz_draws(pair: Pair, case: Case) -> None:
+    found = pair.agreement(case)
+
+    assert found, f"{case.name}: {found}; see {OUT / case.name}.png"
+
+
+@pytest.mark.parametrize(
+    "broken", [{"Length": 1, "Radius": 0.1}, {"Alpha": 0.3}], ids=["in another size", "in other colours"]
+)
+def test_a_display_that_is_broken_is_found(pair: Pair, broken: Mapping[str, Any]) -> None:
+    """The comparison itself can fail, by shape and by colour."""
+    axes = {"Class": "rviz/Axes", "Name": "Axes", "Length": 2, "Radius": 0.3}
+
+    assert pair.agreement(Case(name="axes", display=axes))
+    assert not pair.agreement(Case(name="broken axes", display={**axes, **broken}, real=axes), patience_s=0)

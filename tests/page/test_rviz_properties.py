@@ -1,0 +1,108 @@
+"""The page's displays have the properties of Debian's rviz, by name and default: both save the same bare file."""
+
+import math
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from tests.graphs import PATIENCE_S, running_graph
+from tests.page.picture_cases import VIEW
+from tests.page.picture_pair import MESHES
+from tests.page.real_rviz import INSTALLED, NOT_INSTALLED, RealRviz, rviz_file
+
+from trundle.page import GraphAddress, PageServer, SaveRviz, Session
+from trundle.page.session import RvizFile
+from trundle.page_address import PageAddress
+
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not INSTALLED, reason=NOT_INSTALLED)]
+
+KINDS = [
+    "AccelStamped",
+    "Axes",
+    "Camera",
+    "DepthCloud",
+    "Effort",
+    "FluidPressure",
+    "Grid",
+    "GridCells",
+    "Illuminance",
+    "Image",
+    "InteractiveMarkers",
+    "LaserScan",
+    "Map",
+    "Marker",
+    "MarkerArray",
+    "Odometry",
+    "Path",
+    "PointCloud",
+    "PointCloud2",
+    "PointStamped",
+    "Polygon",
+    "Pose",
+    "PoseArray",
+    "PoseWithCovariance",
+    "Range",
+    "RelativeHumidity",
+    "RobotModel",
+    "TF",
+    "Temperature",
+    "TwistStamped",
+    "WrenchStamped",
+]
+_OTHERS = {"Enabled", "Frames", "Joints", "Links", "Namespaces", "Tree", "Visibility"}
+"""Rows that come with frames, links and other displays; rviz switches images off whose dock is not seen."""
+
+
+def _saved_by_page(chromium: Any, server: PageServer) -> str:
+    """Save as a person does, by the palette; return the file's text."""
+    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(server.url)
+    page.wait_for_selector("canvas[aria-label='3D view']", timeout=1000 * PATIENCE_S)
+    page.keyboard.press("Control+k")
+    page.keyboard.type("Save case.rviz")
+    page.keyboard.press("Enter")
+    end = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end:
+        for request in server.requests():
+            if isinstance(request.action, SaveRviz):
+                page.close()
+                return request.action.text
+        page.wait_for_timeout(100)
+    pytest.fail("the page saved nothing")
+
+
+def _differences(real: Mapping[str, Any], ours: Mapping[str, Any], path: str) -> Iterator[str]:
+    for key, value in real.items():
+        if key in _OTHERS:
+            continue
+        at, mine = f"{path}: {key}", ours.get(key, "nothing")
+        if isinstance(value, Mapping):
+            yield from _differences(value, mine if isinstance(mine, Mapping) else {"Value": mine}, at)
+        elif isinstance(value, float) and isinstance(mine, (int, float)):
+            if not math.isclose(value, mine, rel_tol=1e-5):
+                yield f"{at} is {mine}, not {value}"
+        elif value != mine and not (value in ("", None) and mine in ("", None)):
+            yield f"{at} is {mine!r}, not {value!r}"
+
+
+def test_displays_have_rvizs_properties_and_defaults(chromium: Any, tmp_path: Path) -> None:
+    text = rviz_file([{"Class": f"rviz/{kind}", "Name": kind} for kind in KINDS], VIEW)
+    with running_graph() as graph:
+        rviz = RealRviz(tmp_path, graph, packages=MESHES, remappings={})
+        session = Session(title="p", kind="graph", rviz=RvizFile(name="case.rviz", text=text, writable=True))
+        address = GraphAddress(master_uri=graph.core.uri)
+        try:
+            rviz.show(text)
+            real = rviz.saved()
+            with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
+                ours = _saved_by_page(chromium, server)
+        finally:
+            rviz.close()
+    files = (yaml.safe_load(saved)["Visualization Manager"]["Displays"] for saved in (real, ours))
+    by_class = [{it["Class"]: {key: it[key] for key in it if key != "Value"} for it in displays} for displays in files]
+
+    assert set(by_class[0]) == set(by_class[1]) == {f"rviz/{kind}" for kind in KINDS}
+    assert [it for name in by_class[0] for it in _differences(by_class[0][name], by_class[1][name], name)] == []

@@ -1,0 +1,97 @@
+"""A client that does not read costs the others nothing; what it loses is the oldest of streams, and is counted."""
+
+import json
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from tests.graphs import Graph, running_graph
+from tests.page_client import ProtocolClient
+
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page_address import PageAddress
+
+MB = 1024 * 1024
+COUNT = 60
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def graph_page(graph: Graph) -> Iterator[PageServer]:
+    address = GraphAddress(master_uri=graph.core.uri)
+    with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0), graph=address) as page:
+        yield page
+
+
+class Stalled(ProtocolClient):
+    """Client whose socket is read only when asked to."""
+
+    def __init__(self, url: str) -> None:
+        super().__init__(url, max_queue=1)
+
+
+def test_a_stalled_client_loses_clouds_and_keeps_markers_maps_and_what_is_latched(
+    graph: Graph, graph_page: PageServer
+) -> None:
+    node = graph.node("source")
+    topics = {
+        "/cloud": node.advertise("/cloud", "std_msgs/UInt8MultiArray"),
+        "/markers": node.advertise("/markers", "visualization_msgs/Marker"),
+        "/map_updates": node.advertise("/map_updates", "map_msgs/OccupancyGridUpdate"),
+        "/latched": node.advertise("/latched", "std_msgs/UInt32", latch=True),
+    }
+    with Stalled(graph_page.url) as stalled, ProtocolClient(graph_page.url) as reader:
+        for client in (stalled, reader):
+            for topic in ("trundle/drops", *topics):
+                client.subscribe(topic)
+        graph.until(lambda: all(publisher.has_subscribers for publisher in topics.values()))
+        for number in range(COUNT):
+            topics["/cloud"].publish({"data": np.full(MB, number, np.uint8)})
+            topics["/markers"].publish({"id": number})
+            topics["/map_updates"].publish({"x": number})
+            topics["/latched"].publish({"data": number})
+            reader.until(lambda n=number: all(len(reader.payloads(topic)) > n for topic in topics))
+        stalled.until(lambda: all(len(stalled.payloads(t)) == COUNT for t in topics if t != "/cloud"))
+        stalled.until(lambda: stalled.payloads("/cloud")[-1][-1] == COUNT - 1)
+        lost = COUNT - len(stalled.payloads("/cloud"))
+        stalled.until(
+            lambda: json.dumps({"/cloud": lost}).replace(" ", "").encode() in stalled.payloads("trundle/drops")
+        )
+
+    clouds = [payload[-1] for payload in stalled.payloads("/cloud")]
+    assert clouds == sorted(clouds)
+    assert clouds[-1] == COUNT - 1
+    assert lost > COUNT // 4
+    assert not [p for p in reader.payloads("trundle/drops") if p != b"{}"]
+    for topic in ("/markers", "/map_updates", "/latched"):
+        assert stalled.payloads(topic) == reader.payloads(topic)
+    for publisher in topics.values():
+        publisher.unregister()
+
+
+def test_poses_after_a_loss_are_all_of_them(graph_page: PageServer) -> None:
+    """Otherwise a body that moved meanwhile would stay where it was."""
+    rows = np.zeros((20_000, 7))
+    graph_page.set_world({"generation": 1, "files": []}, {})
+    with Stalled(graph_page.url) as stalled, ProtocolClient(graph_page.url) as reader:
+        for client in (stalled, reader):
+            client.subscribe("trundle/poses")
+        for number in range(1, 41):
+            rows = rows + 1.0
+            graph_page.put_poses(number, rows)
+            reader.until(lambda n=number: len(reader.payloads("trundle/poses")) >= n)
+        rows = rows.copy()
+        rows[7, 0] = -1.0
+        graph_page.put_poses(99, rows)
+        stamp = (99).to_bytes(8, "little")
+        for client in (reader, stalled):
+            client.until(lambda client=client: stamp in [p[:8] for p in client.payloads("trundle/poses")])
+
+    assert len(stalled.payloads("trundle/poses")) < len(reader.payloads("trundle/poses"))
+    assert len(stalled.payloads("trundle/poses")[-1]) == 16 + 20_000 * 32
+    assert len(reader.payloads("trundle/poses")[-1]) == 16 + 32

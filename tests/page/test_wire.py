@@ -1,0 +1,60 @@
+"""Messages between the server and its owner."""
+
+import io
+
+import msgspec
+import pytest
+
+from trundle.page import MoveJoint, PageAction, Play, Request, Reset, SetSpeed, Step
+from trundle.page.wire import Driven, frame, from_server_decoder, read_frame
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        Request(3, Play()),
+        Request(2**40, MoveJoint(model="arm", joint="elbow", position=0.5)),
+        Driven({"/cmd_vel": "geometry_msgs/Twist"}),
+    ],
+)
+def test_a_message_arrives_as_it_was_sent(message: object) -> None:
+    pipe = io.BytesIO(frame(message) * 2)
+
+    assert [from_server_decoder.decode(read_frame(pipe)) for _ in range(2)] == [message] * 2
+
+
+@pytest.mark.parametrize("size", [0, 3, 4, 10])
+def test_a_pipe_that_ends_within_a_message_has_ended(size: int) -> None:
+    with pytest.raises(EOFError):
+        read_frame(io.BytesIO(frame(Request(3, Play()))[:size]))
+
+
+@pytest.mark.parametrize(
+    ("text", "action"),
+    [
+        ('{"request": "play"}', Play()),
+        ('{"request": "step", "count": 5, "more": 1}', Step(5)),
+        ('{"request": "reset"}', Reset("all")),
+        ('{"request": "speed", "factor": null}', SetSpeed(None)),
+    ],
+)
+def test_a_request_is_read_by_its_name(text: str, action: PageAction) -> None:
+    assert msgspec.json.decode(text, type=PageAction) == action
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"request": "dance"}', "Invalid value 'dance'"),
+        ('{"request": "step", "count": 0}', "`int` >= 1"),
+        ('{"request": "speed", "factor": -1}', "> 0"),
+        ('{"request": "joint", "model": "a", "joint": "b"}', "give one of 'position' and 'velocity'"),
+        ('{"request": "joint", "model": "a", "joint": "b", "position": 1, "velocity": 1}', "give one of"),
+        ('{"request": "seek", "time_ns": -1}', ">= 0"),
+    ],
+)
+def test_a_request_that_cannot_be_is_refused_with_the_reason(text: str, reason: str) -> None:
+    with pytest.raises(msgspec.ValidationError) as caught:
+        msgspec.json.decode(text, type=PageAction)
+
+    assert reason in str(caught.value)

@@ -1,0 +1,174 @@
+/** The bar on top: the clock and its controls, recording, the connection. */
+
+import type { JSX } from "preact";
+
+import type { ConnectionState } from "../protocol/connection";
+import { Button } from "../theme/button";
+import { clock, count } from "../theme/format";
+import { MenuButton, type MenuItem } from "../theme/menu";
+import { StatusShape } from "../theme/status_shape";
+import { Clock } from "./clock";
+import { simulates } from "./simulation_commands";
+import type { Shell } from "./shell";
+import { switchTheme } from "./theme";
+
+export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { page, layout } = shell;
+  const phone = layout.isPhone.value;
+  return (
+    <header class="bar" aria-label="Trundle">
+      <Mark />
+      {!phone && <Title shell={shell} />}
+      {simulates(page) ? <SimulationControls shell={shell} /> : <Freeze shell={shell} />}
+      {!phone && <span class="sep" />}
+      <Clock shell={shell} />
+      <span class="sp" />
+      {!phone && <Record shell={shell} />}
+      {!phone && shell.panels.some((panel) => panel.id === "timeline") && (
+        <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />
+      )}
+      {!phone && <span class="sep" />}
+      <Connected shell={shell} />
+      {phone ? <More shell={shell} /> : <Corner shell={shell} />}
+    </header>
+  );
+}
+
+export function Mark(): JSX.Element {
+  return (
+    <svg class="mark" viewBox="0 0 22 22" fill="none" stroke="currentColor" stroke-width="2" role="img" aria-label="Trundle">
+      <circle cx="11" cy="11" r="8.5" />
+      <circle cx="11" cy="11" r="2.2" fill="currentColor" stroke="none" />
+      <path d="M11 2.500v4.500M18.400 15.200l-3.900-2.200M3.600 15.200l3.900-2.200" />
+    </svg>
+  );
+}
+
+const KINDS = { graph: "ROS graph", bag: "bag", log: "recorded run" } as const;
+
+function Title({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { title, kind } = shell.page.session;
+  const robot = shell.robot.value;
+  const of = kind === "simulation" ? robot : KINDS[kind];
+  const name = kind === "graph" ? (robot ?? title) : title;
+  return (
+    <>
+      <h1>{name}</h1>
+      {of !== null && of !== name && <span class="of wide">· {of}</span>}
+      <span class="sep" />
+    </>
+  );
+}
+
+function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { commands, layout, page } = shell;
+  const paused = page.world.state.value?.paused ?? true;
+  const run = (id: string): void => commands.all.peek().find((command) => command.id === id)?.run();
+  const resets = commands.all.value.filter((command) => command.id.startsWith("reset.") || command.id === "reload");
+  const isRecorded = page.session.kind !== "simulation";
+  return (
+    <>
+      <button type="button" class="b pri" data-tip={`${paused ? "Play" : "Pause"} (Space)`} onClick={() => run("play_pause")}>
+        <PlayShape paused={paused} />
+        {paused ? "Play" : "Pause"}
+      </button>
+      {!layout.isPhone.value && !isRecorded && (
+        <>
+          <Button icon="step" label="Step 1" keys="." onClick={() => run("step")}>
+            Step 1
+          </Button>
+          <MenuButton icon="reset" items={() => resets.map(({ title, keys, run: act }): MenuItem => ({ title, keys, run: act }))}>
+            Reset
+          </MenuButton>
+        </>
+      )}
+    </>
+  );
+}
+
+function PlayShape({ paused }: { readonly paused: boolean }): JSX.Element {
+  return (
+    <svg class="i" viewBox="0 0 16 16" aria-hidden="true">
+      <path class="f" d={paused ? "M4.500 3v10l8.500-5z" : "M4 3h3v10H4zM9 3h3v10H9z"} />
+    </svg>
+  );
+}
+
+function Freeze({ shell }: { readonly shell: Shell }): JSX.Element {
+  const frozen = shell.frozen.value;
+  const toggle = (): void => {
+    shell.frozen.value = !frozen;
+  };
+  return (
+    <Button icon={frozen ? "play" : "pause"} tone="line" on={frozen} onClick={toggle}>
+      Freeze view
+    </Button>
+  );
+}
+
+function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
+  const state = shell.page.world.state.value;
+  if (state?.recording === undefined) return null;
+  const since = state.recording?.since_ns;
+  const running = since !== undefined;
+  const text = running ? `Recording ${clock((state.time_ns - since) / 1e9, 0)}` : "Record";
+  const toggle = (): void => shell.request("Record", "record", { on: !running });
+  return (
+    <button type="button" class={running ? "b rec run" : "b rec"} aria-pressed={running} onClick={toggle}>
+      <span class="dot" />
+      {text}
+    </button>
+  );
+}
+
+/** The connection's state in words. */
+export function connectionText(state: ConnectionState, nodes: number): string {
+  if (state.kind === "connecting") return "Connecting";
+  if (state.kind === "lost") return `Connection lost, trying again${state.retryInSeconds > 0 ? ` in ${state.retryInSeconds} s` : ""}`;
+  return nodes > 0 ? `Connected · ${count(nodes, "node")}` : "Connected";
+}
+
+function Connected({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { connection, session } = shell.page;
+  const state = connection.state.value;
+  const { publishers, subscribers, services } = connection.graph.value;
+  const nodes = new Set([publishers, subscribers, services].flatMap((map) => [...map.values()].flat()));
+  const text = connectionText(state, session.kind === "graph" ? nodes.size : 0);
+  const level = state.kind === "connected" ? "ok" : state.kind === "connecting" ? "none" : "error";
+  return (
+    <span class="connection" role="status">
+      <StatusShape level={level} label={text} />
+      {!shell.layout.isPhone.value && <span aria-hidden="true">{text}</span>}
+    </span>
+  );
+}
+
+function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { theme } = shell.page;
+  const dark = theme.value === "dark";
+  return (
+    <>
+      <Button icon={dark ? "sun" : "moon"} label={dark ? "Light theme" : "Dark theme"} onClick={() => switchTheme(theme)} />
+      <Button icon="find" label="Search commands, Ctrl K" onClick={() => (shell.dialog.value = "palette")}>
+        <kbd>Ctrl K</kbd>
+      </Button>
+      <Button label="Help" keys="?" class="ic strong" onClick={() => (shell.dialog.value = "help")}>
+        ?
+      </Button>
+    </>
+  );
+}
+
+/** The phone's menu of what the bar has no room for. */
+function More({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { commands, page } = shell;
+  const items = (): readonly MenuItem[] => {
+    const shown = commands.all.peek().filter(({ id, group }) => group === "Simulation" && id !== "play_pause");
+    return [
+      ...shown.map(({ title, run, enabled }) => ({ title, run, disabled: !(enabled?.() ?? true) })),
+      { title: page.theme.peek() === "dark" ? "Light theme" : "Dark theme", run: () => switchTheme(page.theme) },
+      { title: "Search commands", run: () => (shell.dialog.value = "palette") },
+    ];
+  };
+  return <MenuButton icon="dots" label="More" items={items} />;
+}

@@ -1,0 +1,87 @@
+/** Start: fetch the session, make the parts, draw the page. */
+
+import "../displays/all";
+
+import { effect, signal } from "@preact/signals";
+
+import { DisplayStore } from "../displays/display_store";
+import { feedTransforms } from "../frames/tf_topics";
+import { TransformTree } from "../frames/transform_tree";
+import { panels } from "../panels";
+import { connect } from "../protocol/foxglove_connection";
+import { GraphNames } from "../protocol/graph_names";
+import { SceneInput } from "../scene/pointer_input";
+import { ThreeScene } from "../scene/three_scene";
+import { ViewList } from "../scene/views/view_list";
+import { SelectionOutline } from "../scene/world/selection_outline";
+import { WorldFeed } from "../scene/world/world_feed";
+import { ToolList } from "../tools/tool_list";
+import { CommandList } from "./commands";
+import { Drive } from "./drive";
+import { freezable } from "./freeze";
+import { outlinedBodies, targetPose } from "./framing";
+import { mount } from "./mount";
+import type { Page } from "./page";
+import { liveSession, type Session } from "./session";
+import { startDisplays, startView } from "./start";
+import { makeTheme } from "./theme";
+import { UndoHistory } from "./undo";
+
+/** Fetch what the page is for; throws a sentence. */
+export async function fetchSession(address: string): Promise<Session> {
+  const url = new URL("session.json", address);
+  url.search = new URL(address).search; // the token
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`The page's server refuses: ${response.status} ${await response.text()}`);
+  return (await response.json()) as Session;
+}
+
+/** Make the page's parts for a session and draw them into an element. */
+export function boot(root: HTMLElement, first: Session, address: string): void {
+  const frozen = signal(false);
+  const connection = connect(address);
+  const session = liveSession(first, connection, () => location.reload());
+  const view = freezable(connection, frozen); // what the view shows can be held back; panels go on
+  const names = new GraphNames(first.namespace, first.remappings);
+  const undo = new UndoHistory();
+  const commands = new CommandList();
+  const theme = makeTheme();
+  const fixedFrame = signal(first.fixed_frame ?? "map");
+  const selection: Page["selection"] = signal(null);
+  const hovered: Page["hovered"] = signal(null);
+
+  const sceneHost = document.createElement("div");
+  const scene = new ThreeScene(sceneHost);
+  const frames = new TransformTree();
+  feedTransforms(frames, view, names);
+  const world = new WorldFeed(connection, scene, frames, fixedFrame);
+  const views: ViewList = new ViewList(scene, (target) => targetPose(page, target));
+  const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered });
+  const displays: DisplayStore = new DisplayStore({ connection: view, names, frames, scene, undo, views, tools });
+  const drive = new Drive({
+    connection,
+    get session() {
+      return session.value;
+    },
+  });
+  const page: Page = {
+    get session() {
+      return session.value;
+    },
+    connection, frames, scene, views, world, displays, tools, selection, hovered, commands, undo, drive, theme,
+  };
+
+  effect(() => {
+    fixedFrame.value = displays.fixedFrame.value;
+  });
+  new SceneInput(scene, views, (input) => tools.pointer(input));
+  scene.onSide = (side) => views.lookFrom(side);
+  effect(() => {
+    scene.element.style.cursor = tools.current.value.cursor;
+  });
+  new SelectionOutline(scene, world, () => outlinedBodies(page));
+  scene.onTick((elapsed) => displays.update(view.now(), elapsed));
+  const shell = mount(root, { page, panels, commands, sceneHost, frozen });
+  startDisplays(shell);
+  startView(shell);
+}

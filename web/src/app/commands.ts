@@ -1,0 +1,54 @@
+/** The list of commands, and the keys that run them. */
+
+import { computed, signal, type ReadonlySignal } from "@preact/signals";
+
+import type { Command, Commands } from "./page";
+
+export class CommandList implements Commands {
+  private readonly added = signal<readonly (readonly Command[])[]>([]);
+  readonly all: ReadonlySignal<readonly Command[]> = computed(() => this.added.value.flat());
+
+  add(...commands: readonly Command[]): () => void {
+    this.added.value = [...this.added.peek(), commands];
+    return () => {
+      this.added.value = this.added.peek().filter((other) => other !== commands);
+    };
+  }
+
+  /** Run the command of these keys; false: there is none that can run now. */
+  press(keys: string): boolean {
+    const command = this.all.peek().find((each) => each.keys === keys && (each.enabled?.() ?? true));
+    command?.run();
+    return command !== undefined;
+  }
+}
+
+/** Keys of an event as commands name them: `Space`, `Shift R`, `Ctrl K`, `?`. */
+export function keysOf(event: Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">): string {
+  const { key } = event;
+  const isLetter = /^[a-z]$/i.test(key);
+  const name = key === " " ? "Space" : isLetter ? key.toUpperCase() : key;
+  const shift = event.shiftKey && (isLetter || key.length > 1) ? "Shift " : "";
+  return `${event.ctrlKey || event.metaKey ? "Ctrl " : ""}${event.altKey ? "Alt " : ""}${shift}${name}`;
+}
+
+/** True where keys belong to what has the focus: a field, a list, a menu, a control that takes the key. */
+export function takesKeys(target: EventTarget | null, key: string): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return true;
+  if (target instanceof HTMLInputElement) return target.type !== "checkbox" || key === " ";
+  if (target.closest('[role="menu"], [role="dialog"]') !== null) return true;
+  return (key === " " || key === "Enter") && target.closest("button, a, [role=treeitem], [role=tab]") !== null;
+}
+
+/** Run commands by their keys; returns how to stop. */
+export function listenForKeys(commands: CommandList): () => void {
+  const keyDown = (event: KeyboardEvent): void => {
+    const keys = keysOf(event);
+    const always = keys === "Ctrl K";
+    if (event.defaultPrevented || (!always && takesKeys(event.target, event.key))) return;
+    if (commands.press(keys)) event.preventDefault();
+  };
+  addEventListener("keydown", keyDown);
+  return () => removeEventListener("keydown", keyDown);
+}

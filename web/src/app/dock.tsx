@@ -1,0 +1,185 @@
+/** The dock below the scene: panels in tabs that can be split, moved and closed. */
+
+import { render, type JSX } from "preact";
+import {
+  createDockview, type DockviewApi, type IContentRenderer, type IHeaderActionsRenderer, type ITabRenderer, type SerializedDockview,
+} from "dockview-core";
+
+import type { Panel } from "../panels/panel";
+import { Button } from "../theme/button";
+import { Icon } from "../theme/icons";
+import { MenuButton } from "../theme/menu";
+import type { Layout } from "./layout";
+import type { Page } from "./page";
+import { forEachNew } from "./session";
+import { recall, remember } from "./storage";
+
+/** Panels that are open at first, in this order. */
+const FIRST = ["plots", "topics", "log", "graph", "timeline"];
+
+export class Dock {
+  private api: DockviewApi | null = null;
+  private readonly byId: ReadonlyMap<string, Panel>;
+
+  constructor(
+    private readonly page: Page,
+    panels: readonly Panel[],
+    private readonly layout: Layout,
+  ) {
+    this.byId = new Map(panels.map((panel) => [panel.id, panel]));
+  }
+
+  /** Fill an element; returns how to empty it. */
+  mount(element: HTMLElement): () => void {
+    const api = createDockview(element, {
+      disableFloatingGroups: true,
+      theme: { name: "trundle", className: "trundle-dock", dndPanelOverlay: "content" },
+      createComponent: ({ name }) => this.content(name),
+      createTabComponent: ({ name }) => this.tab(name),
+      createLeftHeaderActionComponent: () => this.adder(),
+      createRightHeaderActionComponent: (group) => this.actions(() => group.activePanel?.id ?? "", group.id),
+    });
+    this.api = api;
+    this.restore(api);
+    const unfollow = forEachNew(() => this.page.session.panels, (program) => this.showProgram(api, program));
+    const saved = api.onDidLayoutChange(() => remember(this.key, api.toJSON()));
+    const keyDown = (event: KeyboardEvent): void => {
+      const tab = event.target instanceof Element ? event.target.closest<HTMLElement>(".dv-tab") : null;
+      if (event.key === "Delete") api.getPanel(tab?.dataset["tabPanelId"] ?? "")?.api.close();
+    };
+    element.addEventListener("keydown", keyDown);
+    return () => {
+      unfollow();
+      element.removeEventListener("keydown", keyDown);
+      saved.dispose();
+      api.dispose();
+      this.api = null;
+    };
+  }
+
+  /** Bring a panel to the front, opening it where it is not yet. */
+  open(id: string): void {
+    if (!this.byId.has(id)) return;
+    this.layout.dockOpen.value = true;
+    if (this.layout.isPhone.peek()) this.layout.openSheet(id);
+    if (this.api !== null) this.show(this.api, id);
+  }
+
+  private show(api: DockviewApi, id: string): void {
+    const panel = this.byId.get(id);
+    if (panel === undefined) return;
+    const open = api.getPanel(id);
+    if (open !== undefined) open.api.setActive();
+    else api.addPanel({ id, component: id, tabComponent: id, title: panel.title });
+  }
+
+  private get key(): string {
+    return `dock.${this.page.session.kind}`;
+  }
+
+  private restore(api: DockviewApi): void {
+    const saved = recall(this.key, null, isLayout);
+    try {
+      if (saved !== null && Object.keys(saved.panels).every((id) => this.byId.has(id))) api.fromJSON(saved);
+    } catch {
+      api.clear(); // a layout of another version
+    }
+    if (api.totalPanels === 0) {
+      for (const id of FIRST) this.show(api, id);
+      this.show(api, this.page.session.kind === "graph" ? "topics" : "plots");
+    }
+  }
+
+  /** Show the panels that take a program's place. */
+  private showProgram(api: DockviewApi, program: string): void {
+    for (const panel of this.byId.values()) if (panel.programs.includes(program)) this.show(api, panel.id);
+  }
+
+  private content(id: string): IContentRenderer {
+    const element = document.createElement("div");
+    element.className = "page";
+    const Component = this.byId.get(id)?.component;
+    return {
+      element,
+      init: () => {
+        if (Component !== undefined) render(<Component page={this.page} />, element);
+      },
+      dispose: () => render(null, element),
+    };
+  }
+
+  private tab(id: string): ITabRenderer {
+    const element = document.createElement("div");
+    element.className = "tab";
+    const title = this.byId.get(id)?.title ?? id;
+    return {
+      element,
+      init: ({ api }) => {
+        render(
+          <>
+            {title}
+            <span class="shut" data-tip={`Close ${title} (Delete)`} onPointerDown={(event) => event.stopPropagation()} onClick={() => api.close()}>
+              <Icon name="close" />
+            </span>
+          </>,
+          element,
+        );
+      },
+      dispose: () => render(null, element),
+    };
+  }
+
+  private adder(): IHeaderActionsRenderer {
+    const element = document.createElement("div");
+    const items = (): { title: string; run: () => void }[] =>
+      [...this.byId.values()]
+        .filter((panel) => this.api?.getPanel(panel.id) === undefined)
+        .map((panel) => ({ title: panel.title, run: () => this.open(panel.id) }));
+    return {
+      element,
+      init: () => render(<MenuButton icon="plus" label="Open a panel" class="sml" items={items} />, element),
+      dispose: () => render(null, element),
+    };
+  }
+
+  private actions(active: () => string, group: string): IHeaderActionsRenderer {
+    const element = document.createElement("div");
+    element.className = "grp";
+    const draw = (): void => {
+      const Actions = this.byId.get(active())?.actions;
+      const isLast = this.api?.groups.at(-1)?.id === group || this.api === null;
+      render(
+        <>
+          {Actions !== undefined && <Actions page={this.page} />}
+          {isLast && <Collapse layout={this.layout} />}
+        </>,
+        element,
+      );
+    };
+    const listening: { dispose(): void }[] = [];
+    return {
+      element,
+      init: ({ api, containerApi }) => {
+        draw();
+        listening.push(api.onDidActivePanelChange(draw), containerApi.onDidLayoutChange(draw));
+      },
+      dispose: () => {
+        for (const each of listening) each.dispose();
+        render(null, element);
+      },
+    };
+  }
+}
+
+function Collapse({ layout }: { readonly layout: Layout }): JSX.Element {
+  const open = layout.dockOpen.value;
+  const label = open ? "Collapse the dock" : "Open the dock";
+  const toggle = (): void => {
+    layout.dockOpen.value = !open;
+  };
+  return <Button icon={open ? "collapse_down" : "expand_up"} label={label} small onClick={toggle} />;
+}
+
+function isLayout(value: unknown): value is SerializedDockview | null {
+  return value === null || (typeof value === "object" && "panels" in value && typeof value.panels === "object" && "grid" in value);
+}

@@ -1,0 +1,53 @@
+/** A connection whose messages can be held back: "Freeze view". */
+
+import { effect, type ReadonlySignal } from "@preact/signals";
+
+import type { Connection, Received, Subscription } from "../protocol/connection";
+import type { RosMessage } from "../protocol/ros_types";
+
+/** Held messages of one subscription; of streams only the newest few are of use. */
+const HELD = 20;
+const HELD_EVERY = 5000;
+
+/** The same connection, whose time stands and whose messages wait while `frozen`. */
+export function freezable(connection: Connection, frozen: ReadonlySignal<boolean>): Connection {
+  let stoppedAt: bigint | null = null;
+  effect(() => {
+    stoppedAt = frozen.value ? connection.now() : null;
+  });
+  const overrides: Pick<Connection, "now" | "subscribe"> = {
+    now: () => stoppedAt ?? connection.now(),
+    subscribe: <M = RosMessage>(topic: string, onMessage: (received: Received<M>) => void, options = {}): Subscription => {
+      const { every = false } = options as { readonly every?: boolean };
+      let held: Received<M>[] = [];
+      const release = effect(() => {
+        if (frozen.value) return;
+        const waiting = held;
+        held = [];
+        for (const received of waiting) onMessage(received);
+      });
+      const take = (received: Received<M>): void => {
+        if (!frozen.peek()) {
+          onMessage(received);
+          return;
+        }
+        held.push(received);
+        if (held.length > (every ? HELD_EVERY : HELD)) held.shift();
+      };
+      const inner = connection.subscribe(topic, take, options);
+      return {
+        close: () => {
+          release();
+          inner.close();
+        },
+      };
+    },
+  };
+  return new Proxy(connection, {
+    get: (target, name) => {
+      if (name === "now" || name === "subscribe") return overrides[name];
+      const value: unknown = Reflect.get(target, name, target);
+      return typeof value === "function" ? (value.bind(target) as unknown) : value;
+    },
+  });
+}

@@ -1,0 +1,99 @@
+/** Joints with sliders: positions where there are limits, velocities where there are none. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+
+import type { JointInfo, ModelInfo } from "../scene/simulated_world";
+import { Button } from "../theme/button";
+import { fixed } from "../theme/format";
+import { Slider } from "../theme/slider";
+import { jointValue, turnsFreely } from "./joint_values";
+import type { Shell } from "./shell";
+
+/** Range of a velocity slider [rad/s or m/s]. */
+const FASTEST = 10;
+
+export function ModelJoints({ shell, name, model }: { readonly shell: Shell; readonly name: string; readonly model: ModelInfo }): JSX.Element | null {
+  const joints = model.joints.filter((joint) => joint.index !== null);
+  if (joints.length === 0) return null;
+  const zero = (): void => joints.forEach((joint) => setJoint(shell, name, joint, Math.min(joint.upper ?? 0, Math.max(joint.lower ?? 0, 0))));
+  return (
+    <section class="sec">
+      <h3>
+        Joints of {model.name}
+        <span class="sp" />
+        <Button small onClick={zero}>
+          All to zero
+        </Button>
+      </h3>
+      {joints.map((joint) => (
+        <JointSlider key={joint.name} shell={shell} model={name} joint={joint} />
+      ))}
+    </section>
+  );
+}
+
+export function JointSection({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element {
+  const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
+  const rows: readonly (readonly [string, string])[] = [
+    ["Type", joint.type],
+    ["Parent", joint.parent],
+    ["Child", joint.child],
+    ...(state === undefined ? [] : [["Effort", `${fixed(state.effort, 2)} ${joint.type === "prismatic" ? "N" : "N m"}`] as const]),
+  ];
+  return (
+    <section class="sec">
+      <h3>Joint</h3>
+      {rows.map(([name, value]) => (
+        <div key={name} class="kv">
+          <span>{name}</span>
+          <span>{value}</span>
+        </div>
+      ))}
+      {joint.index !== null && <JointSlider shell={shell} model={model} joint={joint} />}
+    </section>
+  );
+}
+
+function setJoint(shell: Shell, model: string, joint: JointInfo, value: number): void {
+  const fields = turnsFreely(joint) ? { velocity: value } : { position: value };
+  shell.request(joint.name, "joint", { model, joint: joint.name, ...fields });
+}
+
+function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element | null {
+  const held = useSignal<number | null>(null);
+  const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
+  if (state === undefined) return null;
+  const { isVelocity, value, unit } = jointValue(joint, state);
+  const [lower, upper] = isVelocity ? [-FASTEST, FASTEST] : [joint.lower ?? 0, joint.upper ?? 0];
+  const shown = held.value ?? value;
+  const decimals = unit.startsWith("m") ? 3 : 2;
+  return (
+    <div class="jt">
+      <div class="h">
+        <span>{joint.name}</span>
+        <span>
+          {fixed(value, decimals)}
+          <span class="unit">{unit}</span>
+        </span>
+      </div>
+      <Slider
+        label={joint.name}
+        value={shown}
+        lower={lower}
+        upper={upper}
+        text={`${fixed(shown, decimals)} ${unit}`}
+        disabled={shell.page.session.kind !== "simulation"}
+        onInput={(to) => {
+          held.value = to;
+          setJoint(shell, model, joint, to);
+        }}
+        onRelease={() => (held.value = null)}
+      />
+      <div class="lim">
+        <span>{isVelocity ? "no limits" : fixed(lower, 2)}</span>
+        <span>{isVelocity ? "" : fixed(upper, 2)}</span>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,164 @@
+/** Which panels are open and how wide: remembered, and fitted to the window. */
+
+import { computed, effect, signal, type Signal } from "@preact/signals";
+
+import type { Insets } from "../scene/scene_view";
+import { isBoolean, isNumber, isOneOf, recall, remember } from "./storage";
+
+const LEFT = ["world", "displays"] as const;
+const RIGHT = ["inspector", "views", "tool_properties"] as const;
+export type SideName = "left" | "right";
+export type SidePage = (typeof LEFT | typeof RIGHT)[number];
+export type SheetHeight = "closed" | "half" | "full";
+
+const PHONE = 641; // px: narrower is the phone's page
+const ONE_SIDE = 1280; // px: narrower has one side panel at a time
+const RAIL = 32;
+const GAPS = 32; // left and right of each side panel
+/** Widths of a side panel [px]. */
+export const SIDE = { min: 240, max: 288 };
+const DOCK = { min: 120, rail: 32 };
+/** Heights of what lies at the foot of the scene, with its gap: the tiles' pictures are 4 : 3. */
+const FOOT = { tiles: 166, drive: 138, phoneDrive: 160 };
+/** On a phone the notice and the tile below it lie at the head. */
+const HEAD = { gap: 8, phoneTile: 196 };
+/** Least height that is left to the scene [px]. */
+const LEAST = 240;
+
+/** Widths [px] of the side panels that are open; null: a rail. Together at most 40 % of the window. */
+export function sideWidths(window: number, left: number | null, right: number | null): [number, number] {
+  const room = window * 0.4 - GAPS;
+  const clamp = (width: number): number => Math.min(SIDE.max, Math.max(SIDE.min, width));
+  if (left === null || right === null) return [left === null ? RAIL : clamp(left), right === null ? RAIL : clamp(right)];
+  const first = Math.min(clamp(left), Math.max(SIDE.min, room - SIDE.min));
+  const second = Math.min(clamp(right), Math.floor(room - first));
+  return second < SIDE.min ? [clamp(left), RAIL] : [first, second];
+}
+
+/** A panel at one side: which of its pages it shows, whether it is open, and its width [px]. */
+class Side {
+  readonly page: Signal<SidePage>;
+  readonly isOpen: Signal<boolean>;
+  readonly width: Signal<number>;
+
+  constructor(
+    private readonly name: SideName,
+    first: SidePage,
+    readonly pages: readonly SidePage[],
+    kind: string,
+    isOpen: boolean,
+    width: number,
+  ) {
+    this.page = signal(recall(`${name}.page.${kind}`, first, isOneOf(...pages)));
+    this.isOpen = signal(isOpen);
+    this.width = signal(recall(`${name}.width`, width, isNumber));
+    effect(() => remember(`${name}.page.${kind}`, this.page.value));
+  }
+
+  resize(width: number): void {
+    this.width.value = Math.min(SIDE.max, Math.max(SIDE.min, width));
+    remember(`${this.name}.width`, this.width.peek());
+  }
+}
+
+export class Layout {
+  readonly width = signal(innerWidth);
+  readonly height = signal(innerHeight);
+  readonly left: Side;
+  readonly right: Side;
+  readonly dockOpen = signal(recall("dock.open", true, isBoolean));
+  readonly dockHeight = signal(recall("dock.height", 200, isNumber));
+  /** Page of the phone's sheet: "world", "displays", "inspector" or a panel's id. */
+  readonly sheetPage = signal("world");
+  readonly sheetHeight = signal<SheetHeight>("closed");
+
+  readonly isPhone = computed(() => this.width.value < PHONE);
+  /** Widths in use [px]. */
+  readonly sides = computed(() =>
+    sideWidths(
+      this.width.value,
+      this.left.isOpen.value ? this.left.width.value : null,
+      this.right.isOpen.value ? this.right.width.value : null,
+    ),
+  );
+  readonly dock = computed(() =>
+    this.dockOpen.value ? Math.max(DOCK.min, Math.min(this.dockHeight.value, this.height.value / 2)) : DOCK.rail,
+  );
+
+
+  constructor(kind: "simulation" | "graph" | "log" | "bag") {
+    const simulates = kind === "simulation" || kind === "log";
+    const isWide = this.width.peek() >= ONE_SIDE;
+    this.left = new Side("left", simulates ? "world" : "displays", LEFT, kind, recall("left.open", true, isBoolean), 272);
+    this.right = new Side("right", "inspector", RIGHT, kind, isWide && recall(`right.open.${kind}`, simulates, isBoolean), 280);
+    effect(() => remember("left.open", this.left.isOpen.value));
+    effect(() => {
+      if (this.width.value >= ONE_SIDE) remember(`right.open.${kind}`, this.right.isOpen.value);
+    });
+    effect(() => remember("dock.open", this.dockOpen.value));
+    effect(() => this.writeVariables());
+  }
+
+  listen(): () => void {
+    const resize = (): void => {
+      this.width.value = innerWidth;
+      this.height.value = innerHeight;
+    };
+    addEventListener("resize", resize);
+    return () => removeEventListener("resize", resize);
+  }
+
+  /** Edges of the scene that panels and what lies on it cover [px]; it begins below the bar. */
+  insets({ tiles, drive }: { readonly tiles: boolean; readonly drive: boolean }): Insets {
+    const [left, right] = this.sides.value;
+    if (this.isPhone.value) return { left: 0, right: 0, top: tiles ? HEAD.phoneTile : HEAD.gap, bottom: 72 + (drive ? FOOT.phoneDrive : 0) };
+    const bottom = this.dock.value + 16;
+    const foot = tiles ? FOOT.tiles : drive ? FOOT.drive : 0;
+    const isRoom = this.height.value - bottom - foot >= LEAST;
+    return { left: left + 16, right: right + 16, top: HEAD.gap, bottom: bottom + (isRoom ? foot : 0) };
+  }
+
+  /** Width of a side panel now [px]. */
+  widthOf(side: SideName): number {
+    return this.sides.value[side === "left" ? 0 : 1];
+  }
+
+  isRail(side: SideName): boolean {
+    return this.widthOf(side) === RAIL;
+  }
+
+  /** Show a page of a side panel, or of the phone's sheet. */
+  open(page: SidePage): void {
+    const isLeft = this.left.pages.includes(page);
+    const [side, other] = isLeft ? [this.left, this.right] : [this.right, this.left];
+    side.page.value = page;
+    side.isOpen.value = true;
+    if (this.isPhone.peek()) this.openSheet(isLeft ? page : "inspector");
+    if (this.width.peek() < ONE_SIDE) other.isOpen.value = false;
+  }
+
+  openSheet(page: string): void {
+    this.sheetPage.value = page;
+    if (this.sheetHeight.peek() === "closed") this.sheetHeight.value = "half";
+  }
+
+  resizeDock(height: number): void {
+    this.dockOpen.value = height >= DOCK.min / 2;
+    this.dockHeight.value = Math.max(DOCK.min, Math.min(height, this.height.peek() / 2));
+    remember("dock.height", this.dockHeight.peek());
+  }
+
+  /** The free part's insets, for the style sheets. */
+  private writeVariables(): void {
+    const [left, right] = this.sides.value;
+    const { style } = document.documentElement;
+    const phone = this.isPhone.value;
+    const px = (name: string, value: number): void => style.setProperty(name, `${Math.round(value)}px`);
+    px("--left-now", left);
+    px("--right-now", right);
+    px("--dock-now", this.dock.value);
+    px("--in-l", phone ? 8 : left + 16);
+    px("--in-r", phone ? 8 : right + 16);
+    px("--in-b", phone ? 72 : this.dock.value + 16);
+  }
+}

@@ -1,0 +1,46 @@
+/** Draw a page into an element. */
+
+import { effect, signal, type Signal } from "@preact/signals";
+import { render } from "preact";
+
+import "../theme/tokens.css";
+import "../theme/base.css";
+import "../theme/controls.css";
+import "../theme/layout.css";
+import "../theme/tree.css";
+import "../theme/displays.css";
+import "../theme/inspector.css";
+import "../theme/scene.css";
+import "../theme/dialogs.css";
+import "../theme/phone.css";
+import "../theme/dockview.css";
+import type { Panel } from "../panels/panel";
+import { App } from "./app";
+import { listenForKeys, type CommandList } from "./commands";
+import type { Page } from "./page";
+import { pageCommands } from "./page_commands";
+import { Shell } from "./shell";
+import { simulationCommands } from "./simulation_commands";
+import { toolCommands } from "./tool_bar";
+
+export interface Parts {
+  readonly page: Page;
+  readonly panels: readonly Panel[];
+  readonly commands: CommandList;
+  /** Element that holds the scene's canvas. */
+  readonly sceneHost: HTMLElement;
+  /** True while displays' messages are held back. */
+  readonly frozen?: Signal<boolean>;
+}
+
+export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
+  const shell = new Shell(page, panels, commands, sceneHost, frozen);
+  shell.layout.listen();
+  commands.add(...simulationCommands(shell), ...pageCommands(shell), ...toolCommands(shell));
+  listenForKeys(commands);
+  effect(() => {
+    document.title = shell.robot.value ?? page.session.title;
+  });
+  render(<App shell={shell} />, root);
+  return shell;
+}

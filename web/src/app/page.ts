@@ -1,0 +1,67 @@
+/** The page's parts, as its components and panels get them. */
+
+import type { ReadonlySignal, Signal } from "@preact/signals";
+
+import type { DisplayList } from "../displays/display_list";
+import type { FrameTree } from "../frames/frame_tree";
+import type { Connection } from "../protocol/connection";
+import type { SceneView } from "../scene/scene_view";
+import type { SimulatedWorld } from "../scene/simulated_world";
+import type { Views } from "../scene/view_controller";
+import type { ToolBox } from "../tools/tool";
+import type { Drive } from "./drive";
+import type { Session } from "./session";
+
+/** What is selected, in tree or scene. */
+export type Selection =
+  | { readonly kind: "model"; readonly model: string }
+  | { readonly kind: "link"; readonly model: string; readonly link: string }
+  | { readonly kind: "joint"; readonly model: string; readonly joint: string }
+  | { readonly kind: "frame"; readonly frame: string }
+  /** Something that a display drew: fields of what was picked. */
+  | { readonly kind: "picked"; readonly title: string; readonly fields: Readonly<Record<string, unknown>> };
+
+/** An entry of the palette (Ctrl K) and of the help (?). */
+export interface Command {
+  readonly id: string;
+  readonly title: string;
+  readonly group: "Simulation" | "View" | "Displays" | "Tools" | "Panels" | "Page";
+  /** As `Space` or `Shift R`; never one of the browser's own. */
+  readonly keys?: string;
+  readonly enabled?: () => boolean;
+  readonly run: () => void;
+}
+
+export interface Commands {
+  readonly all: ReadonlySignal<readonly Command[]>;
+  /** Add commands; returns how to remove them. */
+  add(...commands: readonly Command[]): () => void;
+}
+
+/** Edits that can be taken back. */
+export interface UndoStack {
+  readonly undoTitle: ReadonlySignal<string | null>;
+  readonly redoTitle: ReadonlySignal<string | null>;
+  /** Do something now and remember how to undo it; "Change of Alpha". */
+  run(title: string, redo: () => void, undo: () => void): void;
+  undo(): void;
+  redo(): void;
+}
+
+export interface Page {
+  /** As it is now: what reads it in an effect or a component follows its changes. */
+  readonly session: Session;
+  readonly connection: Connection;
+  readonly frames: FrameTree;
+  readonly scene: SceneView;
+  readonly views: Views;
+  readonly world: SimulatedWorld;
+  readonly displays: DisplayList;
+  readonly tools: ToolBox;
+  readonly selection: Signal<Selection | null>;
+  readonly hovered: Signal<Selection | null>;
+  readonly commands: Commands;
+  readonly undo: UndoStack;
+  readonly drive: Drive;
+  readonly theme: Signal<"light" | "dark">;
+}

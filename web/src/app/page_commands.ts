@@ -1,0 +1,47 @@
+/** Commands of the page: its panels, the view, undo. */
+
+import { toggleFollowing } from "./following";
+import { frameSelection } from "./framing";
+import type { Command } from "./page";
+import { save } from "./rviz_foot";
+import type { Shell } from "./shell";
+import { SIDE_PAGES } from "./side_pages";
+import { switchTheme } from "./theme";
+
+const SIDES = ["front", "back", "left", "right", "top", "bottom"] as const;
+
+export function pageCommands(shell: Shell): readonly Command[] {
+  const { page, layout, dock, dialog } = shell;
+  const { undo, views } = page;
+  const command = (id: string, group: Command["group"], title: string, run: () => void, keys?: string): Command =>
+    keys === undefined ? { id, group, title, run } : { id, group, title, run, keys };
+  const toggle = (open: { value: boolean; peek(): boolean }) => () => {
+    open.value = !open.peek();
+  };
+  return [
+    command("frame", "View", "Frame what is selected", () => frameSelection(page, page.selection.peek()), "F"),
+    command("follow", "View", "Follow what is selected, or stop", () => toggleFollowing(page), "Shift F"),
+    command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
+    command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
+    ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
+    ...[...SIDE_PAGES.left, ...SIDE_PAGES.right].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
+    ...shell.panels.map((panel) => command(`panel.${panel.id}`, "Panels", `Open ${panel.title}`, () => dock.open(panel.id))),
+    command("left.toggle", "Panels", "Show or hide the left panel", toggle(layout.left.isOpen), "["),
+    command("right.toggle", "Panels", "Show or hide the right panel", toggle(layout.right.isOpen), "]"),
+    command("dock.toggle", "Panels", "Show or hide the dock", toggle(layout.dockOpen), "\\"),
+    { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
+    { ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"), enabled: () => undo.redoTitle.peek() !== null },
+    command("save_rviz", "Displays", page.session.rviz?.writable === true ? `Save ${page.session.rviz.name}` : "Download as .rviz", () => save(shell)),
+    command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
+    command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),
+    command("notices", "Page", "List what is missing", () => (dialog.value = "notices")),
+    command("palette", "Page", "Search commands", () => (dialog.value = "palette"), "Ctrl K"),
+    command("help", "Page", "Keys", () => (dialog.value = "help"), "?"),
+  ];
+}
+
+/** Shut what is enlarged; else select nothing. */
+function leave({ page, enlarged }: Shell): void {
+  if (enlarged.peek().size > 0) enlarged.value = new Set();
+  else page.selection.value = null;
+}

@@ -1,0 +1,65 @@
+/** What the page's own components work with: the page, and where its parts are. */
+
+import { computed, effect, signal, type Signal } from "@preact/signals";
+
+import type { Display } from "../displays/display";
+import type { Panel } from "../panels/panel";
+import { cameraTopics } from "./camera_topics";
+import { CommandList } from "./commands";
+import { Dock } from "./dock";
+import { Layout } from "./layout";
+import { Notices } from "./notices";
+import type { Page } from "./page";
+import { isBoolean, recall, remember } from "./storage";
+
+export type Dialog = "palette" | "help" | "notices" | null;
+
+export class Shell {
+  readonly layout: Layout;
+  readonly notices: Notices;
+  readonly dock: Dock;
+  readonly dialog = signal<Dialog>(null);
+  /** The display that is selected in its panel. */
+  readonly display = signal<Display | null>(null);
+  readonly showsCameras = signal(recall("cameras", true, isBoolean));
+  /** Name of the robot: the session's, else that of the robot description. */
+  readonly robot = computed(() => {
+    const { session, connection } = this.page;
+    if (session.robot !== null || session.kind !== "graph") return session.robot;
+    const text = connection.parameters.value.get("/robot_description");
+    return typeof text === "string" ? (/<robot\b[^>]*?\bname\s*=\s*["']([^"']+)["']/.exec(text)?.[1] ?? null) : null;
+  });
+  /** Cameras that have a tile. */
+  readonly cameras = computed(() => {
+    const { session, world, displays } = this.page;
+    return this.showsCameras.value ? cameraTopics(session, world.manifest.value, displays.displays.value) : [];
+  });
+  /** Edges of the scene that panels, tiles and the disc cover [px]; the camera looks into the middle of the rest. */
+  readonly insets = computed(() => this.layout.insets({ tiles: this.cameras.value.length > 0, drive: this.page.drive.topic.value !== null }));
+  /** Topics of cameras that are shown large. */
+  readonly enlarged = signal<ReadonlySet<string>>(new Set());
+  /** Rows of the Displays page that were opened or closed. */
+  readonly openDisplays = signal<ReadonlyMap<string, boolean>>(new Map());
+
+  constructor(
+    readonly page: Page,
+    readonly panels: readonly Panel[],
+    readonly commands: CommandList,
+    /** Element that holds the scene's canvas. */
+    readonly sceneHost: HTMLElement,
+    /** True while messages are held back. */
+    readonly frozen: Signal<boolean>,
+  ) {
+    this.layout = new Layout(page.session.kind);
+    this.notices = new Notices(page);
+    this.dock = new Dock(page, panels, this.layout);
+    effect(() => remember("cameras", this.showsCameras.value));
+  }
+
+  /** Ask what started the page to do something; a refusal becomes a notice. */
+  request(title: string, name: string, fields: Parameters<Page["connection"]["request"]>[1] = {}): void {
+    this.page.connection.request(name, fields).catch((error: unknown) => {
+      this.notices.report(title, error instanceof Error ? error.message : String(error));
+    });
+  }
+}

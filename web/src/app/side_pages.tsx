@@ -1,0 +1,31 @@
+/** Pages of the side panels: at the left is what there is, at the right what is selected, the views and the tools. */
+
+import type { ComponentType } from "preact";
+
+import { DisplaysPage } from "./displays_page";
+import { Inspector } from "./inspector";
+import type { SideName, SidePage } from "./layout";
+import type { Shell } from "./shell";
+import { ToolsPage } from "./tools_page";
+import { ViewsPage } from "./views_page";
+import { WorldTree } from "./world_tree";
+
+export interface SidePageInfo {
+  readonly id: SidePage;
+  readonly title: string;
+  /** Short form where the row of tabs is narrow. */
+  readonly short?: string;
+  readonly component: ComponentType<{ readonly shell: Shell }>;
+}
+
+export const SIDE_PAGES: Readonly<Record<SideName, readonly SidePageInfo[]>> = {
+  left: [
+    { id: "world", title: "World", component: WorldTree },
+    { id: "displays", title: "Displays", component: DisplaysPage },
+  ],
+  right: [
+    { id: "inspector", title: "Inspector", component: Inspector },
+    { id: "views", title: "Views", component: ViewsPage },
+    { id: "tool_properties", title: "Tool properties", short: "Tools", component: ToolsPage },
+  ],
+};

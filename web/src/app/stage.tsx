@@ -1,0 +1,25 @@
+/** What acts on the scene lies in its free part. */
+
+import type { JSX } from "preact";
+
+import { CameraTiles } from "./camera_tiles";
+import { DriveView } from "./drive_view";
+import { NoticeLine } from "./notice_line";
+import { SceneNotes } from "./scene_notes";
+import type { Shell } from "./shell";
+import { ToolBar } from "./tool_bar";
+
+export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
+  const phone = shell.layout.isPhone.value;
+  return (
+    <section class="stage" aria-label="On the scene">
+      <div class="top">
+        {!phone && <ToolBar shell={shell} />}
+        <NoticeLine shell={shell} />
+      </div>
+      <SceneNotes shell={shell} />
+      <CameraTiles shell={shell} />
+      <DriveView shell={shell} />
+    </section>
+  );
+}

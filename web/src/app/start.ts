@@ -1,0 +1,128 @@
+/** What a page shows first: displays of the session's file or its kind's own, and the robot in the middle. */
+
+import { computed, effect, untracked } from "@preact/signals";
+import { Box3, Sphere } from "three";
+
+import type { Rgb, Yaml } from "../displays/properties";
+import { differs, robotBox, simulatedRobot } from "./framing";
+import type { Shell } from "./shell";
+import { bodiesOf } from "./world_nodes";
+
+/** Wall seconds in which more of a robot may appear. */
+const SETTLING = 3;
+/** Marker Scale of a robot's frames by its radius [1/m]: axes as long as a sixth of it. */
+const AXES_SHARE = 0.8;
+/** From where a robot is seen first, before its right side as a person stands [rad]. */
+const FIRST_LOOK: Readonly<Record<string, number>> = { Yaw: -1.05, Pitch: 0.4 };
+/** The scene's own background, by theme: --scene. */
+const BACKGROUNDS: Readonly<Record<"dark" | "light", Rgb>> = { dark: [22, 25, 28], light: [207, 211, 214] };
+
+export function startDisplays(shell: Shell): void {
+  const { session, displays, scene, theme, world } = shell.page;
+  if (session.rviz !== null) {
+    for (const fault of displays.load(session.rviz.text)) shell.notices.report(session.rviz.name, fault, "warn");
+  } else {
+    if (session.kind === "simulation" || session.kind === "log") {
+      disable(shell, "rviz/Grid"); // the world has its own
+      showRobotsFrames(shell);
+    }
+    loadTf(shell, "Show Arrows", false);
+    disable(shell, "rviz/RobotModel");
+    if (session.kind === "graph") showRobot(shell);
+    let ours = displays.backgroundColor.value.peek();
+    effect(() => {
+      const own = BACKGROUNDS[theme.value];
+      if (displays.backgroundColor.value.peek() === ours) displays.backgroundColor.value.value = own;
+      ours = own;
+    });
+  }
+  if (session.fixed_frame !== null) displays.fixedFrameSetting.value = session.fixed_frame;
+  followSession(shell);
+  effect(() => {
+    const colour = displays.backgroundColor.value.value;
+    if (world.manifest.value !== null) return; // the world has a background of its own
+    scene.background.value = `rgb(${colour.join(", ")})`;
+    scene.grid.value = false;
+    scene.invalidate();
+  });
+}
+
+/** Take the file and the fixed frame that the session asks for later, unless a person has changed what is shown. */
+function followSession({ page, notices }: Shell): void {
+  let shown = page.session;
+  effect(() => {
+    const next = page.session;
+    untracked(() => {
+      const { displays } = page;
+      const { rviz, fixed_frame } = next;
+      const isOther = rviz !== null && rviz.text !== shown.rviz?.text && displays.changes.value === 0 && displays.save() !== rviz.text;
+      if (isOther) for (const fault of displays.load(rviz.text)) notices.report(rviz.name, fault, "warn");
+      if (fixed_frame !== null && (isOther || fixed_frame !== shown.fixed_frame)) displays.fixedFrameSetting.value = fixed_frame;
+      shown = next;
+    });
+  });
+}
+
+function disable({ page }: Shell, className: string): void {
+  for (const display of page.displays.displays.peek()) if (display.className === className) display.enabled.decode(false);
+}
+
+function loadTf({ page }: Shell, name: string, yaml: Yaml): void {
+  const tf = page.displays.displays.peek().find(({ className }) => className === "rviz/TF");
+  tf?.properties.find((property) => property.name === name)?.load(yaml);
+}
+
+/** Of a simulated world's frames, those of the robot are shown, and the robot is selected. */
+function showRobotsFrames(shell: Shell): void {
+  const { page } = shell;
+  const stop = page.world.manifest.subscribe((manifest) => {
+    const robot = simulatedRobot(page);
+    if (manifest === null) return;
+    queueMicrotask(() => stop()); // also where it is there already
+    if (robot === undefined) return;
+    const bodies = new Set(bodiesOf(robot.model));
+    const others = manifest.frames.filter(({ body }) => !bodies.has(body));
+    loadTf(shell, "Frames", Object.fromEntries(others.map(({ frame }) => [frame, { Value: false }])));
+    page.selection.value ??= { kind: "model", model: robot.name };
+  });
+}
+
+/** Show the robot once there is a description of one. */
+function showRobot({ page }: Shell): void {
+  const { connection, displays } = page;
+  const described = computed(() => connection.parameters.value.has("/robot_description"));
+  const stop = described.subscribe((isThere) => {
+    if (!isThere) return;
+    for (const display of displays.displays.peek()) if (display.className === "rviz/RobotModel") display.enabled.decode(true);
+    queueMicrotask(() => stop()); // also where it is there already
+  });
+}
+
+/** Frame the robot once it is there, unless a file says where to look from or a person has begun to look around. */
+export function startView(shell: Shell): void {
+  const { page } = shell;
+  const { session, world, scene, views } = page;
+  if (session.rviz !== null) return;
+  for (const property of views.current.peek().properties) {
+    const first = FIRST_LOOK[property.name];
+    if (first !== undefined) property.decode(first);
+  }
+  const framed = new Box3();
+  let settling = 0;
+  const isLoading = (): boolean => (world.manifest.peek() === null ? session.kind === "simulation" || session.kind === "log" : world.progress.peek() < 1);
+  const stop = scene.onTick((elapsed) => {
+    const box = isLoading() ? new Box3() : robotBox(page);
+    if (box.isEmpty()) return;
+    if (differs(box, framed)) {
+      views.frame(framed.copy(box));
+      loadTf(shell, "Marker Scale", Number((AXES_SHARE * box.getBoundingSphere(new Sphere()).radius).toPrecision(1)));
+    }
+    settling += elapsed;
+    if (world.manifest.peek() !== null || settling > SETTLING) leave();
+  });
+  const leave = (): void => {
+    stop();
+    for (const kind of ["pointerdown", "wheel", "keydown"]) scene.element.removeEventListener(kind, leave);
+  };
+  for (const kind of ["pointerdown", "wheel", "keydown"]) scene.element.addEventListener(kind, leave);
+}

@@ -1,0 +1,34 @@
+/** What this browser remembers of the page. Without storage (private windows, file pages) nothing is remembered. */
+
+const PREFIX = "trundle.";
+
+export function remember(key: string, value: unknown): void {
+  try {
+    localStorage.setItem(PREFIX + key, JSON.stringify(value));
+  } catch {
+    // full or forbidden: the page works without
+  }
+}
+
+/** What was remembered, or the fallback where there is nothing of its type. */
+export function recall<T>(key: string, fallback: T, is: (value: unknown) => value is T): T {
+  try {
+    const value: unknown = JSON.parse(localStorage.getItem(PREFIX + key) ?? "null");
+    return is(value) ? value : fallback;
+  } catch {
+    return fallback;
+  }
+}
+
+export function isNumber(value: unknown): value is number {
+  return typeof value === "number" && Number.isFinite(value);
+}
+
+export function isBoolean(value: unknown): value is boolean {
+  return typeof value === "boolean";
+}
+
+/** A guard for one of these words. */
+export function isOneOf<T extends string>(...words: readonly T[]): (value: unknown) => value is T {
+  return (value): value is T => words.some((word) => word === value);
+}

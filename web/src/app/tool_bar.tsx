@@ -1,0 +1,61 @@
+/** The tools: icons in a simulation, rviz's names in a ROS graph. One is on. */
+
+import type { JSX } from "preact";
+
+import { Button } from "../theme/button";
+import { isIcon } from "../theme/icons";
+import type { Command } from "./page";
+import type { Shell } from "./shell";
+
+/** rviz's names, shortened where the icon says the rest. */
+const SHORT: Readonly<Record<string, string>> = { "Move Camera": "Move camera", "Focus Camera": "Focus" };
+
+/** Tools that need no hint: what they do is what a person tries first. */
+const MOVES_THE_VIEW = ["rviz/Interact", "rviz/MoveCamera"];
+
+export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { tools, session } = shell.page;
+  const current = tools.current.value;
+  const named = session.kind !== "simulation" && shell.layout.width.value >= 1100;
+  const hint = MOVES_THE_VIEW.includes(current.className) ? "" : current.hint.value;
+  return (
+    <>
+      <div class="tools float" role="toolbar" aria-label="Tools">
+        {tools.tools.map((tool) => {
+          const name = SHORT[tool.name] ?? tool.name;
+          const icon = isIcon(tool.icon) ? tool.icon : "select";
+          const common = { icon, label: name, keys: keyOf(shell, tool.shortcut), on: tool === current, onClick: () => tools.use(tool.className) };
+          return named ? (
+            <Button key={tool.className} {...common}>
+              {name}
+            </Button>
+          ) : (
+            <Button key={tool.className} {...common} />
+          );
+        })}
+      </div>
+      {hint !== "" && (
+        <div class="notice float" role="status">
+          <span class="said">{hint}</span>
+        </div>
+      )}
+    </>
+  );
+}
+
+/** rviz's letter, with Shift where the letter drives the robot. */
+function keyOf(shell: Shell, shortcut: string): string {
+  const letter = shortcut.toUpperCase();
+  return shell.page.drive.topic.value !== null && "WASD".includes(letter) ? `Shift ${letter}` : letter;
+}
+
+export function toolCommands(shell: Shell): readonly Command[] {
+  return shell.page.tools.tools
+    .filter((tool) => tool.shortcut !== "")
+    .flatMap((tool) => {
+      const letter = tool.shortcut.toUpperCase();
+      const command: Command = { id: `tool.${tool.className}`, group: "Tools", title: tool.name, keys: letter, run: () => shell.page.tools.use(tool.className) };
+      const shifted: Command = { ...command, id: `${command.id}.shift`, keys: `Shift ${letter}` };
+      return "WASD".includes(letter) ? [shifted, { ...command, enabled: () => shell.page.drive.topic.peek() === null }] : [command];
+    });
+}

@@ -1,0 +1,188 @@
+/** Base of all displays. */
+
+import { signal, type ReadonlySignal } from "@preact/signals";
+import { Group, type Object3D } from "three";
+
+import type { Connection, ParameterValue } from "../protocol/connection";
+import type { GraphNames } from "../protocol/graph_names";
+import type { FrameTree } from "../frames/frame_tree";
+import { NoTransform, type Transform } from "../frames/transform";
+import type { SceneView } from "../scene/scene_view";
+import { BoolProperty, isMapping, TopicProperty, type Property, type Yaml, type YamlMapping } from "./properties";
+
+export type StatusLevel = "ok" | "warn" | "error" | "none";
+
+export interface Status {
+  readonly level: StatusLevel;
+  /** In rviz's words: "No messages received". */
+  readonly text: string;
+  /** What to do, where that is known. */
+  readonly advice?: string;
+}
+
+/** What a display works with. */
+export interface DisplayContext {
+  readonly connection: Connection;
+  /** Names in the file are those of the launch's rviz. */
+  readonly names: GraphNames;
+  readonly frames: FrameTree;
+  readonly scene: SceneView;
+  /** Displays of the list, groups with theirs. */
+  readonly displays: ReadonlySignal<readonly Display[]>;
+  readonly fixedFrame: ReadonlySignal<string>;
+}
+
+/**
+ * A display: rviz's class of the same name.
+ *
+ * `root` stands in the scene while the display is enabled; the scene's axes are those of the fixed frame. Subclasses
+ * declare properties as fields with `this.add(new …Property(…))`, in rviz's order.
+ */
+export abstract class Display {
+  /** rviz's class: `rviz/LaserScan`. */
+  abstract readonly className: string;
+  readonly name = signal("");
+  readonly enabled = new BoolProperty("Enabled", true);
+  readonly properties: Property<unknown>[] = [];
+  /** Status by its name in rviz ("Topic", "Transform [sender=unknown_publisher]"), in order of appearance. */
+  readonly statuses = signal<ReadonlyMap<string, Status>>(new Map());
+  /** Messages per second of its topic, for the row; null: it has none. */
+  readonly root = new Group();
+  /** Keys of the file that are not ours, kept as they were. */
+  unknown: YamlMapping = {};
+
+  constructor(protected readonly context: DisplayContext) {}
+
+  /** The topic whose rate its row shows. */
+  get topic(): string | null {
+    return null;
+  }
+
+  /** Start: subscribe and show. Called when it is enabled. */
+  start(): void {
+    this.root.name = this.name.peek();
+    this.context.scene.displays.add(this.root);
+    this.onStart();
+  }
+
+  /** Stop: close subscriptions, drop what was drawn. Called when it is disabled or removed. */
+  stop(): void {
+    this.onStop();
+    this.context.scene.displays.remove(this.root);
+    this.statuses.value = new Map();
+  }
+
+  /** Drop what was received, as rviz's Reset. */
+  reset(): void {
+    if (!this.enabled.value.value) return;
+    this.stop();
+    this.start();
+  }
+
+  protected abstract onStart(): void;
+  protected abstract onStop(): void;
+  /** Called once per frame while enabled; `now` is ROS time [ns], `elapsed` wall seconds since the last frame. */
+  update(_now: bigint, _elapsed: number): void {
+    // most displays change only when a message comes
+  }
+
+  /** A parameter by its name, else of the nearest namespace above that has it. */
+  protected parameter(name: string): ParameterValue | undefined {
+    const all = this.context.connection.parameters.value;
+    const found = this.context.names.search(name).find((each) => all.has(each));
+    return found === undefined ? undefined : all.get(found);
+  }
+
+  protected add<P extends Property<unknown>>(property: P): P {
+    this.properties.push(property);
+    return property;
+  }
+
+  /** Set one status; unchanged ones cost nothing. */
+  protected setStatus(name: string, level: StatusLevel, text: string, advice?: string): void {
+    const old = this.statuses.peek().get(name);
+    if (old?.level === level && old.text === text && old.advice === advice) return;
+    const statuses = new Map(this.statuses.peek());
+    statuses.set(name, advice === undefined ? { level, text } : { level, text, advice });
+    this.statuses.value = statuses;
+  }
+
+  /** Say that the display itself is at fault. */
+  fail(error: unknown): void {
+    this.setStatus("Display", "error", `It cannot be drawn: ${error instanceof Error ? error.message : String(error)}`);
+  }
+
+  protected clearStatus(name: string): void {
+    if (!this.statuses.peek().has(name)) return;
+    const statuses = new Map(this.statuses.peek());
+    statuses.delete(name);
+    this.statuses.value = statuses;
+  }
+
+  /** Pose of a frame in the fixed frame; null if there is none, which becomes the status "Transform". */
+  protected transform(frame: string, time: bigint): Transform | null {
+    const found = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, time);
+    if (found instanceof NoTransform) {
+      this.setStatus("Transform", "error", found.text, found.advice);
+      return null;
+    }
+    this.setStatus("Transform", "ok", "Transform OK");
+    return found;
+  }
+
+  /** Stand an object at its pose in the fixed frame; without one it is not seen. */
+  protected stand(object: Object3D, pose: Transform | null): void {
+    const isThere = pose !== null;
+    const isSame = object.visible === isThere && (pose === null || (object.position.equals(pose.position) && object.quaternion.equals(pose.orientation)));
+    if (isSame) return;
+    object.visible = isThere;
+    if (pose !== null) {
+      object.position.copy(pose.position);
+      object.quaternion.copy(pose.orientation);
+    }
+    this.context.scene.invalidate();
+  }
+
+  /** The most severe status. */
+  get level(): StatusLevel {
+    const levels = [...this.statuses.value.values()].map((status) => status.level);
+    for (const level of ["error", "warn", "none", "ok"] as const) if (levels.includes(level)) return level;
+    return "ok";
+  }
+
+  /** The display's entry of an .rviz file. */
+  save(): YamlMapping {
+    const saved: Record<string, Yaml> = { ...this.unknown, Class: this.className, Name: this.name.value };
+    saved["Enabled"] = this.enabled.value.value;
+    for (const property of this.properties) {
+      const yaml = property.save();
+      if (yaml !== undefined) saved[property.key] = yaml;
+    }
+    saved["Value"] = this.enabled.value.value;
+    return saved;
+  }
+
+  /** Load an entry of an .rviz file; returns sentences about what is not understood. */
+  load(yaml: YamlMapping): string[] {
+    const known = new Map(this.properties.map((property) => [property.name, property]));
+    const faults: string[] = [];
+    const unknown: Record<string, Yaml> = {};
+    for (const [key, value] of Object.entries(yaml)) {
+      const property = known.get(key) ?? this.topicOfRos2(key, value);
+      if (property !== undefined) {
+        property.key = key;
+        faults.push(...property.load(value));
+      } else if (key === "Name") this.name.value = typeof value === "string" ? value : JSON.stringify(value);
+      else if (!["Class", "Enabled", "Value"].includes(key)) unknown[key] = value;
+    }
+    this.enabled.decode(yaml["Enabled"] ?? yaml["Value"] ?? false);
+    this.unknown = unknown;
+    return faults;
+  }
+
+  /** ROS 2's files have every display's topic as a mapping under `Topic`, whatever rviz calls it. */
+  private topicOfRos2(key: string, value: Yaml): Property<unknown> | undefined {
+    if (key !== "Topic" || !isMapping(value)) return undefined;
+    return this.properties.find((property) => property instanceof TopicProperty);
+  }
+}

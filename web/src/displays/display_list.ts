@@ -1,0 +1,56 @@
+/** Interface of the list of displays and of rviz's global options. */
+
+import type { ReadonlySignal, Signal } from "@preact/signals";
+
+import type { TopicInfo } from "../protocol/connection";
+import type { Display, Status } from "./display";
+import type { ColorProperty, IntProperty } from "./properties";
+
+/** A topic that no display shows, with the class that would. */
+export interface Offer {
+  readonly topic: TopicInfo;
+  readonly className: string;
+}
+
+/** An entry of the file that cannot be shown: its class and the reason. */
+export interface Unsupported {
+  readonly className: string;
+  readonly name: string;
+  readonly reason: string;
+}
+
+export interface DisplayList {
+  /** Displays of the outermost level; a `Group` has its own. */
+  readonly displays: ReadonlySignal<readonly Display[]>;
+  readonly unsupported: ReadonlySignal<readonly Unsupported[]>;
+  readonly offers: ReadonlySignal<readonly Offer[]>;
+  /** The fixed frame as it is set; `fixedFrame` is the one in use, which is worked out where none is set. */
+  readonly fixedFrameSetting: Signal<string>;
+  readonly fixedFrame: ReadonlySignal<string>;
+  /** rviz's global status of the fixed frame. */
+  readonly fixedFrameStatus: ReadonlySignal<Status>;
+  readonly backgroundColor: ColorProperty;
+  readonly frameRate: IntProperty;
+  /** rviz's classes that can be added, in rviz's order. */
+  readonly classes: readonly string[];
+
+  /** Add a display of a class; with a topic, on that topic. Undoable. */
+  add(className: string, topic?: string): Display;
+  remove(display: Display): void;
+  duplicate(display: Display): Display;
+  move(display: Display, to: number): void;
+  reset(): void;
+  /** Call once per frame: ROS time [ns] and wall seconds since the last frame. */
+  update(now: bigint, elapsed: number): void;
+
+  /** Load an .rviz file's text; returns sentences about what is not understood. */
+  load(text: string): readonly string[];
+  /** The .rviz file of now: what was not understood is kept. */
+  save(): string;
+  /** The file of now was saved. */
+  markSaved(): void;
+  /** Changes that a person has made since; what displays work out by themselves is none. */
+  readonly changes: ReadonlySignal<number>;
+  /** Make a change of the file that can be undone. */
+  edit(title: string, redo: () => void, undo: () => void): void;
+}

@@ -1,0 +1,59 @@
+/** A heading whose rows appear while it runs: links of a robot, frames, namespaces of markers. */
+
+import { GroupProperty, isMapping, type Property, type Yaml, type YamlMapping } from "./properties";
+
+/** What the file says of rows that have not appeared yet is kept, and taken when they do. */
+export class KeyedProperty<P extends Property<unknown>> extends GroupProperty {
+  private stored: YamlMapping = {};
+  private readonly rows = new Map<string, P>();
+
+  /** The row of a name; made by `make` the first time. */
+  row(name: string, make: () => P): P {
+    const found = this.rows.get(name);
+    if (found !== undefined) return found;
+    const made = make();
+    this.rows.set(name, made);
+    const saved = this.stored[name];
+    if (saved !== undefined) made.load(saved);
+    this.add(made);
+    return made;
+  }
+
+  get(name: string): P | undefined {
+    return this.rows.get(name);
+  }
+
+  entries(): IterableIterator<[string, P]> {
+    return this.rows.entries();
+  }
+
+  forget(name: string): void {
+    const row = this.rows.get(name);
+    if (row === undefined) return;
+    this.rows.delete(name);
+    this.remove(row);
+  }
+
+  /** Rows that the file had or that differ from the beginning; so a robot that appears is no change of the file. */
+  override save(): Yaml {
+    const saved: Record<string, Yaml> = { ...this.stored };
+    if (this.version.value === 0) return saved;
+    for (const child of this.children) {
+      const yaml = child.save();
+      if (yaml !== undefined && (child.name in this.stored || isEdited(child))) saved[child.name] = yaml;
+    }
+    return saved;
+  }
+
+  override load(yaml: Yaml): string[] {
+    this.stored = isMapping(yaml) ? yaml : {};
+    return this.children.flatMap((child) => {
+      const saved = this.stored[child.name];
+      return saved === undefined ? [] : child.load(saved);
+    });
+  }
+}
+
+function isEdited({ value, initial, options, children }: Property<unknown>): boolean {
+  return (options.readOnly !== true && value.value !== initial) || children.some(isEdited);
+}

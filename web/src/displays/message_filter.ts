@@ -1,0 +1,66 @@
+/** Queue of messages that wait for their transforms, as tf2's message filter. */
+
+import { NoTransform } from "../frames/transform";
+
+/** Wall seconds after which a waiting message counts as a fault; rviz waits until the queue is full. */
+const PATIENCE_S = 1;
+/** What stands for rviz's queue without limit. */
+const LIMIT_WITHOUT_LIMIT = 100;
+
+interface Waiting<M> {
+  readonly message: M;
+  waited: number;
+}
+
+export class MessageFilter<M, T> {
+  private waiting: Waiting<M>[] = [];
+  private limit = 10;
+
+  /**
+   * `find` looks up what a message needs, `deliver` gets the message with it, `fail` gets the reason when a message is
+   * dropped or waits too long.
+   */
+  constructor(
+    private readonly find: (message: M) => T | NoTransform,
+    private readonly deliver: (message: M, found: T) => void,
+    private readonly fail: (reason: NoTransform) => void,
+  ) {}
+
+  /** Length of the queue; 0 is rviz's word for no limit. */
+  setLimit(limit: number): void {
+    this.limit = limit > 0 ? limit : LIMIT_WITHOUT_LIMIT;
+  }
+
+  add(message: M): void {
+    this.waiting.push({ message, waited: 0 });
+    this.flush(0);
+    const excess = this.waiting.length - this.limit;
+    if (excess <= 0) return;
+    const [oldest] = this.waiting.splice(0, excess);
+    if (oldest === undefined) return;
+    const found = this.find(oldest.message);
+    if (found instanceof NoTransform) this.fail(found);
+  }
+
+  /** Deliver what is ready, in order; `elapsed` is wall seconds since the last call. */
+  flush(elapsed: number): void {
+    if (this.waiting.length === 0) return;
+    const waiting = this.waiting;
+    this.waiting = [];
+    for (const entry of waiting) {
+      const found = this.find(entry.message);
+      if (!(found instanceof NoTransform)) {
+        this.deliver(entry.message, found);
+        continue;
+      }
+      const isLate = entry.waited < PATIENCE_S && entry.waited + elapsed >= PATIENCE_S;
+      entry.waited += elapsed;
+      this.waiting.push(entry);
+      if (isLate) this.fail(found);
+    }
+  }
+
+  clear(): void {
+    this.waiting = [];
+  }
+}

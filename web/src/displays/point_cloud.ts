@@ -1,0 +1,28 @@
+/** rviz/PointCloud: the older message, points with channels beside them. */
+
+import type { PointCloud } from "../protocol/messages";
+import { cloudOf, type Cloud } from "./clouds/cloud";
+import { CloudDisplay } from "./clouds/cloud_display";
+import { register } from "./registry";
+
+const TYPES = ["sensor_msgs/PointCloud"];
+/** A point is read by the GPU with a stride of 252 bytes at most. */
+const MOST_CHANNELS = 60;
+
+export class PointCloudDisplay extends CloudDisplay<PointCloud> {
+  readonly className = "rviz/PointCloud";
+
+  protected read({ points, channels: all }: PointCloud): Cloud {
+    const channels = all.slice(0, MOST_CHANNELS);
+    const width = 3 + channels.length;
+    const values = new Float32Array(points.length * width);
+    points.forEach(({ x, y, z }, index) => values.set([x, y, z], index * width));
+    channels.forEach((channel, number) => {
+      if (channel.values.length !== points.length) return; // rviz leaves such channels at 0
+      channel.values.forEach((value, index) => (values[index * width + 3 + number] = value));
+    });
+    return cloudOf(["x", "y", "z", ...channels.map(({ name }) => name)], values);
+  }
+}
+
+register({ className: "rviz/PointCloud", aliases: [], types: TYPES, create: (context) => new PointCloudDisplay(context, TYPES) });

@@ -1,0 +1,30 @@
+/** The way that a point of the fixed frame has come, as a ribbon. */
+
+import { Vector3 } from "three";
+
+import { BillboardLines } from "./billboard_lines";
+
+/** Points are kept at least this far apart [m], and no more than so many. */
+const SPACING = 0.05;
+const MOST = 1000;
+const RGBA = [0, 0.5, 0.5, 1] as const;
+
+export class Trail extends BillboardLines {
+  private points: number[] = [];
+  private readonly last = new Vector3(NaN, NaN, NaN);
+
+  constructor() {
+    super(0.01);
+  }
+
+  /** The point is here now [m]. */
+  follow(position: Vector3): void {
+    if (position.distanceTo(this.last) < SPACING) return;
+    this.last.copy(position);
+    this.points.push(position.x, position.y, position.z);
+    if (this.points.length > 3 * MOST) this.points = this.points.slice(-3 * MOST);
+    this.begin();
+    this.addPolyline(this.points, RGBA);
+    this.finish();
+  }
+}

@@ -1,0 +1,134 @@
+/** A frame of the TF display: its row of properties, its place and its age. */
+
+import { Object3D, Vector3 } from "three";
+
+import type { Transform } from "../../frames/transform";
+import type { Label, SceneView } from "../../scene/scene_view";
+import { BoolProperty, GroupProperty, Property, type Yaml } from "../properties";
+
+/** A text that is shown and not saved. */
+export class ReadOut extends Property<string> {
+  readonly kind = "text";
+  constructor(name: string) {
+    super(name, "", { readOnly: true });
+  }
+  encode(): undefined {
+    return undefined;
+  }
+  decode(): boolean {
+    return true;
+  }
+}
+
+export class FrameRow extends BoolProperty {
+  readonly parent = this.add(new ReadOut("Parent"));
+  readonly position = this.add(new ReadOut("Position"));
+  readonly orientation = this.add(new ReadOut("Orientation"));
+  readonly age = this.add(new ReadOut("Age"));
+  readonly publisher = this.add(new ReadOut("Publisher"));
+}
+
+/** The tree of frames, nested; the file's copy is left as it is. */
+export class TreeProperty extends GroupProperty {
+  private drawn = "";
+
+  override save(): undefined {
+    return undefined;
+  }
+  override load(_yaml: Yaml): string[] {
+    return [];
+  }
+
+  /** Show children by their parents; nothing happens while the tree is the same. */
+  draw(parents: ReadonlyMap<string, string | null>): void {
+    const key = [...parents].map((pair) => pair.join("<")).join();
+    if (key === this.drawn) return;
+    this.drawn = key;
+    for (const child of [...this.children]) this.remove(child);
+    const rows = new Map([...parents.keys()].map((name) => [name, new GroupProperty(name)]));
+    for (const [name, row] of rows) {
+      const parent = rows.get(parents.get(name) ?? "");
+      if (parent === row) continue;
+      (parent ?? this).add(row);
+    }
+  }
+}
+
+/** One third of the time after which a frame is forgotten passes before it fades; then it greys, then it vanishes. */
+export interface Fade {
+  /** 0: its colours, 1: grey. */
+  readonly grey: number;
+  readonly alpha: number;
+}
+
+const FRESH: Fade = { grey: 0, alpha: 1 };
+
+export function fadeOf(age: number, timeout: number): Fade {
+  const third = timeout / 3;
+  if (age <= third) return FRESH;
+  if (age <= 2 * third) return { grey: (age - third) / third, alpha: 1 };
+  return { grey: 1, alpha: Math.max(0, (timeout - age) / third) };
+}
+
+/** A frame as it stands in the scene. */
+export class FrameView {
+  /** Where its name stands, in the fixed frame. */
+  readonly anchor = new Object3D();
+  readonly toParent = new Vector3();
+  parent: string | null = null;
+  isPlaced = false;
+  fade: Fade = FRESH;
+  private label: Label | null = null;
+  private stamp = 0n;
+  private changedAt = 0n;
+
+  constructor(
+    readonly name: string,
+    readonly row: FrameRow,
+    private readonly scene: SceneView,
+  ) {
+    this.anchor.name = name;
+  }
+
+  /** Stand at a pose in the fixed frame; true: it was elsewhere. */
+  place({ position, orientation }: Transform): boolean {
+    const { position: here, quaternion: turn } = this.anchor;
+    if (this.isPlaced && here.equals(position) && turn.equals(orientation)) return false;
+    here.copy(position);
+    turn.copy(orientation);
+    this.isPlaced = true;
+    return true;
+  }
+
+  get isShown(): boolean {
+    return this.isPlaced && this.row.value.peek() && this.fade.alpha > 0;
+  }
+
+  /** Newest common stamp with the fixed frame, 0 where all is static; returns the seconds since it last changed. */
+  setStamp(stamp: bigint, now: bigint): number {
+    if (stamp !== this.stamp || stamp === 0n || this.changedAt === 0n || now < this.changedAt) {
+      this.stamp = stamp;
+      this.changedAt = now;
+    }
+    return Number(now - this.changedAt) * 1e-9;
+  }
+
+  /** Take its parent and fading; true: they have changed. */
+  setKin(parent: string | null, fade: Fade): boolean {
+    const changed = parent !== this.parent || fade.grey !== this.fade.grey || fade.alpha !== this.fade.alpha;
+    this.parent = parent;
+    this.fade = fade;
+    return changed;
+  }
+
+  showName(shown: boolean): void {
+    if (shown === (this.label !== null)) return;
+    this.label?.remove();
+    this.label = shown ? this.scene.addLabel(this.anchor, this.name) : null;
+  }
+
+  dispose(): void {
+    this.showName(false);
+    this.anchor.removeFromParent();
+  }
+}

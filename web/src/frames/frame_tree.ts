@@ -1,0 +1,29 @@
+/** Interface of the buffer of transforms. */
+
+import type { ReadonlySignal } from "@preact/signals";
+
+import type { NoTransform, Transform } from "./transform";
+
+export interface FrameInfo {
+  readonly name: string;
+  readonly parent: string | null;
+  readonly isStatic: boolean;
+  /** Stamp of the newest transform [ns]; 0 for a static one. */
+  readonly stamp: bigint;
+  /** Transforms per second over the last seconds; null for a static one and before the second. */
+  readonly rate: number | null;
+  /** Authority, where it is known. */
+  readonly publisher: string | null;
+}
+
+export interface FrameTree {
+  /** Names of all frames, sorted; changes only when a frame appears or is forgotten. */
+  readonly frames: ReadonlySignal<readonly string[]>;
+  /** Frames with their parents and ages, now. */
+  describe(): readonly FrameInfo[];
+  /**
+   * Pose of `source` in `target` at a time [ns], interpolated as tf does; at 0n the newest common time.
+   * A leading slash of a frame is ignored.
+   */
+  lookup(target: string, source: string, time: bigint): Transform | NoTransform;
+}

@@ -1,0 +1,193 @@
+/** Buffer of transforms with the meaning of tf2's. */
+
+import { signal } from "@preact/signals";
+import { Quaternion, Vector3 } from "three";
+
+import type { TransformStamped } from "../protocol/messages";
+import { nanoseconds } from "../protocol/ros_types";
+import type { FrameInfo, FrameTree } from "./frame_tree";
+import { NoTransform, type Transform } from "./transform";
+import { TransformHistory, type Sample } from "./transform_history";
+
+/** Ancestors that a frame may have, to find loops; tf2's number. */
+const MOST_ANCESTORS = 1000;
+/** Bounds the memory that a publisher of ever new names can take. */
+const MOST_FRAMES = 10_000;
+/** Frames that an advice names. */
+const MOST_NAMES = 12;
+
+const LOOP = "The tf tree is invalid because it contains a loop";
+
+export class TransformTree implements FrameTree {
+  readonly frames = signal<readonly string[]>([]);
+  readonly #moving = new Map<string, TransformHistory>();
+  readonly #static = new Map<string, Sample>();
+  /** All frames, also those that are parents only. */
+  readonly #names = new Set<string>();
+
+  /** Add transforms; those that tf2 refuses are left out: numbers that are none, frames in themselves or without name. */
+  add(transforms: readonly TransformStamped[], isStatic: boolean): void {
+    const before = this.#names.size;
+    for (const { header, child_frame_id, transform } of transforms) {
+      const child = bareName(child_frame_id);
+      const sample = sampleOf(nanoseconds(header.stamp), bareName(header.frame_id), transform);
+      if (sample === null || child === "" || child === sample.parent) continue;
+      if (this.#enter(child) && this.#enter(sample.parent)) this.#set(child, sample, isStatic);
+    }
+    if (this.#names.size !== before) this.frames.value = [...this.#names].sort();
+  }
+
+  /** Forget all but static transforms, as when the time goes back: static ones are sent once. */
+  clearMoving(): void {
+    this.#moving.clear();
+    this.#names.clear();
+    for (const [child, { parent }] of this.#static) this.#names.add(child).add(parent);
+    this.frames.value = [...this.#names].sort();
+  }
+
+  /** Forget all. */
+  clear(): void {
+    this.#static.clear();
+    this.clearMoving();
+  }
+
+  describe(): readonly FrameInfo[] {
+    const now = performance.now();
+    return this.frames.peek().map((name) => {
+      const fixed = this.#static.get(name);
+      const moving = this.#moving.get(name);
+      return {
+        name,
+        parent: (fixed ?? moving?.newest)?.parent ?? null,
+        isStatic: fixed !== undefined,
+        stamp: moving?.newest.stamp ?? 0n,
+        rate: moving?.arrivals.at(now).rate ?? null,
+        publisher: null,
+      };
+    });
+  }
+
+  lookup(target: string, source: string, time: bigint): Transform | NoTransform {
+    const [to, from] = [bareName(target), bareName(source)];
+    if (to === from) return { position: new Vector3(), orientation: new Quaternion() };
+    const found = this.#find(to, from, time);
+    return typeof found === "string" ? new NoTransform(`No transform from [${from}] to [${to}]`, found) : found;
+  }
+
+  /** The pose of `from` in `to`, or why there is none. */
+  #find(to: string, from: string, time: bigint): Transform | string {
+    for (const name of [from, to]) if (!this.#names.has(name)) return this.#unknown(name);
+    const up = this.#ancestors(from);
+    const down = this.#ancestors(to);
+    if (up === null || down === null) return LOOP;
+    const common = up.find((name) => down.includes(name));
+    if (common === undefined) {
+      return (
+        `Could not find a connection between '${to}' and '${from}' because they are not part of the same tree. ` +
+        "Tf has two or more unconnected trees"
+      );
+    }
+    const stamp = time === 0n ? this.#commonTime(up, down, common) : time;
+    const fromPose = this.#compose(from, common, stamp);
+    const toPose = this.#compose(to, common, stamp);
+    for (const pose of [fromPose, toPose]) {
+      if (typeof pose === "string") return `${pose}, when looking up transform from frame [${from}] to frame [${to}]`;
+    }
+    return relative(toPose as Transform, fromPose as Transform);
+  }
+
+  #unknown(name: string): string {
+    const names = this.frames.peek();
+    if (names.length === 0) return `nothing publishes ${name}. There is no frame here: nothing publishes transforms`;
+    const rest = names.length > MOST_NAMES ? ` and ${String(names.length - MOST_NAMES)} more` : "";
+    return `nothing publishes ${name}. Frames here: ${names.slice(0, MOST_NAMES).join(", ")}${rest}`;
+  }
+
+  /** A frame and those above it; null: they are a loop. */
+  #ancestors(name: string): string[] | null {
+    const chain = [name];
+    for (let at = this.#newest(name); at !== undefined; at = this.#newest(at.parent)) {
+      chain.push(at.parent);
+      if (chain.length > MOST_ANCESTORS) return null;
+    }
+    return chain;
+  }
+
+  /** The newest time at which all moving frames below the common one have a transform; 0n: none moves. */
+  #commonTime(up: readonly string[], down: readonly string[], common: string): bigint {
+    let time: bigint | null = null;
+    for (const chain of [up, down]) {
+      for (const name of chain.slice(0, chain.indexOf(common))) {
+        const stamp = this.#moving.get(name)?.newest.stamp;
+        if (stamp !== undefined && (time === null || stamp < time)) time = stamp;
+      }
+    }
+    return time ?? 0n;
+  }
+
+  /** Pose of a frame in one above it, or why there is none at that time. */
+  #compose(frame: string, ancestor: string, stamp: bigint): Transform | string {
+    const position = new Vector3();
+    const orientation = new Quaternion();
+    let at = frame;
+    for (let steps = 0; at !== ancestor; steps++) {
+      const step = this.#static.get(at) ?? this.#moving.get(at)?.lookup(stamp);
+      if (typeof step === "string") return step;
+      if (step === undefined) return `At that time '${at}' had no parent`;
+      if (steps > MOST_ANCESTORS) return LOOP;
+      position.applyQuaternion(step.orientation).add(step.position);
+      orientation.premultiply(step.orientation);
+      at = step.parent;
+    }
+    return { position, orientation };
+  }
+
+  #newest(name: string): Sample | undefined {
+    return this.#static.get(name) ?? this.#moving.get(name)?.newest;
+  }
+
+  /** Make a frame known; false: there are too many. */
+  #enter(name: string): boolean {
+    if (this.#names.has(name)) return true;
+    if (this.#names.size >= MOST_FRAMES) return false;
+    this.#names.add(name);
+    return true;
+  }
+
+  #set(child: string, sample: Sample, isStatic: boolean): void {
+    if (isStatic) {
+      this.#moving.delete(child);
+      this.#static.set(child, sample);
+      return;
+    }
+    this.#static.delete(child);
+    const history = this.#moving.get(child);
+    if (history === undefined) this.#moving.set(child, new TransformHistory(sample));
+    else history.add(sample);
+  }
+}
+
+/** Name without the slash that tf1 allowed before it. */
+function bareName(name: string): string {
+  return name.startsWith("/") ? name.slice(1) : name;
+}
+
+function sampleOf(stamp: bigint, parent: string, { translation, rotation }: TransformStamped["transform"]): Sample | null {
+  const position = new Vector3(translation.x, translation.y, translation.z);
+  const orientation = new Quaternion(rotation.x, rotation.y, rotation.z, rotation.w);
+  const length = orientation.length();
+  if (parent === "" || !Number.isFinite(length + position.x + position.y + position.z)) return null;
+  // Of float32 quaternions the length is not quite 1; one of zeros, which some publishers send, is the identity.
+  if (length > 0) orientation.normalize();
+  else orientation.identity();
+  return { stamp, parent, position, orientation };
+}
+
+/** Pose of b in a, of two poses in the same frame. */
+function relative(a: Transform, b: Transform): Transform {
+  const inverse = a.orientation.clone().invert();
+  return {
+    position: b.position.clone().sub(a.position).applyQuaternion(inverse),
+    orientation: inverse.multiply(b.orientation),
+  };
+}

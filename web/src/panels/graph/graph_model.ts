@@ -1,0 +1,100 @@
+/** The graph of nodes and topics, as rqt_graph filters it. */
+
+import type { GraphInfo } from "../../protocol/connection";
+
+/** rqt_graph's three views. */
+export type GraphView = "Nodes only" | "Nodes/Topics (active)" | "Nodes/Topics (all)";
+export const GRAPH_VIEWS: readonly GraphView[] = ["Nodes only", "Nodes/Topics (active)", "Nodes/Topics (all)"];
+
+export interface Vertex {
+  readonly id: string;
+  readonly kind: "node" | "topic";
+  readonly name: string;
+}
+
+export interface Edge {
+  readonly from: string;
+  readonly to: string;
+  /** Topics that it stands for; one, unless only nodes are shown. */
+  readonly topics: readonly string[];
+}
+
+export interface Drawing {
+  readonly vertices: readonly Vertex[];
+  readonly edges: readonly Edge[];
+}
+
+export interface GraphFilter {
+  readonly view: GraphView;
+  /** Hide what only watches: rqt's nodes, rosout, recorders, and this page. */
+  readonly hideDebug: boolean;
+  /** Part of a name; a node or topic that has it, and its neighbours, remain. */
+  readonly text: string;
+}
+
+const DEBUG_NODES = /^\/(rosout|rqt_.*|rviz.*|rosbag.*|record_.*|play_.*|rostopic_.*|trundle_page.*|statistics)$/;
+const DEBUG_TOPICS = /^\/(rosout|rosout_agg|statistics)$/;
+
+/** Nodes and topics to draw, with arrows from publishers to subscribers. */
+export function graphDrawing(graph: GraphInfo, filter: GraphFilter): Drawing {
+  const isShown = (node: string): boolean => !filter.hideDebug || !DEBUG_NODES.test(node);
+  const ends = (of: ReadonlyMap<string, readonly string[]>, topic: string): readonly string[] =>
+    (of.get(topic) ?? []).filter(isShown);
+  const topics = [...new Set([...graph.publishers.keys(), ...graph.subscribers.keys()])]
+    .filter((topic) => !filter.hideDebug || !DEBUG_TOPICS.test(topic))
+    .sort();
+  const vertices = new Map<string, Vertex>();
+  const edges = new Map<string, Edge>();
+  const addNode = (name: string): string => add(vertices, { id: `node ${name}`, kind: "node", name });
+  for (const node of nodeNames(graph)) if (isShown(node)) addNode(node);
+  for (const topic of topics) {
+    const from = ends(graph.publishers, topic);
+    const to = ends(graph.subscribers, topic);
+    if (filter.view === "Nodes only") {
+      for (const one of from) for (const other of to) connect(edges, addNode(one), addNode(other), topic);
+    } else if (filter.view === "Nodes/Topics (all)" ? from.length + to.length > 0 : from.length > 0 && to.length > 0) {
+      const id = add(vertices, { id: `topic ${topic}`, kind: "topic", name: topic });
+      for (const one of from) connect(edges, addNode(one), id, topic);
+      for (const other of to) connect(edges, id, addNode(other), topic);
+    }
+  }
+  return matching({ vertices: [...vertices.values()], edges: [...edges.values()] }, filter.text);
+}
+
+/** Names of all nodes, sorted. */
+export function nodeNames(graph: GraphInfo): readonly string[] {
+  const all = [graph.publishers, graph.subscribers, graph.services].flatMap((of) => [...of.values()].flat());
+  return [...new Set(all)].sort();
+}
+
+/** Vertices and edges that touch one; what hovering lights up. */
+export function neighbourhood(drawing: Drawing, id: string): ReadonlySet<string> {
+  const found = new Set([id]);
+  for (const edge of drawing.edges) {
+    if (edge.from === id) found.add(edge.to);
+    if (edge.to === id) found.add(edge.from);
+  }
+  return found;
+}
+
+function add(vertices: Map<string, Vertex>, vertex: Vertex): string {
+  if (!vertices.has(vertex.id)) vertices.set(vertex.id, vertex);
+  return vertex.id;
+}
+
+function connect(edges: Map<string, Edge>, from: string, to: string, topic: string): void {
+  const key = `${from}\n${to}`;
+  const topics = edges.get(key)?.topics ?? [];
+  edges.set(key, { from, to, topics: [...topics, topic] });
+}
+
+function matching(drawing: Drawing, text: string): Drawing {
+  const part = text.trim().toLowerCase();
+  if (part === "") return drawing;
+  const hits = drawing.vertices.filter((vertex) => vertex.name.toLowerCase().includes(part));
+  const kept = new Set(hits.flatMap((vertex) => [...neighbourhood(drawing, vertex.id)]));
+  return {
+    vertices: drawing.vertices.filter((vertex) => kept.has(vertex.id)),
+    edges: drawing.edges.filter((edge) => kept.has(edge.from) && kept.has(edge.to)),
+  };
+}

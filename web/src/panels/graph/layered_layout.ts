@@ -1,0 +1,64 @@
+/** Layered drawings of directed graphs, laid out by dagre. */
+
+import { Graph, layout } from "@dagrejs/dagre";
+
+export interface Box {
+  readonly id: string;
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface Arrow {
+  readonly from: string;
+  readonly to: string;
+}
+
+export interface Placed {
+  /** Centre of each box [px]. */
+  readonly boxes: ReadonlyMap<string, readonly [number, number]>;
+  /** Path of each arrow, in their order. */
+  readonly paths: readonly string[];
+  readonly width: number;
+  readonly height: number;
+}
+
+const MARGIN = 8;
+
+/** Lay boxes out from left to right, or from top to bottom. */
+export function layered(boxes: readonly Box[], arrows: readonly Arrow[], direction: "LR" | "TB"): Placed {
+  const graph = new Graph({ multigraph: true });
+  graph.setGraph({ rankdir: direction, nodesep: 14, ranksep: 44, edgesep: 8, marginx: MARGIN, marginy: MARGIN });
+  graph.setDefaultEdgeLabel(() => ({}));
+  for (const { id, width, height } of boxes) graph.setNode(id, { width, height });
+  arrows.forEach(({ from, to }, index) => graph.setEdge(from, to, {}, String(index)));
+  if (boxes.length > 0) layout(graph);
+  const centres = new Map(
+    boxes.map(({ id }) => {
+      const { x = 0, y = 0 } = graph.node(id) as { x?: number; y?: number };
+      return [id, [x, y] as const];
+    }),
+  );
+  const paths = arrows.map(({ from, to }, index) => {
+    const { points = [] } = graph.edge(from, to, String(index)) as { points?: readonly { x: number; y: number }[] };
+    return curve(points.map(({ x, y }) => [x, y] as const));
+  });
+  const { width = 0, height = 0 } = graph.graph() as { width?: number; height?: number };
+  return { boxes: centres, paths, width: Math.max(1, width), height: Math.max(1, height) };
+}
+
+/** A smooth line through points: quadratic curves between the midpoints. */
+function curve(points: readonly (readonly [number, number])[]): string {
+  const [first, ...rest] = points;
+  if (first === undefined) return "";
+  let path = `M${pair(first)}`;
+  rest.forEach((point, index) => {
+    const next = rest[index + 1];
+    if (next === undefined) path += index === 0 ? `L${pair(point)}` : `T${pair(point)}`;
+    else path += `Q${pair(point)} ${pair([(point[0] + next[0]) / 2, (point[1] + next[1]) / 2])}`;
+  });
+  return path.replace(/T([^T]*)$/, "L$1");
+}
+
+function pair([x, y]: readonly [number, number]): string {
+  return `${x.toFixed(1)} ${y.toFixed(1)}`;
+}

@@ -1,0 +1,35 @@
+/** All panels of the dock, in the order in which they are offered. */
+
+import "./panels.css";
+import { graphPanel } from "./graph";
+import { imagesPanel } from "./images";
+import { jointsPanel } from "./joints";
+import { joystickPanel } from "./joystick";
+import { logPanel } from "./log";
+import { nodesPanel } from "./nodes";
+import type { Panel } from "./panel";
+import { parametersPanel } from "./parameters";
+import { plotsPanel } from "./plots";
+import { reconfigurePanel } from "./reconfigure";
+import { servicesPanel } from "./services";
+import { steeringPanel } from "./steering";
+import { tfTreePanel } from "./tf_tree";
+import { timelinePanel } from "./timeline";
+import { topicsPanel } from "./topics";
+
+export const panels: readonly Panel[] = [
+  plotsPanel,
+  topicsPanel,
+  logPanel,
+  graphPanel,
+  timelinePanel,
+  imagesPanel,
+  nodesPanel,
+  servicesPanel,
+  parametersPanel,
+  tfTreePanel,
+  reconfigurePanel,
+  jointsPanel,
+  steeringPanel,
+  joystickPanel,
+];

@@ -1,0 +1,70 @@
+/** What the joystick says now, from a gamepad or from the page, and its sending. */
+
+import { signal } from "@preact/signals";
+
+import type { Connection } from "../../protocol/connection";
+import { perPage } from "../per_page";
+import { sentence } from "../use";
+import { AT_REST, joyFromGamepad, type JoyState } from "./gamepad_axes";
+
+const PERIOD = 50; // ms, joy's 20 Hz
+
+export class JoystickState {
+  readonly joy = signal<JoyState>(AT_REST);
+  /** Name of the gamepad that moves it; null: the page does. */
+  readonly gamepad = signal<string | null>(null);
+  readonly fault = signal("");
+  private sent = "";
+  private timer: ReturnType<typeof setInterval> | undefined;
+
+  constructor(private readonly connection: Connection) {}
+
+  /** Read gamepads and send what changed, until `stop`. */
+  start(): void {
+    this.timer ??= setInterval(() => this.poll(), PERIOD);
+  }
+
+  /** Let go of everything and stop. */
+  stop(): void {
+    clearInterval(this.timer);
+    this.timer = undefined;
+    this.rest();
+  }
+
+  rest(): void {
+    this.joy.value = AT_REST;
+    this.send();
+  }
+
+  setAxis(index: number, value: number): void {
+    const { axes, buttons } = this.joy.peek();
+    this.joy.value = { axes: axes.map((old, at) => (at === index ? value : old)), buttons };
+  }
+
+  setButton(index: number, value: 0 | 1): void {
+    const { axes, buttons } = this.joy.peek();
+    this.joy.value = { axes, buttons: buttons.map((old, at) => (at === index ? value : old)) };
+  }
+
+  private poll(): void {
+    const pad = navigator.getGamepads().find((one) => one?.connected === true && one.mapping === "standard");
+    const name = pad?.id ?? null;
+    if (pad) this.joy.value = joyFromGamepad(pad.axes, pad.buttons.map((button) => button.value));
+    else if (this.gamepad.peek() !== null) this.joy.value = AT_REST;
+    this.gamepad.value = name;
+    this.send();
+  }
+
+  private send(): void {
+    const { axes, buttons } = this.joy.peek();
+    const text = JSON.stringify([axes, buttons]);
+    if (text === this.sent || (this.sent === "" && this.joy.peek() === AT_REST)) return;
+    this.sent = text;
+    this.connection.request("joystick", { axes, buttons }).then(
+      () => void (this.fault.value = ""),
+      (error: unknown) => void (this.fault.value = sentence(error)),
+    );
+  }
+}
+
+export const joystickState = perPage((page) => new JoystickState(page.connection));

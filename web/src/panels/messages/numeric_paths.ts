@@ -1,0 +1,24 @@
+/** Paths to the numbers of a type that its definition alone tells. */
+
+import type { MessageType } from "./definition";
+import { isNumeric } from "./values";
+
+const MOST_ELEMENTS = 9;
+const MOST_PATHS = 200;
+
+/** As `.pose.position.x`; of arrays without a fixed length the first element, of long ones the first nine. */
+export function numericPaths(type: MessageType): readonly string[] {
+  const paths: string[] = [];
+  const add = (within: MessageType, prefix: string): void => {
+    for (const field of within.root.fields) {
+      const count = field.isArray ? Math.min(MOST_ELEMENTS, field.length ?? 1) : 1;
+      for (let index = 0; index < count && paths.length < MOST_PATHS; index += 1) {
+        const path = `${prefix}.${field.name}${field.isArray ? `[${index}]` : ""}`;
+        if (field.isComplex) add(within.within(field.type), path);
+        else if (isNumeric(field.type) || field.type === "bool") paths.push(path);
+      }
+    }
+  };
+  add(type, "");
+  return paths;
+}

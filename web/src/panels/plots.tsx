@@ -1,0 +1,76 @@
+/** Curves of any numeric field over time (rqt_plot). */
+
+import type { JSX } from "preact";
+
+import { Button } from "../theme/button";
+import { Select } from "../theme/select";
+import type { Panel, PanelProps } from "./panel";
+import { timeText } from "./messages/format";
+import { CurvePicker } from "./plots/curve_picker";
+import { Legend } from "./plots/legend";
+import { PlotCanvas } from "./plots/plot_canvas";
+import { plotsState, WINDOWS, type PlotsState } from "./plots/plots_state";
+import { Split } from "./parts";
+import { saveFile } from "./use";
+
+function Plots({ page }: PanelProps): JSX.Element {
+  const state = plotsState(page);
+  return (
+    <Split detail={state.isAdding.value && <CurvePicker page={page} state={state} />}>
+      {state.curves.length === 0 ? (
+        <div class="empty">
+          Nothing is plotted. <Button small tone="line" icon="plus" onClick={() => void (state.isAdding.value = true)}>Add curve</Button>
+        </div>
+      ) : (
+        <div class="plots" onDblClick={() => void (state.zoom.value = null)}>
+          {state.plots.value.map((plot) => (
+            <section key={plot.id} class="plot" aria-label={`Plot of ${plot.curves.map((curve) => curve.name).join(", ")}`}>
+              <Legend state={state} plot={plot} />
+              <PlotCanvas state={state} curves={plot.curves} theme={page.theme.value} />
+            </section>
+          ))}
+        </div>
+      )}
+    </Split>
+  );
+}
+
+function CursorTime({ state }: { readonly state: PlotsState }): JSX.Element | null {
+  const time = state.cursor.value;
+  return time === null ? null : <span class="sm t2 cursor">{timeText(time)}</span>;
+}
+
+function Actions({ page }: PanelProps): JSX.Element {
+  const state = plotsState(page);
+  const isPaused = state.isPaused.value;
+  return (
+    <>
+      <CursorTime state={state} />
+      {state.zoom.value !== null && (
+        <Button small onClick={() => void (state.zoom.value = null)}>
+          To now
+        </Button>
+      )}
+      <Select
+        label="Time window"
+        value={`${state.window.value} s`}
+        choices={WINDOWS.map((seconds) => `${seconds} s`)}
+        onChange={(text) => {
+          state.window.value = Number.parseInt(text, 10);
+          state.zoom.value = null;
+        }}
+      />
+      <Button small icon="plus" on={state.isAdding.value} onClick={() => void (state.isAdding.value = !state.isAdding.value)}>
+        Add curve
+      </Button>
+      <Button small icon={isPaused ? "play" : "pause"} onClick={() => state.pause(!isPaused)}>
+        {isPaused ? "Go on" : "Pause"}
+      </Button>
+      <Button small icon="download" disabled={state.curves.length === 0} onClick={() => saveFile("plots.csv", new Blob([state.csv()], { type: "text/csv" }))}>
+        CSV
+      </Button>
+    </>
+  );
+}
+
+export const plotsPanel: Panel = { id: "plots", title: "Plots", programs: ["rqt_plot", "rxplot"], component: Plots, actions: Actions };

@@ -1,0 +1,123 @@
+/** A curve: the numbers at a path, with their times. */
+
+import { effect, signal } from "@preact/signals";
+
+import type { Page } from "../../app/page";
+import type { Subscription } from "../../protocol/connection";
+import { seconds, type RosMessage, type RosTime } from "../../protocol/ros_types";
+import { isList, isMessage, numberAt, parsePath, stepsText, valueAt, type Step, type TopicPath } from "../messages/field_path";
+import { unitOf } from "../messages/units";
+import { RingBuffer } from "./ring_buffer";
+import { simulatedJoint } from "./simulated_joints";
+
+const CAPACITY = 120_000; // points: two minutes at 1 kHz
+
+export class Curve {
+  readonly points = new RingBuffer(CAPACITY);
+  /** A sentence about why nothing is drawn; empty: it is. */
+  readonly fault = signal("");
+  readonly unit = signal("");
+  readonly axis = signal<"left" | "right">("left");
+  /** Counts points, so that a drawing knows whether there are new ones. */
+  revision = 0;
+  private subscription: Subscription | undefined;
+  private readonly dispose: () => void;
+
+  constructor(
+    private readonly page: Page,
+    /** As it was typed. */
+    readonly path: string,
+  ) {
+    let last = "";
+    this.dispose = effect(() => {
+      const found = parsePath(path, page.connection.topics.value.keys());
+      const joint = path.startsWith("/") ? null : simulatedJoint(page.world.manifest.value, path);
+      const next = joint === null ? found && found.topic + stepsText(found.steps) : path;
+      if (next === last) return;
+      last = next ?? "";
+      this.subscription?.close();
+      this.subscription = undefined;
+      if (joint !== null) this.followJoint(joint.index, joint.field);
+      else if (found !== null) this.follow(found);
+      else this.fault.value = path.startsWith("/") ? "This is no path, as /odom.twist.twist.linear.x" : `No joint ${path} is simulated`;
+    });
+  }
+
+  /** Last two steps, for the legend. */
+  get name(): string {
+    const { steps } = this.split();
+    return steps.length === 0 ? this.path : stepsText(steps.slice(-2)).replace(/^\./, "");
+  }
+
+  /** What the name leaves out. */
+  get caption(): string {
+    const { topic, steps } = this.split();
+    return `${topic} ${stepsText(steps.slice(0, -2)).replace(/^\./, "")}`.trim();
+  }
+
+  close(): void {
+    this.dispose();
+    this.subscription?.close();
+  }
+
+  private split(): TopicPath {
+    return parsePath(this.path, this.page.connection.topics.peek().keys()) ?? { topic: "", steps: [] };
+  }
+
+  private follow({ topic, steps }: TopicPath): void {
+    this.fault.value = "No message yet";
+    const fields = steps.filter((step): step is string => typeof step === "string");
+    const receive = (message: RosMessage, type: string, time: bigint): void => {
+      const value = numberAt(message, steps);
+      this.fault.value = value === null ? faultAt(message, steps) : "";
+      if (value === null) return;
+      this.unit.value = unitOf(type, fields);
+      this.add(stampOf(message) ?? Number(time) / 1e9, value);
+    };
+    this.subscription = this.page.connection.subscribe(
+      topic,
+      ({ message, type, time }) => receive(message, type, time),
+      { every: true, onError: (text) => void (this.fault.value = text) },
+    );
+  }
+
+  private followJoint(index: number, field: "position" | "velocity" | "effort"): void {
+    this.fault.value = "";
+    const close = this.page.world.joints.subscribe((joints) => {
+      const value = joints[index]?.[field];
+      const state = this.page.world.state.peek();
+      if (value !== undefined && state !== null) this.add(state.time_ns / 1e9, value);
+    });
+    this.subscription = { close };
+  }
+
+  private add(time: number, value: number): void {
+    if (!Number.isFinite(value)) return;
+    this.points.push(time, value);
+    this.revision += 1;
+  }
+}
+
+/** Stamp of the header [s]; null where there is none or it is zero. */
+function stampOf(message: RosMessage): number | null {
+  const stamp = (message["header"] as { readonly stamp?: RosTime } | undefined)?.stamp;
+  if (stamp === undefined || (stamp.sec === 0 && stamp.nsec === 0)) return null;
+  return seconds(stamp);
+}
+
+/** Why there is no number at a path: the first step that leads nowhere, and what there is instead. */
+function faultAt(message: RosMessage, steps: readonly Step[]): string {
+  for (let count = 0; count <= steps.length; count += 1) {
+    const value = valueAt(message, steps.slice(0, count));
+    if (value === undefined) {
+      const step = stepsText(steps.slice(count - 1, count));
+      const above = valueAt(message, steps.slice(0, count - 1));
+      const instead = above !== undefined && isMessage(above) ? `; fields there: ${Object.keys(above).join(", ")}` : "";
+      const length = above !== undefined && isList(above) ? `; it has ${above.length} elements` : "";
+      return `There is no ${step.replace(/^\./, "")}${instead}${length}`;
+    }
+  }
+  const value = valueAt(message, steps);
+  if (value !== undefined && isMessage(value)) return `This is no number; fields there: ${Object.keys(value).join(", ")}`;
+  return value !== undefined && isList(value) ? `This is a list of ${value.length}; choose one, as [0]` : "This is no number";
+}

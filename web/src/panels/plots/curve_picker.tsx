@@ -1,0 +1,158 @@
+/** Choose a number to plot: by its path, or from a tree of what the messages carry. */
+
+import type { JSX } from "preact";
+import { useEffect, useState } from "preact/hooks";
+
+import type { Page } from "../../app/page";
+import type { RosMessage } from "../../protocol/ros_types";
+import { Button } from "../../theme/button";
+import { Combo } from "../../theme/combo";
+import { Tree, type TreeRow } from "../../theme/tree";
+import { messageRows } from "../messages/message_rows";
+import { numberAt, parseSteps, stepsText, type Step } from "../messages/field_path";
+import { numericPaths } from "../messages/numeric_paths";
+import { MessageType } from "../messages/definition";
+import type { PlotsState } from "./plots_state";
+import { movingJoints } from "./simulated_joints";
+
+const JOINTS = "joints";
+const WAITS = " waits";
+const PERIOD = 500; // ms between drawings of the tree
+
+export function CurvePicker({ page, state }: { readonly page: Page; readonly state: PlotsState }): JSX.Element {
+  const paths = usePaths(page);
+  const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
+  const messages = useMessages(page, open);
+  const rows = [...jointRows(page, open), ...topicRows(page, open, messages)];
+  const plotted = new Map(state.curves.map((curve) => [curve.path, curve]));
+  const toggle = (key: string, on: boolean): void => {
+    const next = new Set(open);
+    if (on) next.add(key);
+    else next.delete(key);
+    setOpen(next);
+  };
+  /** A number is plotted, or no longer; a heading opens, or closes. */
+  const pick = (key: string): void => {
+    const isOpen = rows.find((one) => one.key === key)?.open;
+    const curve = plotted.get(key);
+    if (isOpen !== undefined) toggle(key, !isOpen);
+    else if (curve !== undefined) state.remove(curve);
+    else if (!key.endsWith(WAITS)) state.add(key);
+  };
+  return (
+    <>
+      <div class="toolrow">
+        <span class="sm t2">Path</span>
+        <Combo label="Path of a curve" value="" choices={() => paths.map((value) => ({ value }))} onCommit={(path) => state.add(path)} />
+        <Button small icon="close" label="Close" onClick={() => void (state.isAdding.value = false)} />
+      </div>
+      <div class="scroll">
+        <Tree
+          label="Numbers that can be plotted"
+          rows={rows.map((one) => ({ ...one, selected: plotted.has(one.key) }))}
+          onToggle={toggle}
+          onSelect={pick}
+        />
+      </div>
+    </>
+  );
+}
+
+/** Paths of all numbers whose place is known from definitions alone. */
+function usePaths(page: Page): readonly string[] {
+  const [paths, setPaths] = useState<readonly string[]>([]);
+  const { topics } = page.connection;
+  const known = topics.value;
+  useEffect(() => {
+    let isOver = false;
+    const joints = movingJoints(page.world.manifest.peek()).map(({ name }) => `${name}.position`);
+    const all = [...known.values()].map(async ({ name, type }) => {
+      const text = await page.connection.definition(type).catch(() => "");
+      return numericPaths(MessageType.parse(text)).map((path) => name + path);
+    });
+    void Promise.all(all).then((found) => {
+      if (!isOver) setPaths([...joints, ...found.flat().sort()]);
+    });
+    return () => {
+      isOver = true;
+    };
+  }, [page, known]);
+  return paths;
+}
+
+/** Newest messages of the topics that are open. */
+function useMessages(page: Page, open: ReadonlySet<string>): ReadonlyMap<string, { readonly type: string; readonly message: RosMessage }> {
+  const [messages, setMessages] = useState<ReadonlyMap<string, { readonly type: string; readonly message: RosMessage }>>(new Map());
+  useEffect(() => {
+    const newest = new Map<string, { readonly type: string; readonly message: RosMessage }>();
+    const subscriptions = [...open]
+      .filter((key) => page.connection.topics.peek().has(key))
+      .map((topic) => page.connection.subscribe(topic, ({ type, message }) => newest.set(topic, { type, message })));
+    const timer = setInterval(() => setMessages(new Map(newest)), PERIOD);
+    return () => {
+      clearInterval(timer);
+      for (const subscription of subscriptions) subscription.close();
+    };
+  }, [page, open]);
+  return messages;
+}
+
+function jointRows(page: Page, open: ReadonlySet<string>): readonly TreeRow[] {
+  const joints = movingJoints(page.world.manifest.value);
+  if (joints.length === 0) return [];
+  const isOpen = open.has(JOINTS);
+  const rows = [row(JOINTS, 0, "Simulated joints", "", isOpen)];
+  if (!isOpen) return rows;
+  const leaves = joints.flatMap(({ name }) => ["position", "velocity", "effort"].map((field) => `${name}.${field}`));
+  return [...rows, ...leaves.map((path) => row(path, 1, path, "", undefined))];
+}
+
+function topicRows(page: Page, open: ReadonlySet<string>, messages: ReturnType<typeof useMessages>): readonly TreeRow[] {
+  const topics = [...page.connection.topics.value.values()].sort((one, other) => (one.name < other.name ? -1 : 1));
+  return topics.flatMap(({ name, type }) => {
+    const isOpen = open.has(name);
+    const rows = [row(name, 0, name, type, isOpen)];
+    if (!isOpen) return rows;
+    const newest = messages.get(name);
+    if (newest === undefined) return [...rows, row(name + WAITS, 1, "No message yet", "", undefined)];
+    const fields = messageRows(newest.type, newest.message, (key) => open.has(name + key)).map((field) => {
+      const steps = parseSteps(field.key);
+      const isNumber = steps !== null && numberAt(newest.message, steps) !== null;
+      const key = name + (steps !== null && isNumber ? stepsText(named(newest.message, steps)) : field.key);
+      return row(key, field.depth + 1, field.name, field.text, field.open);
+    });
+    return [...rows, ...fields];
+  });
+}
+
+/** The same steps, with an element's name instead of its index where the message names its elements. */
+function named(message: RosMessage, steps: readonly Step[]): readonly Step[] {
+  return steps.map((step, at) => {
+    if (typeof step === "string" || !("index" in step)) return step;
+    const names = [...steps.slice(0, Math.max(0, at - 1)), "name"];
+    const name = numberAt(message, names) === null ? nameAt(message, names, step.index) : null;
+    return name === null ? step : { name };
+  });
+}
+
+function nameAt(message: RosMessage, names: readonly Step[], index: number): string | null {
+  let value: unknown = message;
+  for (const step of names) value = typeof step === "string" ? (value as RosMessage)[step] : undefined;
+  const name: unknown = Array.isArray(value) ? value[index] : null;
+  return typeof name === "string" ? name : null;
+}
+
+function row(key: string, depth: number, name: string, detail: string, open: boolean | undefined): TreeRow {
+  return {
+    key,
+    depth,
+    label: `${name} ${detail}`.trim(),
+    open,
+    content: (
+      <>
+        <span class="n">{name}</span>
+        <span class="r">{detail}</span>
+      </>
+    ),
+  };
+}

@@ -1,0 +1,55 @@
+/** Curves of a plot with their value at the cursor, at the end of a paused plot, or the newest. */
+
+import type { JSX } from "preact";
+
+import { MenuButton, type MenuItem } from "../../theme/menu";
+import { fixed } from "../../theme/format";
+import { significant } from "../messages/format";
+import { useTick } from "../use";
+import type { Curve } from "./curve";
+import type { Plot, PlotsState } from "./plots_state";
+import { COLOURS, isDashed } from "./style";
+
+const PERIOD = 200; // ms
+
+export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
+  useTick(PERIOD);
+  const time = state.cursor.value ?? state.pausedAt;
+  return (
+    <ul class="legend" aria-label="Curves">
+      {plot.curves.map((curve, index) => {
+        const value = time === null ? curve.points.lastY : curve.points.at(time);
+        return (
+          <li key={curve.path} class={isDashed(index) ? "dash" : ""} style={{ "--c": `var(${COLOURS[index % COLOURS.length] ?? ""})` }}>
+            <span class="n" title={curve.path}>
+              {curve.name}
+            </span>
+            <span class="num">
+              <b>{value === null ? "—" : legendText(value)}</b> {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
+            </span>
+            <MenuButton label={`Curve ${curve.path}`} icon="dots" class="sml" items={() => items(state, plot, curve)} />
+            <span class="t">{curve.fault.value === "" ? curve.caption : <span class="warned">{curve.fault.value}</span>}</span>
+          </li>
+        );
+      })}
+    </ul>
+  );
+}
+
+/** Decimals by the size, so that a value that moves keeps its width. */
+function legendText(value: number): string {
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 0.001 || size >= 100_000)) return significant(value);
+  return fixed(value, size < 10 ? 3 : size < 1000 ? 2 : 0);
+}
+
+function items(state: PlotsState, plot: Plot, curve: Curve): readonly MenuItem[] {
+  const others = state.plots.value.filter((other) => other.id !== plot.id);
+  return [
+    { title: "Left axis", checked: curve.axis.value === "left", run: () => void (curve.axis.value = "left") },
+    { title: "Right axis", checked: curve.axis.value === "right", run: () => void (curve.axis.value = "right") },
+    { title: "In a plot of its own", disabled: plot.curves.length < 2, run: () => state.separate(curve) },
+    ...others.map((other) => ({ title: `Into the plot of ${other.curves[0]?.name ?? "none"}`, run: () => state.move(curve, other.id) })),
+    { title: "Remove", icon: "close", run: () => state.remove(curve) },
+  ];
+}

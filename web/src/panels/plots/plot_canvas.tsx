@@ -1,0 +1,180 @@
+/** One plot, drawn by uPlot: each curve with times of its own, a left and a right axis. */
+
+import type { JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+
+import { significant, timeText } from "../messages/format";
+import type { Curve } from "./curve";
+import type { PlotsState, Range } from "./plots_state";
+import { COLOURS, isDashed } from "./style";
+
+interface PlotCanvasProps {
+  readonly state: PlotsState;
+  readonly curves: readonly Curve[];
+  readonly theme: string;
+}
+
+const PERIOD = 40; // ms between drawings
+const DASH = [4, 3];
+const AXIS_WIDTH = 48;
+/* eslint-disable @typescript-eslint/no-unsafe-enum-assignment -- uPlot declares const enums, which are not there at run time */
+const FACETED: uPlot.Mode = 2;
+const LEFT: uPlot.Axis.Side = 3;
+const RIGHT: uPlot.Axis.Side = 1;
+/* eslint-enable */
+const EMPTY = new Float64Array(0);
+
+export function PlotCanvas({ state, curves, theme }: PlotCanvasProps): JSX.Element {
+  const box = useRef<HTMLDivElement>(null);
+  const axes = curves.map((curve) => curve.axis.value).join();
+  const units = curves.map((curve) => curve.unit.value).join();
+  useEffect(() => {
+    const element = box.current;
+    if (element === null) return;
+    const plot = new uPlot(options(element, state, curves), emptyData(curves), element);
+    const fit = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: element.clientHeight }));
+    fit.observe(element);
+    const stop = keepDrawing(plot, state, curves);
+    return () => {
+      stop();
+      fit.disconnect();
+      plot.destroy();
+    };
+  }, [state, curves, theme, axes, units]);
+  return <div ref={box} class="canvas" role="img" aria-label={`Plot of ${curves.map((curve) => curve.path).join(", ")}`} />;
+}
+
+/** Draws when points came or the range changed; returns how to stop. */
+function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): () => void {
+  let drawn = "";
+  const draw = (): void => {
+    const range = state.range();
+    const key = [...range, state.isPaused.peek() ? "" : curves.map((curve) => curve.revision).join(), plot.width, plot.height].join(" ");
+    if (key === drawn) return;
+    drawn = key;
+    show(plot, curves, range);
+  };
+  let frame = 0;
+  let last = 0;
+  const loop = (time: number): void => {
+    frame = requestAnimationFrame(loop);
+    if (time - last < PERIOD) return;
+    last = time;
+    draw();
+  };
+  frame = requestAnimationFrame(loop);
+  return () => cancelAnimationFrame(frame);
+}
+
+function show(plot: uPlot, curves: readonly Curve[], [from, to]: Range): void {
+  const parts = curves.map((curve) => curve.points.between(from, to));
+  plot.batch(() => {
+    plot.setData([EMPTY, ...parts] as unknown as uPlot.AlignedData, false);
+    plot.setScale("x", { min: from, max: to });
+    for (const axis of ["left", "right"] as const) {
+      const values = parts.filter((_, index) => curves[index]?.axis.peek() === axis).map(([, ys]) => ys);
+      const [min, max] = paddedRange(values);
+      plot.setScale(axis, { min, max });
+    }
+  });
+}
+
+/** Range of values with a tenth of room above and below. */
+export function paddedRange(values: readonly Float64Array[]): Range {
+  let min = Infinity;
+  let max = -Infinity;
+  for (const ys of values) {
+    for (const y of ys) {
+      if (y < min) min = y;
+      if (y > max) max = y;
+    }
+  }
+  if (min > max) return [0, 1];
+  const room = max > min ? (max - min) * 0.1 : Math.max(Math.abs(max) * 0.1, 0.1);
+  return [min - room, max + room];
+}
+
+function emptyData(curves: readonly Curve[]): uPlot.AlignedData {
+  return [EMPTY, ...curves.map(() => [EMPTY, EMPTY])] as unknown as uPlot.AlignedData;
+}
+
+function options(element: HTMLElement, state: PlotsState, curves: readonly Curve[]): uPlot.Options {
+  const style = getComputedStyle(element);
+  const colour = (name: string): string => style.getPropertyValue(name).trim();
+  const axis = {
+    stroke: colour("--text-3"),
+    font: `11px ${style.fontFamily}`,
+    grid: { stroke: colour("--line-soft"), width: 1 },
+    ticks: { show: false },
+    gap: 6,
+  };
+  const hasRight = curves.some((curve) => curve.axis.peek() === "right");
+  const value = (side: uPlot.Axis.Side, scale: "left" | "right"): uPlot.Axis => ({
+    ...axis,
+    side,
+    scale,
+    size: AXIS_WIDTH,
+    grid: scale === "left" ? axis.grid : { show: false },
+    show: scale === "left" || hasRight,
+    values: (_plot, splits) => splits.map((split) => significant(split, 5)),
+  });
+  return {
+    mode: FACETED,
+    width: element.clientWidth,
+    height: element.clientHeight,
+    padding: [8, hasRight ? 0 : 12, 0, 0],
+    legend: { show: false },
+    scales: { x: { time: false, auto: false }, left: { auto: false }, right: { auto: false } },
+    axes: [
+      { ...axis, scale: "x", size: 22, values: (_plot, splits, _axis, _space, step) => splits.map((split) => timeText(split, decimals(step))) },
+      value(LEFT, "left"),
+      value(RIGHT, "right"),
+    ],
+    series: [{}, ...curves.map((curve, index) => series(curve, index, colour))],
+    cursor: {
+      y: false,
+      points: { show: false },
+      dataIdx: () => null,
+      drag: { x: true, y: false, setScale: false },
+    },
+    hooks: {
+      setCursor: [
+        (plot) => {
+          const { left = -1 } = plot.cursor;
+          state.cursor.value = left < 0 ? null : plot.posToVal(left, "x");
+        },
+      ],
+      setSelect: [
+        (plot) => {
+          const { left, width } = plot.select;
+          if (width < 4) return;
+          state.zoom.value = [plot.posToVal(left, "x"), plot.posToVal(left + width, "x")];
+          plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+        },
+      ],
+    },
+  };
+}
+
+function series(curve: Curve, index: number, colour: (name: string) => string): uPlot.Series {
+  const drawn: uPlot.Series = {
+    stroke: colour(COLOURS[index % COLOURS.length] ?? ""),
+    width: 1.5,
+    points: { show: false },
+    facets: [
+      { scale: "x", auto: false },
+      { scale: curve.axis.peek(), auto: false },
+    ],
+  };
+  const { linear } = uPlot.paths;
+  if (linear !== undefined) drawn.paths = linear();
+  if (isDashed(index)) drawn.dash = DASH;
+  return drawn;
+}
+
+/** Decimals that tell ticks apart. */
+function decimals(step: number): number {
+  return step >= 1 ? 0 : Math.min(6, Math.ceil(-Math.log10(step)));
+}

@@ -1,0 +1,115 @@
+/** Plots with their curves, and what all of them share: window, zoom, pause, cursor. */
+
+import { signal } from "@preact/signals";
+
+import type { Page } from "../../app/page";
+import { forEachNew } from "../../app/session";
+import { perPage } from "../per_page";
+import { Curve } from "./curve";
+import { csvText } from "./csv";
+
+export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
+
+export interface Plot {
+  readonly id: number;
+  readonly curves: readonly Curve[];
+}
+
+export type Range = readonly [number, number];
+
+export class PlotsState {
+  readonly plots = signal<readonly Plot[]>([{ id: 0, curves: [] }]);
+  /** Seconds that are shown. */
+  readonly window = signal<number>(30);
+  /** A time range that a person chose; null: the newest. */
+  readonly zoom = signal<Range | null>(null);
+  readonly isPaused = signal(false);
+  /** Time under the cursor [s]. */
+  readonly cursor = signal<number | null>(null);
+  readonly isAdding = signal(false);
+  /** Where the plots stand still; null: they go on. */
+  pausedAt: number | null = null;
+  private plotCount = 1;
+
+  constructor(private readonly page: Page) {
+    forEachNew(() => page.session.plots, (path) => this.add(path));
+  }
+
+  get curves(): readonly Curve[] {
+    return this.plots.value.flatMap((plot) => plot.curves);
+  }
+
+  /** Add curves to a plot; `/pose/x:y` is two of them, as for rqt_plot. */
+  add(text: string, plot = this.plots.peek().at(-1)?.id): void {
+    const [first = "", ...others] = text.trim().split(":").filter((part) => part !== "");
+    const paths = text.includes("::") ? [text.trim()] : [first, ...others.map((name) => first.replace(/[^./]+$/, name))];
+    const known = this.plots.peek().find(({ id }) => id === plot)?.curves.map((curve) => curve.path) ?? [];
+    const fresh = paths.filter((path) => path !== "" && !known.includes(path)).map((path) => new Curve(this.page, path));
+    this.change(plot, (curves) => [...curves, ...fresh]);
+  }
+
+  remove(curve: Curve): void {
+    curve.close();
+    this.take(curve);
+  }
+
+  /** Move a curve into a plot of its own. */
+  separate(curve: Curve): void {
+    this.take(curve);
+    this.plots.value = [...this.plots.peek(), { id: this.plotCount, curves: [curve] }];
+    this.plotCount += 1;
+  }
+
+  move(curve: Curve, plot: number): void {
+    this.change(plot, (curves) => [...curves, curve]);
+    this.plots.value = withoutEmpty(
+      this.plots.peek().map((one) => (one.id === plot ? one : { ...one, curves: one.curves.filter((other) => other !== curve) })),
+    );
+  }
+
+  pause(on: boolean): void {
+    this.pausedAt = on ? this.newest() : null;
+    this.isPaused.value = on;
+    if (!on) this.zoom.value = null;
+  }
+
+  /** Times that are shown now [s]. */
+  range(): Range {
+    const zoom = this.zoom.peek();
+    if (zoom !== null) return zoom;
+    const end = this.pausedAt ?? this.newest() ?? 0;
+    return [end - this.window.peek(), end];
+  }
+
+  csv(): string {
+    return csvText(
+      this.curves.map((curve) => {
+        const [xs, ys] = curve.points.between(-Infinity, Infinity);
+        return { name: curve.path, xs, ys };
+      }),
+    );
+  }
+
+  private newest(): number | null {
+    const times = this.plots.peek().flatMap((plot) => plot.curves.map((curve) => curve.points.lastX ?? -Infinity));
+    const newest = Math.max(...times);
+    return Number.isFinite(newest) ? newest : null;
+  }
+
+  private take(curve: Curve): void {
+    const plots = this.plots.peek().map((plot) => ({ ...plot, curves: plot.curves.filter((other) => other !== curve) }));
+    this.plots.value = withoutEmpty(plots);
+  }
+
+  private change(plot: number | undefined, edit: (curves: readonly Curve[]) => readonly Curve[]): void {
+    this.plots.value = this.plots.peek().map((one) => (one.id === plot ? { ...one, curves: edit(one.curves) } : one));
+  }
+}
+
+/** All plots that have curves; at least one plot. */
+function withoutEmpty(plots: readonly Plot[]): readonly Plot[] {
+  const kept = plots.filter((plot) => plot.curves.length > 0);
+  return kept.length > 0 ? kept : plots.slice(0, 1);
+}
+
+export const plotsState = perPage((page) => new PlotsState(page));

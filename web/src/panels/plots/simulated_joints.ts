@@ -1,0 +1,46 @@
+/** Joints of the simulated world as paths: `model::joint.position`. */
+
+import type { JointInfo, Manifest, ModelInfo } from "../../scene/simulated_world";
+
+const FIELDS = ["position", "velocity", "effort"] as const;
+export type JointField = (typeof FIELDS)[number];
+
+export interface NamedJoint {
+  /** `model::joint`, with the models that the model is nested in. */
+  readonly name: string;
+  readonly model: string;
+  readonly joint: JointInfo;
+  /** Place in the `trundle/joints` channel. */
+  readonly index: number;
+}
+
+/** All joints with a single axis, in the order of their models. */
+export function movingJoints(manifest: Manifest | null): readonly NamedJoint[] {
+  const joints: NamedJoint[] = [];
+  const add = (models: readonly ModelInfo[], prefix: string): void => {
+    for (const model of models) {
+      const name = prefix + model.name;
+      for (const joint of model.joints) {
+        if (joint.index !== null) joints.push({ name: `${name}::${joint.name}`, model: name, joint, index: joint.index });
+      }
+      add(model.models, `${name}::`);
+    }
+  };
+  add(manifest?.models ?? [], "");
+  return joints;
+}
+
+/** Joint and field of a path; null where it is none. */
+export function simulatedJoint(manifest: Manifest | null, path: string): { readonly index: number; readonly field: JointField } | null {
+  const dot = path.lastIndexOf(".");
+  const field = FIELDS.find((known) => known === path.slice(dot + 1));
+  const joint = movingJoints(manifest).find(({ name }) => name === path.slice(0, dot));
+  return field === undefined || joint === undefined ? null : { index: joint.index, field };
+}
+
+/** Unit of a joint's field: a slider's are metres, a hinge's radians. */
+export function jointUnit(type: string, field: JointField): string {
+  const isLinear = type === "prismatic";
+  if (field === "effort") return isLinear ? "N" : "N·m";
+  return `${isLinear ? "m" : "rad"}${field === "velocity" ? "/s" : ""}`;
+}

@@ -1,0 +1,79 @@
+/** Sliders for a robot's speed, which return to zero when let go (rqt_robot_steering). */
+
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+
+import type { Drive, Held } from "../app/drive";
+import { Combo } from "../theme/combo";
+import { fixed } from "../theme/format";
+import { NumberField } from "../theme/number_field";
+import { Slider } from "../theme/slider";
+import type { Panel, PanelProps } from "./panel";
+
+function Steering({ page: { drive } }: PanelProps): JSX.Element {
+  const topic = drive.topic.value;
+  const isHeld = drive.command.value !== null;
+  return (
+    <div class="scroll">
+      <div class="steering">
+        <div class="formrow">
+          <span class="label">Topic</span>
+          <Combo
+            label="Topic of the velocity"
+            value={topic ?? ""}
+            choices={() => drive.topics.peek().map((value) => ({ value }))}
+            onCommit={(name) => drive.choose(name)}
+          />
+        </div>
+        <Axis drive={drive} which="linear" name="Forward, v" unit="m/s" />
+        <Axis drive={drive} which="angular" name="Turning, w" unit="rad/s" />
+        <div class={isHeld ? "sm held" : "sm t2"} role="status">
+          {isHeld && `Driving ${topic ?? ""}. Let go to stop.`}
+          {!isHeld && (topic === null ? "Nothing here listens to velocities: choose a topic." : "Hold a slider to drive; let go to stop.")}
+        </div>
+      </div>
+    </div>
+  );
+}
+
+interface AxisProps {
+  readonly drive: Drive;
+  readonly which: keyof Held;
+  readonly name: string;
+  readonly unit: string;
+}
+
+function Axis({ drive, which, name, unit }: AxisProps): JSX.Element {
+  const source = `slider ${which}`;
+  const value = drive.command.value?.[which] ?? 0;
+  const limit = which === "linear" ? drive.linearLimit : drive.angularLimit;
+  const hold = (velocity: number): void => {
+    const share = velocity / limit.peek();
+    drive.hold(source, which === "linear" ? share : 0, which === "angular" ? share : 0);
+  };
+  useEffect(() => () => drive.release(source), [drive, source]);
+  return (
+    <div class="joint">
+      <div class="w">
+        <span class="n">{name}</span>
+        <span class="sp" />
+        <b>{fixed(value, 2)}</b>
+        <span class="unit">{unit} of</span>
+        <span class="narrow">
+          <NumberField label={`Limit of ${name}`} unit={unit} class="small num" value={limit.value} min={0.01} onCommit={(size) => void (limit.value = size)} />
+        </span>
+      </div>
+      <Slider
+        label={name}
+        value={value}
+        lower={-limit.value}
+        upper={limit.value}
+        text={`${fixed(value, 2)} ${unit}`}
+        onInput={hold}
+        onRelease={() => drive.release(source)}
+      />
+    </div>
+  );
+}
+
+export const steeringPanel: Panel = { id: "steering", title: "Steering", programs: ["rqt_robot_steering"], component: Steering };

@@ -1,0 +1,147 @@
+/** The times that can be shown, what is known to have happened in them, and marks. */
+
+import { signal } from "@preact/signals";
+
+import type { Page } from "../../app/page";
+import { perPage } from "../per_page";
+import { sentence } from "../use";
+
+export interface Mark {
+  readonly id: number;
+  /** [s] */
+  readonly time: number;
+  readonly name: string;
+}
+
+export interface Span {
+  /** [s] */
+  readonly start: number;
+  readonly end: number;
+  /** Up to here something is known; what follows is the future of a simulation. */
+  readonly known: number;
+  /** Whether one can go to a time. */
+  readonly isSeekable: boolean;
+}
+
+const FUTURE = 1.2;
+const BUCKETS = 600;
+const PERIOD = 200; // ms between looks at what came
+const NS = 1e9;
+
+export class TimelineState {
+  readonly marks = signal<readonly Mark[]>([]);
+  readonly fault = signal("");
+  /** Where the pointer holds the head [s]; null: nowhere. */
+  readonly scrub = signal<number | null>(null);
+  /** Times at which messages of a topic came, as numbers of buckets. */
+  readonly lanes = new Map<string, Set<number>>();
+  private readonly counts = new Map<string, number>();
+  private bucket = 0.25; // s
+  private markCount = 0;
+  private asked: number | null = null;
+  private isAsking = false;
+
+  constructor(private readonly page: Page) {
+    setInterval(() => this.look(), PERIOD);
+  }
+
+  /** Times of the recording, or of the simulation so far; null before anything is known. */
+  span(): Span | null {
+    const state = this.page.world.state.value;
+    if (state === null) return null;
+    const { timeline } = state;
+    if (timeline === undefined) {
+      const known = state.time_ns / NS;
+      return { start: 0, end: Math.max(10, known * FUTURE), known, isSeekable: false };
+    }
+    const end = timeline.end_ns / NS;
+    return { start: timeline.start_ns / NS, end, known: end, isSeekable: true };
+  }
+
+  /** Time of the head [s]. */
+  now(): number {
+    return this.scrub.value ?? (this.page.world.state.value?.time_ns ?? 0) / NS;
+  }
+
+  /** Go to a time; while an answer is due only the newest wish is kept. */
+  seek(time: number): void {
+    this.asked = time;
+    if (!this.isAsking) void this.ask();
+  }
+
+  do(request: "play" | "pause"): void;
+  do(request: "step", fields: { readonly count: number }): void;
+  do(request: "speed", fields: { readonly factor: number | null }): void;
+  do(request: string, fields: Readonly<Record<string, number | null>> = {}): void {
+    this.page.connection.request(request, fields).then(
+      () => void (this.fault.value = ""),
+      (error: unknown) => void (this.fault.value = sentence(error)),
+    );
+  }
+
+  mark(): void {
+    this.markCount += 1;
+    const mark = { id: this.markCount, time: this.now(), name: `Mark ${this.markCount}` };
+    this.marks.value = [...this.marks.peek(), mark].sort((one, other) => one.time - other.time);
+  }
+
+  rename(mark: Mark, name: string): void {
+    const kept = this.marks.peek().filter(({ id }) => id !== mark.id);
+    this.marks.value = name === "" ? kept : [...kept, { ...mark, name }].sort((one, other) => one.time - other.time);
+  }
+
+  /** Stretches of a lane [s], joined where they touch. */
+  bands(topic: string): readonly (readonly [number, number])[] {
+    const bands: [number, number][] = [];
+    for (const bucket of [...(this.lanes.get(topic) ?? [])].sort((one, other) => one - other)) {
+      const [start, end] = [bucket * this.bucket, (bucket + 1) * this.bucket];
+      const last = bands.at(-1);
+      if (last !== undefined && start - last[1] < this.bucket * 1.5) last[1] = end;
+      else bands.push([start, end]);
+    }
+    return bands;
+  }
+
+  /** Note which of the topics that something on the page shows had messages since the last look. */
+  private look(): void {
+    const span = this.span();
+    if (span === null) return;
+    const wanted = span.isSeekable ? Math.max(0.05, (span.end - span.start) / BUCKETS) : 0.25;
+    if (wanted !== this.bucket) this.lanes.clear();
+    this.bucket = wanted;
+    const at = Math.floor(this.now() / this.bucket);
+    for (const topic of this.page.connection.topics.peek().keys()) {
+      const { count } = this.page.connection.statistics(topic);
+      const before = this.counts.get(topic) ?? 0;
+      this.counts.set(topic, count);
+      if (count <= before) continue;
+      const lane = this.lanes.get(topic) ?? new Set<number>();
+      this.lanes.set(topic, lane.add(at));
+    }
+  }
+
+  private async ask(): Promise<void> {
+    this.isAsking = true;
+    while (this.asked !== null) {
+      const time = this.asked;
+      this.asked = null;
+      try {
+        await this.page.connection.request("seek", { time_ns: Math.round(time * 1e9) });
+        this.fault.value = "";
+      } catch (error) {
+        this.fault.value = sentence(error);
+      }
+    }
+    this.isAsking = false;
+  }
+}
+
+export const timelineState = perPage((page) => new TimelineState(page));
+
+/** Times of the ruler: a round step that leaves each some room. */
+export function rulerTimes({ start, end }: Span, most: number): readonly number[] {
+  const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find((one) => (end - start) / one <= most) ?? 7200;
+  const first = Math.ceil(start / step - 1e-9);
+  const count = Math.floor((end - first * step) / step + 1e-9) + 1;
+  return Array.from({ length: Math.max(0, count) }, (_, index) => (first + index) * step);
+}

@@ -1,0 +1,77 @@
+/** What the Topics panel remembers: filter, selection, what is measured, what is published. */
+
+import { signal } from "@preact/signals";
+
+import type { Connection, Subscription, TopicInfo, TopicStatistics } from "../../protocol/connection";
+import type { StatusLevel } from "../../displays/display";
+import { perPage } from "../per_page";
+import { Publication } from "./publication";
+
+/** Types whose messages are too large to ask for only to count them. */
+const LARGE = /^(sensor_msgs\/(Image|CompressedImage|PointCloud2?)|stereo_msgs\/DisparityImage|nav_msgs\/OccupancyGrid|theora_image_transport\/Packet)$/;
+
+export class TopicsState {
+  readonly filter = signal("");
+  readonly isFiltering = signal(false);
+  readonly selected = signal<string | null>(null);
+  readonly publications = signal<readonly Publication[]>([]);
+  /** Large topics that are measured all the same. */
+  readonly asked = signal<ReadonlySet<string>>(new Set());
+  private readonly meters = new Map<string, Subscription>();
+
+  constructor(private readonly connection: Connection) {}
+
+  /** Subscribe to what is shown, so that rates are known. */
+  measure(topics: Iterable<TopicInfo>): void {
+    for (const topic of topics) {
+      if (this.meters.has(topic.name) || !this.isMeasured(topic)) continue;
+      this.meters.set(topic.name, this.connection.subscribeRaw(topic.name, () => undefined));
+    }
+  }
+
+  isMeasured(topic: TopicInfo): boolean {
+    return !LARGE.test(topic.type) || this.asked.value.has(topic.name);
+  }
+
+  ask(topic: string): void {
+    this.asked.value = new Set(this.asked.peek()).add(topic);
+  }
+
+  /** Stop measuring: the panel is closed. */
+  rest(): void {
+    for (const subscription of this.meters.values()) subscription.close();
+    this.meters.clear();
+  }
+
+  /** The publication on a topic, made at its first use. */
+  publication(topic: string, type: string): Publication {
+    const known = this.publications.peek().find((one) => one.topic === topic && one.type === type);
+    if (known !== undefined) return known;
+    const publication = new Publication(this.connection, topic, type);
+    this.publications.value = [...this.publications.peek(), publication];
+    return publication;
+  }
+}
+
+export const topicsState = perPage((page) => new TopicsState(page.connection));
+
+/** Topics that are published, or only subscribed to. */
+export function allTopics({ topics, graph }: Connection): ReadonlyMap<string, TopicInfo> {
+  const waiting = [...graph.value.types].map(([name, type]): [string, TopicInfo] => [name, { name, type, encoding: "ros1" }]);
+  return new Map([...waiting, ...topics.value]);
+}
+
+/** Topics whose name or type contains a text, sorted by name. */
+export function matchingTopics(topics: ReadonlyMap<string, TopicInfo>, text: string): readonly TopicInfo[] {
+  const part = text.trim().toLowerCase();
+  return [...topics.values()]
+    .filter(({ name, type }) => name.toLowerCase().includes(part) || type.toLowerCase().includes(part))
+    .sort((one, other) => (one.name < other.name ? -1 : 1));
+}
+
+/** OK while messages come, a warning when they stopped, a ring before the first. */
+export function topicLevel({ rate, lastAt }: TopicStatistics, now: number): StatusLevel {
+  if (lastAt === null) return "none";
+  const seconds = (now - lastAt) / 1000;
+  return rate !== null && rate > 0 && seconds > Math.max(2, 3 / rate) ? "warn" : "ok";
+}

@@ -1,0 +1,40 @@
+/** Hooks of the panels. */
+
+import { useEffect, useState } from "preact/hooks";
+
+/** Draw again every so many milliseconds while something can be seen. */
+export function useTick(period: number, isShown = true): void {
+  const [, setTick] = useState(0);
+  useEffect(() => {
+    if (!isShown) return;
+    const timer = setInterval(() => setTick((count) => count + 1), period);
+    return () => clearInterval(timer);
+  }, [period, isShown]);
+}
+
+/** Text of an error that was thrown by whatever. */
+export function sentence(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** Give a file to the person. */
+export function saveFile(name: string, content: Blob): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/** True while an element can be seen: a tab in the background is not. */
+export function useShown(element: { readonly current: Element | null }): boolean {
+  const [isShown, setShown] = useState(false);
+  useEffect(() => {
+    const { current } = element;
+    if (current === null) return;
+    const observer = new IntersectionObserver(([entry]) => setShown(entry?.isIntersecting === true));
+    observer.observe(current);
+    return () => observer.disconnect();
+  }, [element]);
+  return isShown;
+}

@@ -1,0 +1,133 @@
+/** What is asked of the server and answered later: services, assets and requests to what started the page. */
+
+import { signal } from "@preact/signals";
+
+import type { ParameterValue, ServiceInfo } from "./connection";
+import { readMessage } from "./reader";
+import type { RosMessage } from "./ros_types";
+import { parseSchema, type Schema } from "./schema";
+import { callFrame, type Send, type ServerBinary, type ServerText, type Service } from "./wire";
+import { writeMessage } from "./writer";
+
+/** Answers that are awaited, by a number of their own. */
+class Pending<T> {
+  readonly #waiting = new Map<number, { resolve: (value: T) => void; reject: (reason: Error) => void }>();
+  #next = 0;
+
+  /** Send with a number and wait for the answer. */
+  ask(send: (id: number) => boolean): Promise<T> {
+    const id = this.#next++;
+    return new Promise<T>((resolve, reject) => {
+      if (send(id)) this.#waiting.set(id, { resolve, reject });
+      else reject(new Error("the page is not connected"));
+    });
+  }
+
+  resolve(id: number, value: T): void {
+    this.#waiting.get(id)?.resolve(value);
+    this.#waiting.delete(id);
+  }
+
+  reject(id: number, sentence: string): void {
+    this.#waiting.get(id)?.reject(new Error(sentence));
+    this.#waiting.delete(id);
+  }
+
+  rejectAll(sentence: string): void {
+    for (const id of [...this.#waiting.keys()]) this.reject(id, sentence);
+  }
+}
+
+type Answer = Extract<ServerText, { op: "trundle/response"; ok: true }>;
+
+export class Calls {
+  readonly services = signal<ReadonlyMap<string, ServiceInfo>>(new Map());
+  readonly #services = new Map<number, Service>();
+  readonly #calls = new Pending<DataView>();
+  readonly #assets = new Pending<ArrayBuffer>();
+  readonly #requests = new Pending<Answer>();
+
+  constructor(private readonly send: Send) {}
+
+  /** Begin again with a server that has advertised nothing yet. */
+  restart(): void {
+    this.#services.clear();
+    this.#publishServices();
+  }
+
+  /** The connection is lost: nothing is answered any more. */
+  lost(): void {
+    for (const pending of [this.#calls, this.#assets, this.#requests]) {
+      pending.rejectAll("the connection was lost before the answer came");
+    }
+  }
+
+  advertise(services: readonly Service[]): void {
+    for (const service of services) this.#services.set(service.id, service);
+    this.#publishServices();
+  }
+
+  unadvertise(ids: readonly number[]): void {
+    for (const id of ids) this.#services.delete(id);
+    this.#publishServices();
+  }
+
+  async call(name: string, request: RosMessage): Promise<RosMessage> {
+    const service = [...this.#services.values()].find((one) => one.name === name);
+    if (service === undefined) throw new Error(`there is no service ${name}`);
+    const payload = writeMessage(requestSchema(service), request);
+    const response = await this.#calls.ask((id) => this.send(callFrame(service.id, id, payload)));
+    return readMessage(responseSchema(service), response);
+  }
+
+  fetchAsset(uri: string): Promise<ArrayBuffer> {
+    return this.#assets.ask((requestId) => this.send({ op: "fetchAsset", uri, requestId }));
+  }
+
+  request(name: string, fields: Readonly<Record<string, ParameterValue>>): Promise<Answer> {
+    return this.#requests.ask((id) => this.send({ ...fields, op: "trundle/request", id, request: name }));
+  }
+
+  callAnswered(frame: Extract<ServerBinary, { op: "serviceResponse" }>): void {
+    this.#calls.resolve(frame.call, frame.payload);
+  }
+
+  callFailed(frame: Extract<ServerText, { op: "serviceCallFailure" }>): void {
+    this.#calls.reject(frame.callId, frame.message);
+  }
+
+  assetCame(frame: Extract<ServerBinary, { op: "asset" }>): void {
+    if (frame.error === null) this.#assets.resolve(frame.request, frame.data);
+    else this.#assets.reject(frame.request, frame.error);
+  }
+
+  requestAnswered(frame: Extract<ServerText, { op: "trundle/response" }>): void {
+    if (frame.ok) this.#requests.resolve(frame.id, frame);
+    else this.#requests.reject(frame.id, frame.error);
+  }
+
+  #publishServices(): void {
+    const services = new Map<string, ServiceInfo>();
+    for (const service of this.#services.values()) {
+      const { name, type } = service;
+      services.set(name, { name, type, request: requestText(service), response: responseText(service) });
+    }
+    this.services.value = services;
+  }
+}
+
+function requestText(service: Service): string {
+  return service.request?.schema ?? service.requestSchema ?? "";
+}
+
+function responseText(service: Service): string {
+  return service.response?.schema ?? service.responseSchema ?? "";
+}
+
+function requestSchema(service: Service): Schema {
+  return parseSchema(service.request?.schemaName ?? `${service.type}Request`, requestText(service));
+}
+
+function responseSchema(service: Service): Schema {
+  return parseSchema(service.response?.schemaName ?? `${service.type}Response`, responseText(service));
+}

@@ -1,0 +1,101 @@
+/** Interface of the connection to the page's server: the Foxglove protocol and what `trundle.v1` adds to it. */
+
+import type { ReadonlySignal } from "@preact/signals";
+
+import type { RosMessage } from "./ros_types";
+
+export type ConnectionState =
+  | { readonly kind: "connecting" }
+  | { readonly kind: "connected" }
+  | { readonly kind: "lost"; readonly retryInSeconds: number };
+
+export interface TopicInfo {
+  readonly name: string;
+  /** Datatype, as `sensor_msgs/LaserScan`. */
+  readonly type: string;
+  readonly encoding: string;
+}
+
+export interface ServiceInfo {
+  readonly name: string;
+  readonly type: string;
+  /** Text of the request's and the response's definition. */
+  readonly request: string;
+  readonly response: string;
+}
+
+/** Who publishes, subscribes and serves: names of topics and services to names of nodes. */
+export interface GraphInfo {
+  /** Types of topics that are subscribed to, published or not. */
+  readonly types: ReadonlyMap<string, string>;
+  readonly publishers: ReadonlyMap<string, readonly string[]>;
+  readonly subscribers: ReadonlyMap<string, readonly string[]>;
+  readonly services: ReadonlyMap<string, readonly string[]>;
+}
+
+export interface TopicStatistics {
+  /** Messages per second over the last seconds; null before the second message. */
+  readonly rate: number | null;
+  /** Bytes per second. */
+  readonly bandwidth: number;
+  /** Wall time of the last message, as `performance.now()` [ms]; null: none came. */
+  readonly lastAt: number | null;
+  readonly count: number;
+  readonly dropped: number;
+}
+
+export interface Received<M> {
+  readonly topic: string;
+  readonly type: string;
+  readonly message: M;
+  /** Time at which the server received it [ns]. */
+  readonly time: bigint;
+  readonly bytes: number;
+}
+
+export interface Subscription {
+  close(): void;
+}
+
+/** A dynamic parameter value as the protocol carries it. */
+export type ParameterValue = string | number | boolean | null | readonly ParameterValue[] | { readonly [key: string]: ParameterValue };
+
+export interface Connection {
+  readonly state: ReadonlySignal<ConnectionState>;
+  readonly topics: ReadonlySignal<ReadonlyMap<string, TopicInfo>>;
+  readonly services: ReadonlySignal<ReadonlyMap<string, ServiceInfo>>;
+  readonly parameters: ReadonlySignal<ReadonlyMap<string, ParameterValue>>;
+  /** Parameters whose numbers are floating-point even where they are whole; setting one keeps it so. */
+  readonly floatParameters: ReadonlySignal<ReadonlySet<string>>;
+  readonly graph: ReadonlySignal<GraphInfo>;
+  /** Messages of the server about itself, newest last. */
+  readonly notices: ReadonlySignal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string }[]>;
+  /** ROS time now [ns]: of /clock where it is used, else the wall's. */
+  now(): bigint;
+
+  /**
+   * Decoded messages of a topic, whether or not it is there yet. A message that cannot be decoded goes to `onError`.
+   * One subscription of the socket serves all subscribers of a topic; when decoding lags, the oldest are dropped
+   * unless `every`.
+   */
+  subscribe<M = RosMessage>(
+    topic: string,
+    onMessage: (received: Received<M>) => void,
+    options?: { readonly every?: boolean; readonly onError?: (text: string) => void },
+  ): Subscription;
+  /** Payload as it came: of the server's own channels (`trundle/…`), or of a topic that is only to be measured. */
+  subscribeRaw(topic: string, onPayload: (payload: DataView) => void): Subscription;
+  statistics(topic: string): TopicStatistics;
+
+  /** Text of a type's definition with all that it contains; rejects with a sentence where it is not known. */
+  definition(type: string): Promise<string>;
+  publish(topic: string, type: string, message: RosMessage): void;
+  callService(name: string, request: RosMessage): Promise<RosMessage>;
+  setParameter(name: string, value: ParameterValue | undefined): void;
+  /** Bytes of a `package://`, `model://` or `file://` file. */
+  fetchAsset(uri: string): Promise<ArrayBuffer>;
+  /** A request to what started the page; rejects with its sentence. */
+  request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<void>;
+  drive(topic: string, linear: number, angular: number): void;
+  release(topic: string): void;
+}

@@ -1,0 +1,196 @@
+/** The connection to the page's server. */
+
+import type { Connection, ParameterValue, Received, Subscription, TopicStatistics } from "./connection";
+import { Calls } from "./calls";
+import { Decoder, type DecodePort } from "./decoder";
+import { Notices } from "./notices";
+import { Publications } from "./publications";
+import { ReconnectingSocket, type Socket } from "./reconnecting_socket";
+import type { RosMessage } from "./ros_types";
+import { Subscriptions } from "./subscriptions";
+import { SystemState } from "./system_state";
+import { readBinary, SUBPROTOCOLS, type ClientFrame, type ServerText } from "./wire";
+
+export class FoxgloveConnection implements Connection {
+  readonly #socket: ReconnectingSocket;
+  readonly #subscriptions: Subscriptions;
+  readonly #calls: Calls;
+  readonly #publications: Publications;
+  readonly #system: SystemState;
+  readonly #notices = new Notices();
+  /** The server's last word on the time [ns]; null: the wall clock is the time. */
+  #time: bigint | null = null;
+
+  constructor(open: () => Socket, decodePort: DecodePort) {
+    const send = (frame: ClientFrame): boolean => this.#socket.send(frame);
+    this.#subscriptions = new Subscriptions(send, new Decoder(decodePort));
+    this.#calls = new Calls(send);
+    this.#publications = new Publications(send, (type) => this.definition(type));
+    this.#system = new SystemState(send);
+    this.#subscriptions.subscribeRaw("trundle/drops", (payload) => {
+      this.#subscriptions.setServerDrops(JSON.parse(new TextDecoder().decode(payload)) as Record<string, number>);
+    });
+    this.#socket = new ReconnectingSocket(
+      open,
+      (data) => (typeof data === "string" ? this.#receiveText(data) : this.#receiveBinary(data)),
+      () => this.#calls.lost(),
+    );
+  }
+
+  get state(): Connection["state"] {
+    return this.#socket.state;
+  }
+  get topics(): Connection["topics"] {
+    return this.#subscriptions.topics;
+  }
+  get services(): Connection["services"] {
+    return this.#calls.services;
+  }
+  get parameters(): Connection["parameters"] {
+    return this.#system.parameters;
+  }
+  get floatParameters(): Connection["floatParameters"] {
+    return this.#system.floatParameters;
+  }
+  get graph(): Connection["graph"] {
+    return this.#system.graph;
+  }
+  get notices(): Connection["notices"] {
+    return this.#notices.list;
+  }
+
+  now(): bigint {
+    return this.#time ?? BigInt(Date.now()) * 1_000_000n;
+  }
+
+  subscribe<M = RosMessage>(
+    topic: string,
+    onMessage: (received: Received<M>) => void,
+    options: { readonly every?: boolean; readonly onError?: (text: string) => void } = {},
+  ): Subscription {
+    return this.#subscriptions.subscribe(topic, {
+      onMessage: onMessage as (received: Received<unknown>) => void, // the caller says what the topic's type is
+      onError: options.onError,
+      every: options.every ?? false,
+    });
+  }
+
+  subscribeRaw(topic: string, onPayload: (payload: DataView) => void): Subscription {
+    return this.#subscriptions.subscribeRaw(topic, onPayload);
+  }
+
+  statistics(topic: string): TopicStatistics {
+    return this.#subscriptions.statistics(topic);
+  }
+
+  async definition(type: string): Promise<string> {
+    const text = this.#subscriptions.definition(type);
+    if (text !== null) return text;
+    return (await this.#calls.request("definition", { type })).definition ?? "";
+  }
+
+  publish(topic: string, type: string, message: RosMessage): void {
+    this.#publications.publish(topic, type, message).catch((error: unknown) => {
+      this.#notices.add("error", `Nothing was published on ${topic}: ${(error as Error).message}`, `publish ${topic}`);
+    });
+  }
+
+  callService(name: string, request: RosMessage): Promise<RosMessage> {
+    return this.#calls.call(name, request);
+  }
+
+  setParameter(name: string, value: ParameterValue | undefined): void {
+    this.#system.setParameter(name, value);
+  }
+
+  fetchAsset(uri: string): Promise<ArrayBuffer> {
+    return this.#calls.fetchAsset(uri);
+  }
+
+  async request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<void> {
+    await this.#calls.request(name, fields);
+  }
+
+  drive(topic: string, linear: number, angular: number): void {
+    this.#socket.send({ op: "trundle/drive", topic, linear, angular });
+  }
+
+  release(topic: string): void {
+    this.#socket.send({ op: "trundle/release", topic });
+  }
+
+  #receiveText(data: string): void {
+    const frame = JSON.parse(data) as ServerText;
+    switch (frame.op) {
+      case "serverInfo":
+        this.#greeted(frame.capabilities);
+        break;
+      case "status":
+        this.#notices.add(frame.level, frame.message, frame.id);
+        break;
+      case "removeStatus":
+        this.#notices.remove(frame.statusIds);
+        break;
+      case "advertise":
+        this.#subscriptions.advertise(frame.channels);
+        break;
+      case "unadvertise":
+        this.#subscriptions.unadvertise(frame.channelIds);
+        break;
+      case "advertiseServices":
+        this.#calls.advertise(frame.services);
+        break;
+      case "unadvertiseServices":
+        this.#calls.unadvertise(frame.serviceIds);
+        break;
+      case "parameterValues":
+        this.#system.parametersCame(frame.parameters);
+        break;
+      case "connectionGraphUpdate":
+        this.#system.graphChanged(frame);
+        break;
+      case "serviceCallFailure":
+        this.#calls.callFailed(frame);
+        break;
+      case "trundle/response":
+        this.#calls.requestAnswered(frame);
+        break;
+    }
+  }
+
+  #receiveBinary(data: ArrayBuffer): void {
+    const frame = readBinary(data);
+    if (frame?.op === "message") {
+      // the server tells the time at 20 Hz, and messages in between are newer
+      if (this.#time !== null && frame.time > this.#time) this.#time = frame.time;
+      this.#subscriptions.receive(frame);
+    } else if (frame?.op === "time") this.#time = frame.time;
+    else if (frame?.op === "serviceResponse") this.#calls.callAnswered(frame);
+    else if (frame?.op === "asset") this.#calls.assetCame(frame);
+  }
+
+  /** A server greeted, which knows nothing of the one before. */
+  #greeted(capabilities: readonly string[]): void {
+    this.#time = null;
+    this.#notices.clear();
+    this.#subscriptions.restart();
+    this.#calls.restart();
+    this.#publications.restart();
+    this.#socket.established(); // who waits for this subscribes at once, to channels of this server only
+    this.#system.restart(capabilities);
+  }
+}
+
+/** Connect to the server of the page at an address. */
+export function connect(address: string): FoxgloveConnection {
+  const url = new URL(address);
+  url.protocol = url.protocol.replace("http", "ws");
+  url.hash = "";
+  const worker = new Worker(new URL("./decode_worker.ts", import.meta.url), { type: "module" });
+  const open = (): WebSocket => {
+    const socket = new WebSocket(url, SUBPROTOCOLS);
+    socket.binaryType = "arraybuffer";
+    return socket;
+  };
+  return new FoxgloveConnection(open, worker);
+}

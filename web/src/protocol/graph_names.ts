@@ -1,0 +1,34 @@
+/** Names of a node: relative ones stand in its namespace, and any may be remapped. */
+
+export class GraphNames {
+  private readonly remappings: ReadonlyMap<string, string>;
+
+  /** `remappings`: global name to global name. */
+  constructor(
+    private readonly namespace = "/",
+    remappings: Readonly<Record<string, string>> = {},
+  ) {
+    this.remappings = new Map(Object.entries(remappings));
+  }
+
+  /** The name as the graph has it; that of nothing is nothing. */
+  resolve(name: string): string {
+    if (name === "") return "";
+    const global = name.startsWith("/") ? name : join(this.namespace, name);
+    return this.remappings.get(global) ?? global;
+  }
+
+  /** Where a parameter may be: by its name, then in the namespaces above, as searchParam goes up. */
+  search(name: string): readonly string[] {
+    const found = [this.resolve(name)];
+    if (name === "" || name.startsWith("/")) return found;
+    for (let at = this.namespace.lastIndexOf("/"); at >= 0; at = at === 0 ? -1 : this.namespace.lastIndexOf("/", at - 1)) {
+      found.push(join(this.namespace.slice(0, at), name));
+    }
+    return [...new Set(found)];
+  }
+}
+
+function join(namespace: string, name: string): string {
+  return `${namespace === "/" ? "" : namespace}/${name}`;
+}

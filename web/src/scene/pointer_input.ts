@@ -1,0 +1,146 @@
+/** What mouse, touch and keys do in the scene: rviz's bindings. */
+
+import type { PointerInput } from "../tools/tool";
+import type { ThreeScene } from "./three_scene";
+import type { ViewList } from "./views/view_list";
+
+/** Zoom per pixel of a drag and of a wheel. */
+const DRAG_ZOOM = 0.01;
+const WHEEL_ZOOM = 0.0012;
+const LINE = 16;
+/** A shorter way of the pointer is a click [px]. */
+const CLICK = 4;
+/** Drag that an arrow key stands for [px]. */
+const KEY_TURN = 20;
+const KEY_PAN = 40;
+const KEY_ZOOM = 0.85;
+const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [1, 0],
+  ArrowRight: [-1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+interface Finger {
+  x: number;
+  y: number;
+}
+
+export class SceneInput {
+  private readonly fingers = new Map<number, Finger>();
+  private button = 0;
+  private toolHasDrag = false;
+  private way = 0;
+  /** Middle of two fingers and their distance at the last frame [px]. */
+  private hand: { readonly x: number; readonly y: number; readonly spread: number } | null = null;
+  private readonly stop: () => void;
+  private readonly aborts = new AbortController();
+
+  /** `tool`: offers an event to the current tool; true: it was the tool's. */
+  constructor(
+    private readonly scene: ThreeScene,
+    private readonly views: ViewList,
+    private readonly tool: (input: PointerInput) => boolean,
+  ) {
+    const { element } = scene;
+    this.stop = scene.onTick(() => this.pinch());
+    const options = { signal: this.aborts.signal };
+    element.addEventListener("pointerdown", (event) => this.down(event), options);
+    element.addEventListener("pointermove", (event) => this.move(event), options);
+    element.addEventListener("pointerup", (event) => this.up(event, "up"), options);
+    element.addEventListener("pointercancel", (event) => this.up(event, "cancel"), options);
+    element.addEventListener("mousedown", (event) => event.preventDefault(), options); // a menu that opened keeps the focus
+    element.addEventListener("contextmenu", (event) => event.preventDefault(), options);
+    element.addEventListener("wheel", (event) => this.wheel(event), { ...options, passive: false });
+    element.addEventListener("keydown", (event) => this.key(event), options);
+  }
+
+  dispose(): void {
+    this.aborts.abort();
+    this.stop();
+  }
+
+  private offer(event: PointerEvent | MouseEvent, kind: PointerInput["kind"], button: number): boolean {
+    return this.tool({ x: event.offsetX, y: event.offsetY, button, shift: event.shiftKey, control: event.ctrlKey, kind });
+  }
+
+  private down(event: PointerEvent): void {
+    this.scene.element.focus({ preventScroll: true });
+    this.scene.element.setPointerCapture(event.pointerId);
+    const isFirst = this.fingers.size === 0;
+    this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    this.views.interrupt(); // before the tool, which may move the camera itself
+    if (isFirst) {
+      this.button = event.button;
+      this.way = 0;
+      this.toolHasDrag = this.offer(event, "down", event.button);
+    } else if (this.toolHasDrag) {
+      this.offer(event, "cancel", this.button);
+      this.toolHasDrag = false;
+    }
+  }
+
+  private move(event: PointerEvent): void {
+    const finger = this.fingers.get(event.pointerId);
+    if (finger === undefined) {
+      this.offer(event, "move", -1);
+      return;
+    }
+    const [dx, dy] = [event.offsetX - finger.x, event.offsetY - finger.y];
+    this.way += Math.hypot(dx, dy);
+    if (this.fingers.size === 1 && this.toolHasDrag) this.offer(event, "move", this.button);
+    else if (this.fingers.size === 1) this.drag(dx, dy, event.shiftKey);
+    finger.x = event.offsetX;
+    finger.y = event.offsetY;
+  }
+
+  private up(event: PointerEvent, kind: "up" | "cancel"): void {
+    if (!this.fingers.delete(event.pointerId) || this.fingers.size > 0) return;
+    // the tool also hears of a click whose press it left to the camera
+    if (this.toolHasDrag || (kind === "up" && this.way < CLICK)) this.offer(event, kind, this.button);
+    this.toolHasDrag = false;
+  }
+
+  private drag(dx: number, dy: number, shift: boolean): void {
+    const view = this.views.current.peek();
+    if (this.button === 1 || (this.button === 0 && shift)) view.pan(dx, dy, this.views.picture);
+    else if (this.button === 0) view.rotate(dx, dy);
+    else if (shift) view.raise(dy);
+    else view.zoom(Math.exp(DRAG_ZOOM * dy));
+  }
+
+  /** Two fingers: their middle shifts the picture, their distance zooms; once a frame, as each has events of its own. */
+  private pinch(): void {
+    const [a, b] = [...this.fingers.values()];
+    const { hand } = this;
+    this.hand = null;
+    if (a === undefined || b === undefined || this.fingers.size > 2) return;
+    this.hand = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, spread: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
+    if (hand === null || (hand.x === this.hand.x && hand.y === this.hand.y && hand.spread === this.hand.spread)) return;
+    const view = this.views.current.peek();
+    view.pan(this.hand.x - hand.x, this.hand.y - hand.y, this.views.picture);
+    view.zoom(hand.spread / this.hand.spread);
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    this.views.interrupt();
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1);
+    this.views.current.peek().zoom(Math.exp(WHEEL_ZOOM * Math.max(-300, Math.min(300, pixels))));
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const view = this.views.current.peek();
+    const arrow = ARROWS[event.key];
+    if (arrow !== undefined) {
+      const [x, y] = arrow;
+      if (event.shiftKey) view.pan(x * KEY_PAN, y * KEY_PAN, this.views.picture);
+      else view.rotate(x * KEY_TURN, y * KEY_TURN);
+    } else if (event.key === "+" || event.key === "=") view.zoom(KEY_ZOOM);
+    else if (event.key === "-") view.zoom(1 / KEY_ZOOM);
+    else return;
+    this.views.interrupt();
+    event.preventDefault();
+  }
+}

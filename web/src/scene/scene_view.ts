@@ -1,0 +1,117 @@
+/** Interface of the 3D view, for displays and tools. */
+
+import type { ReadonlySignal, Signal } from "@preact/signals";
+import type { Camera, Group, Object3D, Ray, Vector3, WebGLRenderer } from "three";
+
+/** What a pointer met. */
+export interface Pick {
+  /** Point in the fixed frame [m]. */
+  readonly point: Vector3;
+  readonly object: Object3D;
+  /** Index of the instance or point within the object, if it has several. */
+  readonly index: number | null;
+}
+
+/** Entry `selectable` of `Object3D.userData`: makes an object and those below it selectable. */
+export interface Selectable {
+  /** Name and value pairs of what was picked; nested for messages. */
+  describe(index: number | null): Readonly<Record<string, unknown>>;
+  /** Indices of the points that a box holds, where the object is not one of three.js' own kinds. */
+  indicesIn?(contains: (point: Vector3) => boolean): readonly number[];
+}
+
+/** A pointer at an object that has handlers. */
+export interface TargetEvent {
+  /** Place in the scene's element [px]. */
+  readonly x: number;
+  readonly y: number;
+  /** Ray from the camera through that place, in the fixed frame. */
+  readonly ray: Ray;
+  /** What is met there; null while it is dragged beside its object. */
+  readonly pick: Pick | null;
+  readonly button: number;
+  readonly shift: boolean;
+  readonly control: boolean;
+}
+
+/** Entry `pointerTarget` of `Object3D.userData`: the tool Interact hands it the pointer's events. */
+export interface PointerTarget {
+  /** The pointer has come over the object, or has left it. */
+  hover(isOver: boolean): void;
+  /** A button goes down on the object; true: the drag is its own. */
+  down(event: TargetEvent): boolean;
+  move(event: TargetEvent): void;
+  /** The drag ends; `isCancelled`: it is to be undone. */
+  up(event: TargetEvent, isCancelled: boolean): void;
+}
+
+/** A text that stands at an object; the scene lays labels out so that they do not pile up. */
+export interface Label {
+  readonly anchor: Object3D;
+  text: string;
+  /** Second text, shown while the label is hovered: "in camera_base". */
+  detail: string;
+  remove(): void;
+}
+
+/** A rectangle of the picture [px]. */
+export interface PictureBox {
+  readonly left: number;
+  readonly top: number;
+  readonly right: number;
+  readonly bottom: number;
+}
+
+/** Widths of the canvas' edges that panels cover [px]. */
+export interface Insets {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+
+export type SceneStatus =
+  | { readonly kind: "drawing" }
+  /** The graphics context was lost; the browser may give it back. */
+  | { readonly kind: "lost" }
+  /** Nothing can be drawn; the reason is a sentence. */
+  | { readonly kind: "unsupported"; readonly reason: string };
+
+/** Steps of a picture other than the scene itself: shadow maps before it, outlines after it. */
+export interface DrawStep {
+  before?(renderer: WebGLRenderer, camera: Camera): void;
+  after?(renderer: WebGLRenderer, camera: Camera): void;
+}
+
+export interface SceneView {
+  readonly status: ReadonlySignal<SceneStatus>;
+  /** Root of displays, in the fixed frame: x forward, z up [m]. */
+  readonly displays: Group;
+  /** Root of the simulated world, placed at its frame in the fixed frame. */
+  readonly world: Group;
+  readonly camera: ReadonlySignal<Camera>;
+  /** Element that has the pointer's events. */
+  readonly element: HTMLElement;
+  /** Size of the element [px]. */
+  readonly size: ReadonlySignal<{ readonly width: number; readonly height: number }>;
+  /** Parts of the element under panels; the camera's target stays in the middle of the rest. */
+  readonly freeArea: Signal<Insets>;
+  /** CSS colour behind everything, as "#16191c" or "rgb(22, 25, 28)". */
+  readonly background: Signal<string>;
+  /** The ground's grid. */
+  readonly grid: Signal<boolean>;
+  /** Draw at the next frame: nothing is drawn while nothing changes. */
+  invalidate(): void;
+  /** Call at each animation frame with the seconds since the last one; returns how to stop it. */
+  onTick(callback: (elapsed: number) => void): () => void;
+  addStep(step: DrawStep): () => void;
+  /** What lies under a point of the element [px]; null: nothing. */
+  pick(x: number, y: number): Pick | null;
+  /** What lies within a box of the element [px], at most `limit`. */
+  pickBox(box: PictureBox, limit: number): readonly Pick[];
+  /** Ray from the camera through a point of the element, in the fixed frame. */
+  ray(x: number, y: number): Ray;
+  /** Where a point of the element meets the plane z = 0 of the fixed frame. */
+  pickGround(x: number, y: number): Vector3 | null;
+  addLabel(anchor: Object3D, text: string): Label;
+}

@@ -1,0 +1,121 @@
+/** The simulated world as the server describes it (docs/decisions/0020). */
+
+import type { ReadonlySignal, Signal } from "@preact/signals";
+import type { Box3, Object3D } from "three";
+
+import type { Transform } from "../frames/transform";
+
+export type SixNumbers = readonly [number, number, number, number, number, number];
+export type Colour = readonly [number, number, number];
+
+export interface SensorInfo {
+  readonly name: string;
+  readonly type: string;
+  readonly rate: number;
+  readonly topic: string | null;
+}
+
+export interface LinkInfo {
+  readonly name: string;
+  readonly body: number;
+  readonly mass: number;
+  readonly inertia: SixNumbers;
+  readonly inertial_pose: SixNumbers;
+  readonly friction: readonly [number, number] | null;
+  readonly source: string | null;
+  readonly sensors: readonly SensorInfo[];
+}
+
+export interface JointInfo {
+  readonly name: string;
+  readonly type: string;
+  readonly parent: string;
+  readonly child: string;
+  readonly lower: number | null;
+  readonly upper: number | null;
+  readonly index: number | null;
+  readonly source: string | null;
+}
+
+export interface ModelInfo {
+  readonly name: string;
+  readonly static: boolean;
+  readonly source: string | null;
+  readonly links: readonly LinkInfo[];
+  readonly joints: readonly JointInfo[];
+  readonly plugins: readonly { readonly name: string; readonly filename: string }[];
+  readonly models: readonly ModelInfo[];
+}
+
+export interface CameraInfo {
+  readonly name: string;
+  readonly topic: string;
+  readonly body: number;
+  readonly pose: SixNumbers;
+  readonly horizontal_fov: number;
+  readonly width: number;
+  readonly height: number;
+  readonly rate: number;
+}
+
+export interface Manifest {
+  readonly generation: number;
+  readonly name: string;
+  readonly files: readonly { readonly id: string; readonly url: string }[];
+  readonly collisions: string | null;
+  readonly scene: {
+    readonly ambient: Colour;
+    readonly background: Colour;
+    readonly sky: boolean;
+    readonly shadows: boolean;
+    readonly grid: boolean;
+    readonly fog: {
+      readonly type: string;
+      readonly color: Colour;
+      readonly start: number;
+      readonly end: number;
+      readonly density: number;
+    } | null;
+  };
+  readonly robot: number | null;
+  readonly models: readonly ModelInfo[];
+  readonly lights: readonly { readonly name: string; readonly type: string }[];
+  readonly cameras: readonly CameraInfo[];
+  readonly frames: readonly { readonly frame: string; readonly parent: string; readonly body: number }[];
+}
+
+/** The clock of the simulation or recording. */
+export interface WorldState {
+  readonly time_ns: number;
+  readonly paused: boolean;
+  readonly real_time_factor: number | null;
+  readonly speed: number | null;
+  readonly timeline?: { readonly start_ns: number; readonly end_ns: number };
+  readonly recording?: { readonly since_ns: number } | null;
+}
+
+/** Position [rad, m], velocity and effort of a joint. */
+export interface JointState {
+  readonly position: number;
+  readonly velocity: number;
+  readonly effort: number;
+}
+
+export interface SimulatedWorld {
+  /** Null where nothing is simulated or recorded. */
+  readonly manifest: ReadonlySignal<Manifest | null>;
+  readonly state: ReadonlySignal<WorldState | null>;
+  /** Share of the files that has arrived, 0…1. */
+  readonly progress: ReadonlySignal<number>;
+  /** Sentences about files that could not be shown. */
+  readonly faults: ReadonlySignal<readonly string[]>;
+  /** Changes at 10 Hz while something listens. */
+  readonly joints: ReadonlySignal<readonly JointState[]>;
+  readonly showCollisions: Signal<boolean>;
+  /** Names (`model` or `model::link`) that are hidden. */
+  readonly hidden: Signal<ReadonlySet<string>>;
+  /** Newest pose of a body in the world; null before the first. */
+  pose(body: number): Transform | null;
+  object(body: number): Object3D | null;
+  bounds(bodies: readonly number[]): Box3;
+}

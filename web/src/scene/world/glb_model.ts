@@ -1,0 +1,124 @@
+/** A GLB file of the simulated world: its bodies, with materials that shade as Trundle's renderer does. */
+
+import { Group, Mesh, SkinnedMesh, type BufferGeometry, type Light, type MeshStandardMaterial, type Object3D, type ShaderMaterial, type Texture } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+import { sdfColours, sdfMaterial } from "./sdf_material";
+import { CASTERS } from "./shadow_map";
+import type { WorldLighting } from "./world_lighting";
+
+/** Geometries and textures that several files have, by the names of their contents. */
+export class SharedContents {
+  private readonly geometries = new Map<string, BufferGeometry>();
+  private readonly textures = new Map<string, Texture>();
+
+  geometry(own: BufferGeometry): BufferGeometry {
+    return shared(this.geometries, own.userData["content"], own);
+  }
+
+  texture(own: Texture): Texture {
+    const { offset, repeat } = own;
+    const name = own.name === "" ? "" : [own.name, offset.x, offset.y, repeat.x, repeat.y].join(" ");
+    return shared(this.textures, name, own);
+  }
+
+  /** Everything is dropped: another world. */
+  dispose(): void {
+    for (const each of [...this.geometries.values(), ...this.textures.values()]) each.dispose();
+    this.geometries.clear();
+    this.textures.clear();
+  }
+}
+
+function shared<T>(known: Map<string, T>, name: unknown, own: T): T {
+  if (typeof name !== "string" || name === "") return own;
+  const found = known.get(name) ?? own;
+  known.set(name, found);
+  return found;
+}
+
+export class GlbModel {
+  /** In the world's frame, z up. */
+  readonly root = new Group();
+  readonly bodies = new Map<number, Object3D>();
+  private readonly materials = new Map<string, ShaderMaterial>();
+
+  private constructor(
+    private readonly lighting: WorldLighting,
+    private readonly contents: SharedContents,
+  ) {}
+
+  /** Read a file; `path`: where the files lie that it names. */
+  static async read(data: ArrayBuffer, path: string, lighting: WorldLighting, contents: SharedContents): Promise<GlbModel> {
+    const loader = new GLTFLoader();
+    const gltf = await loader.parseAsync(data, path);
+    const model = new GlbModel(lighting, contents);
+    for (const turned of [...gltf.scene.children]) {
+      turned.quaternion.identity(); // the root turns z up into y up
+      model.root.add(turned);
+    }
+    model.root.traverse((object) => model.prepare(object));
+    return model;
+  }
+
+  dispose(): void {
+    for (const material of this.materials.values()) {
+      this.lighting.forget(material);
+      material.dispose();
+    }
+  }
+
+  private prepare(object: Object3D): void {
+    const body: unknown = object.userData["body"];
+    if (typeof body === "number") this.bodies.set(body, object);
+    else if (!isLight(object)) {
+      object.updateMatrix();
+      object.matrixAutoUpdate = false;
+    }
+    if (!(object instanceof Mesh)) return;
+    const mesh = object as Mesh;
+    mesh.geometry = this.contents.geometry(mesh.geometry);
+    const standard = mesh.material as MeshStandardMaterial;
+    const material = this.materialOf(standard, !mesh.geometry.hasAttribute("normal"));
+    mesh.material = material;
+    const extras = { ...mesh.parent?.userData, ...mesh.userData } as Record<string, unknown>;
+    if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false; // its bones move it out of its own bounds
+    if (extras["casts_shadow"] !== false && !material.transparent) mesh.layers.enable(CASTERS);
+  }
+
+  private materialOf(standard: MeshStandardMaterial, isFlat: boolean): ShaderMaterial {
+    const key = `${standard.uuid} ${isFlat}`;
+    const known = this.materials.get(key);
+    if (known !== undefined) return known;
+    const texture = standard.map === null ? null : this.contents.texture(standard.map);
+    const material = sdfMaterial(sdfColours(standard), texture, isFlat, this.lighting);
+    this.materials.set(key, material);
+    return material;
+  }
+}
+
+function isLight(object: Object3D): boolean {
+  return (object as Partial<Light>).isLight === true;
+}
+
+/** Bytes of a file, with the share that has arrived, 0…1. */
+export async function fetchBytes(url: string, onShare: (share: number) => void, signal: AbortSignal): Promise<ArrayBuffer> {
+  const response = await fetch(url, { signal });
+  if (!response.ok) throw new Error(`${url}: the server answered ${response.status}`);
+  const total = Number(response.headers.get("content-length") ?? 0);
+  const isEncoded = response.headers.get("content-encoding") !== null; // the length is that of the encoded bytes
+  if (response.body === null || total === 0 || isEncoded) return response.arrayBuffer();
+  const bytes = new Uint8Array(total);
+  let at = 0;
+  const reader = response.body.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    if (at + value.length > total) throw new Error(`${url}: longer than the server said`);
+    bytes.set(value, at);
+    at += value.length;
+    onShare(at / total);
+  }
+  if (at < total) throw new Error(`${url}: cut short after ${at} of ${total} bytes`);
+  return bytes.buffer;
+}

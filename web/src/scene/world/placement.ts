@@ -1,0 +1,75 @@
+/**
+ * Place of the simulated world in the fixed frame.
+ *
+ * A frame that a body carries is in both: its pose in the world comes with the bodies' poses, its pose in the fixed
+ * frame from tf. Both are taken at one time, so that the world stands still while the robot moves.
+ */
+
+import { Matrix4, Quaternion, Vector3, type Group } from "three";
+
+import type { FrameTree } from "../../frames/frame_tree";
+import { NoTransform, type Transform } from "../../frames/transform";
+import type { Manifest } from "../simulated_world";
+import type { BodyPoses } from "./body_poses";
+
+/** Poses that are kept until tf has caught up. */
+const KEPT = 64;
+/** Smaller changes are rounding [m]. */
+const STILL = 1e-4;
+const ONE = new Vector3(1, 1, 1);
+
+export class WorldPlacement {
+  private readonly past: { readonly time: bigint; readonly pose: Transform }[] = [];
+  private anchor: Manifest["frames"][number] | null = null;
+  private readonly matrix = new Matrix4();
+  private readonly other = new Matrix4();
+
+  constructor(
+    private readonly group: Group,
+    private readonly poses: BodyPoses,
+    private readonly frames: FrameTree,
+  ) {}
+
+  /** Poses have come: remember where the anchor was. */
+  remember(manifest: Manifest): void {
+    const anchor = manifest.frames.find(({ body }) => body === manifest.robot) ?? manifest.frames[0] ?? null;
+    if (anchor?.frame !== this.anchor?.frame || anchor?.body !== this.anchor?.body) this.past.length = 0;
+    this.anchor = anchor;
+    const pose = anchor === null ? null : this.poses.pose(anchor.body);
+    if (pose === null || this.poses.time === this.past[this.past.length - 1]?.time) return;
+    this.past.push({ time: this.poses.time, pose });
+    if (this.past.length > KEPT) this.past.shift();
+  }
+
+  /** Move the world to its place; true if it moved. */
+  update(manifest: Manifest, fixedFrame: string): boolean {
+    const found = this.find(manifest, fixedFrame.replace(/^\//, ""));
+    if (found === null) return false;
+    const [x = 0, y = 0, z = 0] = [12, 13, 14].map((i) => (found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0));
+    const turned = [0, 1, 4, 5].some((i) => Math.abs((found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0)) > STILL);
+    if (Math.hypot(x, y, z) < STILL && !turned) return false;
+    found.decompose(this.group.position, this.group.quaternion, this.group.scale);
+    this.group.updateMatrix();
+    return true;
+  }
+
+  private find(manifest: Manifest, fixedFrame: string): Matrix4 | null {
+    const carried = manifest.frames.find(({ frame }) => frame === fixedFrame);
+    const body = carried === undefined ? null : this.poses.pose(carried.body);
+    if (body !== null) return this.set(this.matrix, body).invert();
+    if (this.anchor === null || fixedFrame === "world") return this.matrix.identity();
+    for (let i = this.past.length - 1; i >= 0; i -= 1) {
+      const past = this.past[i];
+      if (past === undefined) break;
+      const inFixed = this.frames.lookup(fixedFrame, this.anchor.frame, past.time);
+      if (inFixed instanceof NoTransform) continue;
+      this.past.splice(0, i); // older ones are not asked for again
+      return this.set(this.matrix, inFixed).multiply(this.set(this.other, past.pose).invert());
+    }
+    return null;
+  }
+
+  private set(matrix: Matrix4, { position, orientation }: { readonly position: Vector3; readonly orientation: Quaternion }): Matrix4 {
+    return matrix.compose(position, orientation, ONE);
+  }
+}

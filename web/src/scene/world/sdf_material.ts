@@ -1,0 +1,69 @@
+/** Materials of the simulated world: colours of SDF, from `extras.sdf` of a GLB. */
+
+import { Color, FrontSide, Matrix3, ShaderMaterial, Vector4, type Material, type Texture } from "three";
+
+import { VERTEX_SHADER } from "./sdf_shader";
+import type { WorldLighting } from "./world_lighting";
+
+/** Sharpness of textures seen at a slant. */
+const ANISOTROPY = 4;
+
+type Rgba = readonly [number, number, number, number];
+
+/** Colours as SDF has them, each component 0…1. */
+export interface SdfColours {
+  readonly ambient: Rgba;
+  readonly diffuse: Rgba;
+  readonly specular: Rgba;
+  readonly emissive: Rgba;
+  readonly shininess: number;
+}
+
+const GREY: Rgba = [0.7, 0.7, 0.7, 1];
+
+/** The colours of a GLB's material; of one that is not ours, its base colour. */
+export function sdfColours(material: Material): SdfColours {
+  const found = material.userData["sdf"] as Partial<SdfColours> | undefined;
+  const base = "color" in material && material.color instanceof Color ? material.color.clone().convertLinearToSRGB() : null;
+  const plain: Rgba = base === null ? GREY : [base.r, base.g, base.b, material.opacity];
+  const { diffuse = plain, specular = [0, 0, 0, 1], emissive = [0, 0, 0, 1], shininess = 16 } = found ?? {};
+  return { ambient: found?.ambient ?? diffuse, diffuse, specular, emissive, shininess };
+}
+
+/** What a visual looks like; `isFlat`: its geometry has no normals. */
+export function sdfMaterial(colours: SdfColours, texture: Texture | null, isFlat: boolean, lighting: WorldLighting): ShaderMaterial {
+  const { ambient, diffuse, specular, emissive, shininess } = colours;
+  const own: ShaderMaterial["uniforms"] = {
+    ambient: { value: new Color(...rgb(ambient)) },
+    diffuse: { value: new Vector4(...diffuse) },
+    specular: { value: new Color(...rgb(specular)) },
+    emissive: { value: new Color(...rgb(emissive)) },
+    shininess: { value: shininess },
+  };
+  const defines: Record<string, string> = {};
+  if (isFlat) defines["FLAT"] = "";
+  if (texture !== null) {
+    defines["TEXTURED"] = "";
+    texture.colorSpace = ""; // its numbers are used as they are
+    texture.anisotropy = ANISOTROPY;
+    texture.updateMatrix();
+    own["image"] = { value: texture };
+    own["uvTransform"] = { value: new Matrix3().copy(texture.matrix) };
+  }
+  const isTransparent = diffuse[3] < 1;
+  const material = new ShaderMaterial({
+    vertexShader: VERTEX_SHADER,
+    fragmentShader: "",
+    uniforms: own,
+    defines,
+    side: FrontSide,
+    transparent: isTransparent,
+    depthWrite: !isTransparent,
+  });
+  lighting.light(material);
+  return material;
+}
+
+function rgb([red, green, blue]: Rgba): [number, number, number] {
+  return [red, green, blue];
+}

@@ -1,0 +1,170 @@
+/** Outlines of what is selected: thin around a model, broad around a link; seen through what is before it. */
+
+import { effect } from "@preact/signals";
+import {
+  Box2, Box3, BufferGeometry, Color, DoubleSide, Float32BufferAttribute, Mesh, MeshBasicMaterial, OrthographicCamera, Scene, ShaderMaterial,
+  Vector2, Vector3, Vector4, WebGLRenderTarget, type Camera, type Object3D, type WebGLRenderer,
+} from "three";
+
+import type { SimulatedWorld } from "../simulated_world";
+import type { ThreeScene } from "../three_scene";
+
+const THIN = 2;
+const BROAD = 3;
+/** [px] */
+const WIDTHS = [1, 2];
+/** What an outline needs around its object [device px]. */
+const MARGIN = 6;
+
+const VERTEX = /* glsl */ `
+varying vec2 at;
+void main() {
+  at = 0.5 * position.xy + 0.5;
+  gl_Position = vec4(position.xy, 0.0, 1.0);
+}`;
+
+/** Red is what has a thin outline, green what has a broad one; an outline lies just outside. */
+const FRAGMENT = /* glsl */ `
+varying vec2 at;
+uniform sampler2D mask;
+uniform vec2 pixel;
+uniform vec2 widths;
+uniform vec3 colour;
+void main() {
+  vec2 own = texture2D(mask, at).rg;
+  vec2 most = vec2(0.0);
+  for (int i = 0; i < 12; i++) {
+    float angle = 6.2831853 * float(i) / 12.0;
+    vec2 way = vec2(cos(angle), sin(angle)) * pixel;
+    most.r = max(most.r, texture2D(mask, at + way * widths.x).r);
+    most.g = max(most.g, max(texture2D(mask, at + way * widths.y).g, texture2D(mask, at + 0.5 * way * widths.y).g));
+  }
+  vec2 edge = clamp(most - own, 0.0, 1.0);
+  gl_FragColor = vec4(colour, max(edge.r, edge.g));
+}`;
+
+/** Bodies with outlines. */
+export interface Outlined {
+  readonly thin: readonly number[];
+  readonly broad: readonly number[];
+}
+
+export class SelectionOutline {
+  private readonly target;
+  private readonly fill = new MeshBasicMaterial({ side: DoubleSide, depthTest: false, depthWrite: false });
+  private readonly quad = new Scene();
+  private readonly quadCamera = new OrthographicCamera();
+  private readonly material: ShaderMaterial;
+  private readonly size = new Vector2();
+  private marked: Object3D[] = [];
+  private readonly stops: (() => void)[];
+
+  /** `outlined` is called again when a signal changes that it reads. */
+  constructor(
+    private readonly scene: ThreeScene,
+    world: SimulatedWorld,
+    outlined: () => Outlined,
+  ) {
+    this.target = new WebGLRenderTarget(1, 1, { samples: scene.isSlow ? 0 : 4 });
+    const uniforms = { mask: { value: this.target.texture }, pixel: { value: new Vector2() }, widths: { value: new Vector2() }, colour: { value: new Color() } };
+    this.material = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, transparent: true, depthTest: false, depthWrite: false });
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
+    const triangle = new Mesh(geometry, this.material);
+    triangle.frustumCulled = false;
+    this.quad.add(triangle);
+    this.stops = [
+      scene.addStep({ after: (renderer, camera) => this.draw(renderer, camera) }),
+      effect(() => {
+        world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- models that come are outlined, too
+        this.mark(world, outlined());
+      }),
+    ];
+  }
+
+  dispose(): void {
+    for (const stop of this.stops) stop();
+    this.target.dispose();
+    this.material.dispose();
+  }
+
+  private mark(world: SimulatedWorld, { thin, broad }: Outlined): void {
+    const everywhere = (object: Object3D, act: (part: Object3D) => void): void => {
+      object.traverse(act);
+      this.scene.invalidate();
+    };
+    for (const object of this.marked) {
+      everywhere(object, ({ layers }) => {
+        layers.disable(THIN);
+        layers.disable(BROAD);
+      });
+    }
+    this.marked = [];
+    for (const [bodies, layer] of [[thin, THIN], [broad, BROAD]] as const) {
+      for (const body of bodies) {
+        const object = world.object(body);
+        if (object === null) continue;
+        everywhere(object, ({ layers }) => layers.enable(layer));
+        this.marked.push(object);
+      }
+    }
+  }
+
+  private draw(renderer: WebGLRenderer, camera: Camera): void {
+    if (this.marked.length === 0) return;
+    renderer.getDrawingBufferSize(this.size);
+    if (this.target.width !== this.size.x || this.target.height !== this.size.y) this.target.setSize(this.size.x, this.size.y);
+    const { mask: layers } = camera.layers;
+    const [clear, alpha] = [renderer.getClearColor(new Color()), renderer.getClearAlpha()];
+    const bounds = this.findBounds(camera);
+    renderer.setClearColor(0x000000, 0);
+    this.target.scissorTest = true;
+    this.target.scissor.set(bounds.x - MARGIN, bounds.y - MARGIN, bounds.z + 2 * MARGIN, bounds.w + 2 * MARGIN);
+    renderer.setRenderTarget(this.target);
+    renderer.clear();
+    renderer.autoClear = false;
+    this.scene.scene.overrideMaterial = this.fill;
+    for (const [layer, colour] of [[THIN, 0xff0000], [BROAD, 0xffff00]] as const) {
+      camera.layers.set(layer);
+      this.fill.color.set(colour);
+      renderer.render(this.scene.scene, camera);
+    }
+    camera.layers.mask = layers;
+    this.scene.scene.overrideMaterial = null;
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(clear, alpha);
+    const ratio = renderer.getPixelRatio();
+    this.setUniforms(ratio);
+    renderer.setScissor(bounds.divideScalar(ratio));
+    renderer.setScissorTest(true);
+    renderer.render(this.quad, this.quadCamera);
+    renderer.setScissorTest(false);
+    renderer.autoClear = true;
+  }
+
+  /** Rectangle of the picture that holds the outlines: x, y from below, width, height [device px]. */
+  private findBounds(camera: Camera): Vector4 {
+    const all = new Box3();
+    for (const object of this.marked) all.expandByObject(object);
+    const { x: width, y: height } = this.size;
+    const rectangle = new Box2();
+    for (let i = 0; i < 8 && !all.isEmpty(); i += 1) {
+      const corner = new Vector3(i & 1 ? all.max.x : all.min.x, i & 2 ? all.max.y : all.min.y, i & 4 ? all.max.z : all.min.z);
+      if (corner.applyMatrix4(camera.matrixWorldInverse).z > -1e-3) return new Vector4(0, 0, width, height); // beside or behind
+      corner.applyMatrix4(camera.projectionMatrix);
+      rectangle.expandByPoint(new Vector2((0.5 + corner.x / 2) * width, (0.5 + corner.y / 2) * height));
+    }
+    rectangle.expandByScalar(MARGIN).intersect(new Box2(new Vector2(), new Vector2(width, height)));
+    if (rectangle.isEmpty()) return new Vector4();
+    const { min, max } = rectangle;
+    return new Vector4(Math.floor(min.x), Math.floor(min.y), Math.ceil(max.x - min.x) + 1, Math.ceil(max.y - min.y) + 1);
+  }
+
+  private setUniforms(ratio: number): void {
+    const { pixel, widths, colour } = this.material.uniforms;
+    (pixel?.value as Vector2).set(1 / this.size.x, 1 / this.size.y);
+    (widths?.value as Vector2).fromArray(WIDTHS).multiplyScalar(ratio);
+    const accent = getComputedStyle(this.scene.element).getPropertyValue("--accent").trim() || "#3fbed0";
+    (colour?.value as Color).set(accent).convertLinearToSRGB();
+  }
+}

@@ -1,0 +1,215 @@
+/** The simulated world as the server's channels describe it, drawn in the scene. */
+
+import { effect, signal, type ReadonlySignal } from "@preact/signals";
+import { Box3, type Object3D } from "three";
+
+import type { FrameTree } from "../../frames/frame_tree";
+import type { Transform } from "../../frames/transform";
+import type { Connection } from "../../protocol/connection";
+import type { JointState, Manifest, SimulatedWorld, WorldState } from "../simulated_world";
+import type { ThreeScene } from "../three_scene";
+import { BodyPoses } from "./body_poses";
+import type { GlbModel } from "./glb_model";
+import { readJoints } from "./joint_states";
+import { WorldPlacement } from "./placement";
+import { Sky } from "./sky";
+import { WorldFiles } from "./world_files";
+import { readLines, WorldLines } from "./world_lines";
+import { WorldLighting } from "./world_lighting";
+
+export class WorldFeed implements SimulatedWorld {
+  readonly manifest = signal<Manifest | null>(null);
+  readonly state = signal<WorldState | null>(null);
+  readonly joints: ReadonlySignal<readonly JointState[]>;
+  readonly showCollisions = signal(false);
+  readonly hidden = signal<ReadonlySet<string>>(new Set());
+  private readonly lighting = new WorldLighting();
+  private readonly files: WorldFiles;
+  private readonly poses = new BodyPoses();
+  private readonly placement: WorldPlacement;
+  private readonly sky = new Sky();
+  private readonly lines = new WorldLines();
+  private readonly stops: (() => void)[] = [];
+  private collisionsAsked = new AbortController();
+  private collisions: { readonly url: string; readonly model: GlbModel } | null = null;
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly scene: ThreeScene,
+    frames: FrameTree,
+    private readonly fixedFrame: ReadonlySignal<string>,
+  ) {
+    this.files = new WorldFiles(scene.world, this.lighting, (came, gone) => this.onFiles(came, gone));
+    this.placement = new WorldPlacement(scene.world, this.poses, frames);
+    this.joints = this.listenToJoints();
+    this.sky.visible = false;
+    scene.world.add(this.sky, this.lines);
+    this.listen();
+  }
+
+  get progress(): ReadonlySignal<number> {
+    return this.files.progress;
+  }
+
+  get faults(): ReadonlySignal<readonly string[]> {
+    return this.files.faults;
+  }
+
+  pose(body: number): Transform | null {
+    return this.poses.pose(body);
+  }
+
+  object(body: number): Object3D | null {
+    return this.poses.object(body);
+  }
+
+  bounds(bodies: readonly number[]): Box3 {
+    const box = new Box3();
+    this.scene.world.updateWorldMatrix(true, true);
+    for (const body of bodies) {
+      const object = this.object(body);
+      if (object !== null) box.union(new Box3().setFromObject(object));
+    }
+    return box;
+  }
+
+  dispose(): void {
+    for (const stop of this.stops) stop();
+    this.files.show([]);
+    this.scene.world.remove(this.sky, this.lines);
+  }
+
+  private listen(): void {
+    const { connection, scene } = this;
+    const on = (topic: string, act: (payload: DataView) => void): void => {
+      const subscription = connection.subscribeRaw(topic, act);
+      this.stops.push(() => subscription.close());
+    };
+    on("trundle/world", (payload) => this.onManifest(parse(payload) as Manifest));
+    on("trundle/state", (payload) => {
+      this.state.value = parse(payload) as WorldState;
+    });
+    on("trundle/poses", (payload) => this.onPoses(payload));
+    on("trundle/lines", (payload) => {
+      const lines = readLines(payload);
+      if (lines === null) return;
+      this.lines.show(lines);
+      scene.invalidate();
+    });
+    this.stops.push(
+      scene.addStep({ before: (renderer) => this.lighting.update(renderer, scene.scene) }),
+      scene.onTick(() => this.place()),
+      effect(() => {
+        this.hide(this.hidden.value);
+      }),
+      effect(() => {
+        const url = this.manifest.value?.collisions ?? null;
+        this.setCollisions(this.showCollisions.value ? url : null);
+      }),
+      effect(() => {
+        if (connection.state.value.kind === "connected") return;
+        this.poses.forgetPoses(); // the server sends all of them again
+      }),
+    );
+  }
+
+  /** Joints are asked for only while something listens. */
+  private listenToJoints(): ReadonlySignal<readonly JointState[]> {
+    let stop: (() => void) | null = null;
+    const joints = signal<readonly JointState[]>([], {
+      watched: () => {
+        const subscription = this.connection.subscribeRaw("trundle/joints", (payload) => {
+          const read = readJoints(payload, this.manifest.peek()?.generation ?? -1);
+          if (read !== null) joints.value = read;
+        });
+        stop = () => subscription.close();
+      },
+      unwatched: () => {
+        stop?.();
+      },
+    });
+    return joints;
+  }
+
+  private onManifest(manifest: Manifest): void {
+    const before = this.manifest.peek();
+    if (before !== null && before.name !== manifest.name) this.poses.forgetPoses();
+    this.manifest.value = manifest;
+    const { scene } = manifest;
+    this.lighting.setScene(scene);
+    const background = scene.background.map((part) => Math.round(255 * part));
+    this.scene.background.value = `rgb(${background.join(", ")})`;
+    this.scene.grid.value = scene.grid;
+    this.sky.visible = scene.sky;
+    this.files.show(manifest.files);
+    this.lighting.setContents(this.scene.world, scene.shadows);
+    this.scene.invalidate();
+  }
+
+  private onPoses(payload: DataView): void {
+    const manifest = this.manifest.peek();
+    if (manifest === null || !this.poses.apply(payload, manifest.generation)) return;
+    this.placement.remember(manifest);
+    this.lighting.invalidate();
+    this.scene.invalidate();
+  }
+
+  private onFiles(came: GlbModel | null, gone: GlbModel | null): void {
+    for (const [body, object] of came?.bodies ?? []) this.poses.attach(body, object);
+    for (const object of gone?.bodies.values() ?? []) this.poses.detach(object);
+    this.hide(this.hidden.peek());
+    this.lighting.setContents(this.scene.world, this.manifest.peek()?.scene.shadows ?? false);
+    this.scene.invalidate();
+  }
+
+  private place(): void {
+    const manifest = this.manifest.peek();
+    if (manifest === null || !this.placement.update(manifest, this.fixedFrame.peek())) return;
+    this.lighting.invalidate();
+    this.scene.invalidate();
+  }
+
+  private hide(hidden: ReadonlySet<string>): void {
+    this.scene.world.traverse((object) => {
+      if (typeof object.userData["body"] === "number") object.visible = !isHidden(String(object.userData["name"]), hidden);
+    });
+    this.lighting.invalidate();
+    this.scene.invalidate();
+  }
+
+  /** Show the collisions of an address, each below its body; null: none. */
+  private setCollisions(url: string | null): void {
+    if ((this.collisions?.url ?? null) === url && url !== null) return;
+    if (this.collisions !== null) for (const shapes of this.collisions.model.bodies.values()) shapes.removeFromParent();
+    this.collisions?.model.dispose();
+    this.collisions = null;
+    this.scene.invalidate();
+    this.collisionsAsked.abort();
+    if (url === null) return;
+    const abort = new AbortController();
+    this.collisionsAsked = abort;
+    void this.files.read(url, () => undefined, abort.signal).then((model) => {
+      if (abort.signal.aborted) return;
+      this.collisions = { url, model };
+      for (const [body, shapes] of model.bodies) {
+        delete shapes.userData["body"]; // it belongs to the body that is there
+        shapes.position.set(0, 0, 0);
+        shapes.quaternion.identity();
+        this.object(body)?.add(shapes);
+      }
+      this.scene.invalidate();
+    }, (error: unknown) => {
+      if (!abort.signal.aborted) this.files.fault("Collisions", error);
+    });
+  }
+}
+
+function parse(payload: DataView): unknown {
+  return JSON.parse(new TextDecoder().decode(payload));
+}
+
+/** True if a link's name (`model::link`) or one of the models that it is in is hidden. */
+export function isHidden(name: string, hidden: ReadonlySet<string>): boolean {
+  const parts = name.split("::");
+  return parts.some((_, i) => hidden.has(parts.slice(0, i + 1).join("::")));
+}

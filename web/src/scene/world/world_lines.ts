@@ -1,0 +1,99 @@
+/** Lines that plugins draw and rays of lidars, from `trundle/lines`. */
+
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Line, LineBasicMaterial, LineSegments, SRGBColorSpace } from "three";
+
+import { NOT_PICKED } from "../picking";
+
+const HEADER = 12;
+const [STRIP, PAIRS] = [0, 1];
+
+interface ReadLine {
+  readonly id: string;
+  readonly rgba: readonly [number, number, number, number];
+  readonly kind: number;
+  readonly points: Float32Array;
+}
+
+/** Lines of a message; null: it is cut short. */
+export function readLines(message: DataView): ReadLine[] | null {
+  const lines: ReadLine[] = [];
+  const decoder = new TextDecoder();
+  try {
+    let at = HEADER;
+    for (let left = message.getUint32(8, true); left > 0; left -= 1) {
+      const length = message.getUint32(at, true);
+      const id = decoder.decode(new Uint8Array(message.buffer, message.byteOffset + at + 4, length));
+      at += 4 + length;
+      const byte = (i: number): number => message.getUint8(at + i) / 255;
+      const rgba = [byte(0), byte(1), byte(2), byte(3)] as const;
+      const kind = message.getUint32(at + 4, true);
+      const points = new Float32Array(3 * message.getUint32(at + 8, true));
+      at += 12;
+      for (let i = 0; i < points.length; i += 1, at += 4) points[i] = message.getFloat32(at, true);
+      lines.push({ id, rgba, kind, points });
+    }
+  } catch (error) {
+    if (error instanceof RangeError) return null;
+    throw error;
+  }
+  return lines;
+}
+
+export class WorldLines extends Group {
+  private readonly drawn = new Map<string, Line<BufferGeometry, LineBasicMaterial>>();
+
+  constructor() {
+    super();
+    this.userData[NOT_PICKED] = true;
+  }
+
+  /** Show the lines of a message instead of those before. */
+  show(lines: readonly ReadLine[]): void {
+    const gone = new Set(this.drawn.keys());
+    for (const line of lines) {
+      gone.delete(line.id);
+      this.draw(line);
+    }
+    for (const id of gone) this.drop(id);
+  }
+
+  private draw({ id, rgba: [red, green, blue, alpha], kind, points }: ReadLine): void {
+    let drawn = this.drawn.get(id);
+    if (drawn !== undefined && (drawn.type === "LineSegments") !== (kind === PAIRS)) {
+      this.drop(id);
+      drawn = undefined;
+    }
+    if (drawn === undefined) {
+      drawn = kind === STRIP ? new Line(new BufferGeometry(), new LineBasicMaterial()) : new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+      drawn.frustumCulled = false;
+      this.drawn.set(id, drawn);
+      this.add(drawn);
+    }
+    setPoints(drawn.geometry, points);
+    drawn.material.color.setRGB(red, green, blue, SRGBColorSpace);
+    drawn.material.opacity = alpha;
+    drawn.material.transparent = alpha < 1;
+  }
+
+  private drop(id: string): void {
+    const drawn = this.drawn.get(id);
+    if (drawn === undefined) return;
+    this.drawn.delete(id);
+    this.remove(drawn);
+    drawn.geometry.dispose();
+    drawn.material.dispose();
+  }
+}
+
+/** Set points in the buffer that is there, if they fit. */
+function setPoints(geometry: BufferGeometry, points: Float32Array): void {
+  const old = geometry.hasAttribute("position") ? geometry.getAttribute("position") : null;
+  if (old instanceof BufferAttribute && old.array.length >= points.length) {
+    old.array.set(points);
+    old.needsUpdate = true;
+  } else {
+    geometry.dispose();
+    geometry.setAttribute("position", new BufferAttribute(points, 3).setUsage(DynamicDrawUsage));
+  }
+  geometry.setDrawRange(0, points.length / 3);
+}

@@ -1,0 +1,80 @@
+/** Base of rviz's tools. */
+
+import { signal, type ReadonlySignal, type Signal } from "@preact/signals";
+
+import type { Selection } from "../app/page";
+import type { Property, Yaml, YamlMapping } from "../displays/properties";
+import type { Connection } from "../protocol/connection";
+import type { GraphNames } from "../protocol/graph_names";
+import type { RosMessage, RosTime } from "../protocol/ros_types";
+import type { SceneView } from "../scene/scene_view";
+import type { Views } from "../scene/view_controller";
+import type { PointerInput, Tool } from "./tool";
+
+/** What tools work with. */
+export interface ToolContext {
+  readonly connection: Pick<Connection, "publish" | "now">;
+  readonly names: GraphNames;
+  readonly scene: SceneView;
+  readonly views: Pick<Views, "focus">;
+  readonly fixedFrame: ReadonlySignal<string>;
+  readonly selection: Signal<Selection | null>;
+  readonly hovered: Signal<Selection | null>;
+}
+
+export abstract class BaseTool implements Tool {
+  abstract readonly className: string;
+  abstract readonly name: string;
+  abstract readonly shortcut: string;
+  abstract readonly icon: string;
+  readonly cursor: string = "crosshair";
+  readonly properties: Property<unknown>[] = [];
+  readonly hint = signal("");
+  /** Keys of the file that are not ours, kept as they were. */
+  private unknown: YamlMapping = {};
+
+  /** `finish`: its work is done, and the tool before it is used again. */
+  constructor(
+    protected readonly context: ToolContext,
+    protected readonly finish: () => void,
+  ) {}
+
+  abstract activate(): void;
+  abstract deactivate(): void;
+  abstract pointer(input: PointerInput): boolean;
+
+  protected add<P extends Property<unknown>>(property: P): P {
+    this.properties.push(property);
+    return property;
+  }
+
+  /** A header with the fixed frame and the time now. */
+  protected header(): RosMessage {
+    return { seq: 0, stamp: timeOf(this.context.connection.now()), frame_id: this.context.fixedFrame.peek() };
+  }
+
+  save(): YamlMapping {
+    const saved: Record<string, Yaml> = { ...this.unknown, Class: this.className };
+    for (const property of this.properties) {
+      const yaml = property.save();
+      if (yaml !== undefined) saved[property.name] = yaml;
+    }
+    return saved;
+  }
+
+  load(yaml: YamlMapping): string[] {
+    const faults: string[] = [];
+    const unknown: Record<string, Yaml> = {};
+    for (const [key, value] of Object.entries(yaml)) {
+      const property = this.properties.find(({ name }) => name === key);
+      if (property !== undefined) faults.push(...property.load(value).map((fault) => `${this.name}/${fault}`));
+      else if (key !== "Class") unknown[key] = value;
+    }
+    this.unknown = unknown;
+    return faults;
+  }
+}
+
+function timeOf(nanoseconds: bigint): RosTime & RosMessage {
+  return { sec: Number(nanoseconds / 1_000_000_000n), nsec: Number(nanoseconds % 1_000_000_000n) };
+}

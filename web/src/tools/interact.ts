@@ -1,0 +1,80 @@
+/** rviz's Interact: presses what has handlers, such as interactive markers; elsewhere a drag is the camera's. */
+
+import { BoolProperty } from "../displays/properties";
+import type { PointerTarget, TargetEvent } from "../scene/scene_view";
+import { BaseTool } from "./base_tool";
+import { pointerTargetOf, selectionOf } from "./picked";
+import type { PointerInput } from "./tool";
+
+export class Interact extends BaseTool {
+  readonly className = "rviz/Interact";
+  readonly name = "Interact";
+  readonly shortcut = "i";
+  readonly icon = "interact";
+  override readonly cursor = "default";
+  readonly hideInactive = this.add(new BoolProperty("Hide Inactive Objects", true));
+  private hoveredTarget: PointerTarget | null = null;
+  private dragged: PointerTarget | null = null;
+  private waiting: PointerInput | null = null;
+  private stop: (() => void) | null = null;
+
+  activate(): void {
+    this.hint.value = "Click selects. Drag turns the camera, or moves what can be moved.";
+    this.stop = this.context.scene.onTick(() => this.hover());
+  }
+
+  deactivate(): void {
+    this.stop?.();
+    this.setHovered(null);
+    this.context.hovered.value = null;
+    this.dragged = null;
+  }
+
+  pointer(input: PointerInput): boolean {
+    if (this.dragged !== null) return this.drag(this.dragged, input);
+    if (input.kind === "move") this.waiting = input;
+    else if (input.kind === "down") return this.press(input);
+    else if (input.kind === "up" && input.button === 0) this.context.selection.value = selectionOf(this.context.scene.pick(input.x, input.y));
+    return false;
+  }
+
+  private press(input: PointerInput): boolean {
+    const event = this.eventOf(input);
+    const target = event.pick === null ? null : pointerTargetOf(event.pick.object);
+    if (target?.down(event) !== true) return false;
+    this.dragged = target;
+    return true;
+  }
+
+  private drag(target: PointerTarget, input: PointerInput): boolean {
+    if (input.kind === "move") target.move({ ...this.eventOf(input), pick: null });
+    if (input.kind === "up" || input.kind === "cancel") {
+      this.dragged = null;
+      target.up(this.eventOf(input), input.kind === "cancel");
+    }
+    return true;
+  }
+
+  /** Once a frame, since a search takes a while in a large world. */
+  private hover(): void {
+    const input = this.waiting;
+    this.waiting = null;
+    if (input === null || input.button >= 0) return;
+    const pick = this.context.scene.pick(input.x, input.y);
+    this.setHovered(pick === null ? null : pointerTargetOf(pick.object));
+    const selection = selectionOf(pick);
+    this.context.hovered.value = selection?.kind === "link" ? selection : null;
+  }
+
+  private setHovered(target: PointerTarget | null): void {
+    if (target === this.hoveredTarget) return;
+    this.hoveredTarget?.hover(false);
+    this.hoveredTarget = target;
+    target?.hover(true);
+  }
+
+  private eventOf({ x, y, button, shift, control }: PointerInput): TargetEvent {
+    const { scene } = this.context;
+    return { x, y, ray: scene.ray(x, y), pick: scene.pick(x, y), button, shift, control };
+  }
+}

@@ -1,0 +1,23 @@
+/** rviz's MoveCamera: every drag is the camera's. */
+
+import { BaseTool } from "./base_tool";
+
+export class MoveCamera extends BaseTool {
+  readonly className = "rviz/MoveCamera";
+  readonly name = "Move Camera";
+  readonly shortcut = "m";
+  readonly icon = "camera_move";
+  override readonly cursor = "default";
+
+  activate(): void {
+    this.hint.value = "Left: turn. Middle: shift. Right or wheel: zoom. Shift: more.";
+  }
+
+  deactivate(): void {
+    // nothing is kept
+  }
+
+  pointer(): boolean {
+    return false;
+  }
+}

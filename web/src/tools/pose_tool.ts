@@ -1,0 +1,79 @@
+/** Base of the tools that set a pose on the ground: press for the place, drag for the yaw. */
+
+import { Vector3 } from "three";
+
+import { Arrow } from "../displays/shapes/arrow";
+import type { Rgb } from "../displays/properties";
+import type { RosMessage } from "../protocol/ros_types";
+import { NOT_PICKED } from "../scene/picking";
+import { BaseTool } from "./base_tool";
+import type { PointerInput } from "./tool";
+
+/** rviz's arrow [m]. */
+const PROPORTIONS = { shaftLength: 2, shaftDiameter: 0.2, headLength: 0.5, headDiameter: 0.35 };
+/** Share of the distance to the camera that the arrow is long; rviz's has a fixed size. */
+const LENGTH = 0.12;
+
+export abstract class PoseTool extends BaseTool {
+  protected abstract readonly color: Rgb;
+  private start: Vector3 | null = null;
+  private yaw = 0;
+  private readonly arrow = new Arrow(PROPORTIONS);
+
+  activate(): void {
+    this.hint.value = "Press where it is, drag to where it looks.";
+    this.arrow.setColor(this.color);
+    this.arrow.userData[NOT_PICKED] = true;
+  }
+
+  deactivate(): void {
+    this.start = null;
+    this.arrow.removeFromParent();
+    this.context.scene.invalidate();
+  }
+
+  pointer(input: PointerInput): boolean {
+    if (input.kind === "down") return input.button === 0 && this.press(input);
+    const { start } = this;
+    if (start === null) return false;
+    if (input.kind === "move") this.turn(start, input);
+    else if (input.kind === "cancel") this.deactivate();
+    else {
+      this.deactivate();
+      this.publish(start, this.yaw);
+      this.finish();
+    }
+    return true;
+  }
+
+  /** Send the pose: a place on the ground of the fixed frame, and the yaw [rad]. */
+  protected abstract publish(position: Vector3, yaw: number): void;
+
+  protected poseOf({ x, y }: Vector3, yaw: number): RosMessage {
+    return { position: { x, y, z: 0 }, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } };
+  }
+
+  private press(input: PointerInput): boolean {
+    const { scene } = this.context;
+    this.start = scene.pickGround(input.x, input.y);
+    if (this.start === null) return false;
+    this.yaw = 0;
+    const size = this.start.distanceTo(scene.ray(input.x, input.y).origin) * LENGTH;
+    this.arrow.scale.setScalar(size / (PROPORTIONS.shaftLength + PROPORTIONS.headLength));
+    this.arrow.position.copy(this.start);
+    this.arrow.rotation.set(0, 0, 0);
+    scene.displays.add(this.arrow);
+    scene.invalidate();
+    return true;
+  }
+
+  private turn(start: Vector3, { x, y }: PointerInput): void {
+    const to = this.context.scene.pickGround(x, y);
+    if (to === null || to.distanceTo(start) < 1e-6) return;
+    this.yaw = Math.atan2(to.y - start.y, to.x - start.x);
+    this.arrow.rotation.set(0, 0, this.yaw);
+    const degrees = ((this.yaw * 180) / Math.PI).toFixed(0);
+    this.hint.value = `x ${start.x.toFixed(2)} m, y ${start.y.toFixed(2)} m, yaw ${degrees}°`.replace(/-/g, "−");
+    this.context.scene.invalidate();
+  }
+}

@@ -1,0 +1,23 @@
+/** rviz's SetGoal, "2D Nav Goal": tells a navigation where to go. */
+
+import type { Vector3 } from "three";
+
+import { TopicProperty, type Rgb } from "../displays/properties";
+import { PoseTool } from "./pose_tool";
+
+const TYPE = "geometry_msgs/PoseStamped";
+
+export class SetGoal extends PoseTool {
+  readonly className = "rviz/SetGoal";
+  readonly name = "2D Nav Goal";
+  readonly shortcut = "g";
+  readonly icon = "pose";
+  protected override readonly color: Rgb = [255, 0, 255];
+  readonly topic = this.add(new TopicProperty("Topic", "/move_base_simple/goal", [TYPE]));
+
+  protected override publish(position: Vector3, yaw: number): void {
+    const message = { header: this.header(), pose: this.poseOf(position, yaw) };
+    const { connection, names } = this.context;
+    connection.publish(names.resolve(this.topic.value.peek()), TYPE, message);
+  }
+}

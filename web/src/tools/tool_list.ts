@@ -1,0 +1,85 @@
+/** The tools of the page, one of which is on. */
+
+import { signal, type ReadonlySignal } from "@preact/signals";
+
+import type { YamlMapping } from "../displays/properties";
+import type { BaseTool, ToolContext } from "./base_tool";
+import { FocusCamera } from "./focus_camera";
+import { Interact } from "./interact";
+import { Measure } from "./measure";
+import { MoveCamera } from "./move_camera";
+import { PublishPoint } from "./publish_point";
+import { Select } from "./select";
+import { SetGoal } from "./set_goal";
+import { SetInitialPose } from "./set_initial_pose";
+import type { PointerInput, ToolBox } from "./tool";
+
+/** In rviz's order. */
+const CLASSES = [Interact, MoveCamera, Select, FocusCamera, Measure, SetInitialPose, SetGoal, PublishPoint];
+/** ROS 2's classes have rviz's names; that of its goal is another. */
+const ALIASES: Readonly<Record<string, string>> = { SetGoal2D: "SetGoal" };
+/** Tools that stay on; the others go back to the one of these that was on last. */
+const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Select"];
+
+export class ToolList implements ToolBox {
+  readonly tools: readonly BaseTool[];
+  private readonly chosen;
+  private lasting: string = "rviz/Interact";
+  /** Entries of the file, in its order, with those that are no tools of ours. */
+  private entries: readonly YamlMapping[] = [];
+
+  constructor(context: ToolContext) {
+    const tools = CLASSES.map((Class) => new Class(context, () => this.use(this.lasting)));
+    const [interact] = tools;
+    if (interact === undefined) throw new Error("there are no tools");
+    this.tools = tools;
+    this.chosen = signal<BaseTool>(interact);
+    this.start(interact);
+  }
+
+  get current(): ReadonlySignal<BaseTool> {
+    return this.chosen;
+  }
+
+  use(className: string): void {
+    const tool = this.tools.find((each) => each.className === className);
+    if (tool === undefined || tool === this.chosen.peek()) return;
+    this.chosen.peek().deactivate();
+    this.chosen.value = tool;
+    this.start(tool);
+  }
+
+  /** Offer an event to the current tool; true: it was the tool's. */
+  pointer(input: PointerInput): boolean {
+    return this.chosen.peek().pointer(input);
+  }
+
+  save(): readonly YamlMapping[] {
+    const inFile = this.entries.map((entry) => this.find(classOf(entry)));
+    const saved = this.entries.map((entry, i): YamlMapping => ({ ...entry, ...inFile[i]?.save(), Class: classOf(entry) }));
+    return [...saved, ...this.tools.filter((tool) => !inFile.includes(tool)).map((tool) => tool.save())];
+  }
+
+  load(yaml: readonly YamlMapping[]): string[] {
+    this.entries = yaml;
+    return yaml.flatMap((entry) => {
+      const tool = this.find(classOf(entry));
+      return (tool?.load(entry) ?? [`there is no tool ${classOf(entry)}`]).map((fault) => `Tools: ${fault}`);
+    });
+  }
+
+  private find(className: string): BaseTool | undefined {
+    const [, short = ""] = className.split("/");
+    const name = `rviz/${ALIASES[short] ?? short}`;
+    return this.tools.find((tool) => tool.className === name);
+  }
+
+  private start(tool: BaseTool): void {
+    if (LASTING.includes(tool.className)) this.lasting = tool.className;
+    tool.activate();
+  }
+}
+
+function classOf(entry: YamlMapping): string {
+  return typeof entry["Class"] === "string" ? entry["Class"] : "";
+}

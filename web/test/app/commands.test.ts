@@ -1,0 +1,37 @@
+// @vitest-environment jsdom
+import { describe, expect, it } from "vitest";
+
+import { CommandList, keysOf, takesKeys } from "../../src/app/commands";
+
+const key = (init: KeyboardEventInit): KeyboardEvent => new KeyboardEvent("keydown", init);
+
+describe("keys", () => {
+  it("have the names that commands use", () => {
+    expect(keysOf(key({ key: " " }))).toBe("Space");
+    expect(keysOf(key({ key: "R", shiftKey: true }))).toBe("Shift R");
+    expect(keysOf(key({ key: "k", ctrlKey: true }))).toBe("Ctrl K");
+    expect(keysOf(key({ key: "?", shiftKey: true }))).toBe("?");
+    expect(keysOf(key({ key: "Z", ctrlKey: true, shiftKey: true }))).toBe("Ctrl Shift Z");
+  });
+
+  it("belong to a field that has the focus", () => {
+    const field = document.createElement("input");
+    const button = document.createElement("button");
+    expect(takesKeys(field, "w")).toBe(true);
+    expect(takesKeys(button, " ")).toBe(true);
+    expect(takesKeys(button, "w")).toBe(false);
+    expect(takesKeys(document.body, " ")).toBe(false);
+  });
+
+  it("run the command that can run, until it is removed", () => {
+    const commands = new CommandList();
+    let ran = 0;
+    let enabled = false;
+    const remove = commands.add({ id: "a", title: "A", group: "View", keys: "F", enabled: () => enabled, run: () => (ran += 1) });
+    expect(commands.press("F")).toBe(false);
+    enabled = true;
+    expect(commands.press("F")).toBe(true);
+    remove();
+    expect([commands.press("F"), ran]).toEqual([false, 1]);
+  });
+});

@@ -1,0 +1,78 @@
+// @vitest-environment jsdom
+import { signal } from "@preact/signals";
+import { Box3 } from "three";
+import { beforeEach, describe, expect, it } from "vitest";
+
+import { Shell } from "../../src/app/shell";
+import { startDisplays, startView } from "../../src/app/start";
+import { fakePage, type FakePage } from "../fake_page";
+import { MANIFEST } from "../harness/manifest";
+
+const shellOf = (page: FakePage): Shell => new Shell(page, [], page.commands, document.createElement("div"), signal(false));
+
+beforeEach(() => localStorage.clear());
+
+describe("what a page shows first", () => {
+  it("is the robot, once there is something of it to see, and once only", () => {
+    const page = fakePage();
+    const { extent } = page.world;
+    page.world.extent = new Box3();
+    page.world.manifest.value = MANIFEST;
+    startView(shellOf(page));
+    page.scene.tick();
+    expect(page.views.framed).toEqual([]);
+    page.world.extent = extent;
+    page.scene.tick();
+    page.scene.tick();
+    expect(page.views.framed).toEqual([extent]);
+  });
+
+  it("is left alone when a person has begun to look around, or a file says where to look from", () => {
+    const page = fakePage();
+    startView(shellOf(page));
+    page.scene.element.dispatchEvent(new Event("pointerdown"));
+    const filed = fakePage({ rviz: { name: "a.rviz", text: "", writable: false } });
+    startView(shellOf(filed));
+    for (const each of [page, filed]) {
+      each.world.manifest.value = MANIFEST;
+      each.scene.tick();
+      expect(each.views.framed).toEqual([]);
+    }
+  });
+
+  it("has no displays of what the simulated world draws itself", () => {
+    const page = fakePage();
+    const grid = page.displays.show("rviz/Grid", null, null);
+    const tf = page.displays.show("rviz/TF", null, null);
+    startDisplays(shellOf(page));
+    expect([grid.enabled.value.value, tf.enabled.value.value]).toEqual([false, true]);
+  });
+
+  it("has a robot model once a graph describes a robot", () => {
+    const page = fakePage({ kind: "graph" });
+    const robot = page.displays.show("rviz/RobotModel", null, null);
+    startDisplays(shellOf(page));
+    expect(robot.enabled.value.value).toBe(false);
+    page.connection.parameters.value = new Map([["/robot_description", "<robot name='cart'/>"]]);
+    expect(robot.enabled.value.value).toBe(true);
+  });
+
+  it("selects the robot of a simulated world", async () => {
+    const page = fakePage();
+    startDisplays(shellOf(page));
+    page.world.manifest.value = MANIFEST;
+    await Promise.resolve();
+    expect(page.selection.value).toEqual({ kind: "model", model: "rp2w" });
+  });
+
+  it("has the theme's background until another is chosen", () => {
+    const page = fakePage({ kind: "graph" });
+    startDisplays(shellOf(page));
+    const { backgroundColor } = page.displays;
+    page.theme.value = "light";
+    expect(backgroundColor.value.value).toEqual([207, 211, 214]);
+    backgroundColor.value.value = [1, 2, 3];
+    page.theme.value = "dark";
+    expect(backgroundColor.value.value).toEqual([1, 2, 3]);
+  });
+});

@@ -1,0 +1,230 @@
+/** A page without a server, a graphics card or a graph: what the shell's tests and its harness show. */
+
+import { signal } from "@preact/signals";
+import { Box3, Group, Object3D, PerspectiveCamera, Quaternion, Ray, Vector3 } from "three";
+
+import { CommandList } from "../src/app/commands";
+import { Drive } from "../src/app/drive";
+import type { Page } from "../src/app/page";
+import { liveSession, type Session } from "../src/app/session";
+import { UndoHistory } from "../src/app/undo";
+import type { FrameTree } from "../src/frames/frame_tree";
+import { NoTransform } from "../src/frames/transform";
+import type { SceneView } from "../src/scene/scene_view";
+import type { JointState, Manifest, SimulatedWorld, WorldState } from "../src/scene/simulated_world";
+import type { ViewController, Views } from "../src/scene/view_controller";
+import type { Tool, ToolBox } from "../src/tools/tool";
+import { GraphNames } from "../src/protocol/graph_names";
+import { FakeConnection } from "./fake_connection";
+import { FakeDisplayList } from "./fake_displays";
+
+export const SESSION: Session = {
+  title: "rp2w_at_home",
+  kind: "simulation",
+  version: "0",
+  robot: "rp2w",
+  rviz: null,
+  fixed_frame: null,
+  namespace: "/",
+  remappings: {},
+  panels: [],
+  plots: [],
+  images: [],
+  drive_topic: "/cmd_vel",
+  sliders: [],
+  joystick: false,
+  foxglove: "ws://localhost:8080/",
+};
+
+export class FakeWorld implements SimulatedWorld {
+  readonly manifest = signal<Manifest | null>(null);
+  readonly state = signal<WorldState | null>({ time_ns: 12.48e9, paused: false, real_time_factor: 1, speed: 1, recording: null });
+  readonly progress = signal(1);
+  readonly faults = signal<readonly string[]>([]);
+  readonly joints = signal<readonly JointState[]>([]);
+  readonly showCollisions = signal(false);
+  readonly hidden = signal<ReadonlySet<string>>(new Set());
+  pose(): { position: Vector3; orientation: Quaternion } {
+    return { position: new Vector3(-0.004, 0.211, 0.089), orientation: new Quaternion(0, 0, Math.sin(0.0035), 1).normalize() };
+  }
+  object(): null {
+    return null;
+  }
+  extent = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
+  bounds(): Box3 {
+    return this.extent;
+  }
+}
+
+export class FakeScene implements SceneView {
+  readonly status = signal<SceneView["status"]["value"]>({ kind: "drawing" });
+  readonly displays = new Group();
+  readonly world = new Group();
+  readonly camera = signal(new PerspectiveCamera());
+  readonly element = document.createElement("canvas");
+  readonly size = signal({ width: 1, height: 1 });
+  readonly freeArea = signal({ left: 0, right: 0, top: 0, bottom: 0 });
+  readonly background = signal("#16191c");
+  readonly grid = signal(true);
+  invalidate(): void {
+    // nothing is drawn
+  }
+  private readonly ticks = new Set<(elapsed: number) => void>();
+  onTick(callback: (elapsed: number) => void): () => void {
+    this.ticks.add(callback);
+    return () => this.ticks.delete(callback);
+  }
+  /** A frame is drawn. */
+  tick(): void {
+    for (const callback of this.ticks) callback(0.03);
+  }
+  addStep(): () => void {
+    return () => undefined;
+  }
+  pick(): null {
+    return null;
+  }
+  pickGround(): null {
+    return null;
+  }
+  pickBox(): [] {
+    return [];
+  }
+  ray(): Ray {
+    return new Ray();
+  }
+  addLabel(anchor: Object3D, text: string): ReturnType<SceneView["addLabel"]> {
+    return { anchor, text, detail: "", remove: () => undefined };
+  }
+}
+
+export class FakeViews implements Views {
+  readonly current = signal(fakeView("rviz/Orbit"));
+  readonly classes = ["rviz/Orbit", "rviz/XYOrbit", "rviz/TopDownOrtho", "rviz/FPS", "rviz/ThirdPersonFollower"];
+  readonly saved = signal<readonly ViewController[]>([]);
+  readonly framed: Box3[] = [];
+  use(className: string): void {
+    this.current.value = fakeView(className);
+  }
+  useSaved(view: ViewController): void {
+    this.current.value = view;
+  }
+  copyCurrent(name: string): ViewController {
+    return { ...this.current.value, name: signal(name), save: () => ({ Name: name }) };
+  }
+  frame(box: Box3): void {
+    this.framed.push(box);
+  }
+  focus(): void {
+    // nothing is drawn
+  }
+  lookFrom(): void {
+    // nothing is drawn
+  }
+  follow(_target: string | null): void {
+    // nothing is drawn
+  }
+  save(): Record<string, never> {
+    return {};
+  }
+  load(): string[] {
+    return [];
+  }
+}
+
+function fakeView(className: string): ViewController {
+  return { className, name: signal(""), properties: [], save: () => ({}), load: () => [] };
+}
+
+const TOOLS: readonly (readonly [string, string, string, string])[] = [
+  ["rviz/Interact", "Interact", "i", "interact"],
+  ["rviz/MoveCamera", "Move Camera", "m", "camera_move"],
+  ["rviz/Select", "Select", "s", "box"],
+  ["rviz/FocusCamera", "Focus Camera", "c", "focus"],
+  ["rviz/Measure", "Measure", "n", "measure"],
+  ["rviz/SetInitialPose", "2D Pose Estimate", "p", "pose"],
+  ["rviz/SetGoal", "2D Nav Goal", "g", "pose"],
+  ["rviz/PublishPoint", "Publish Point", "u", "point"],
+];
+
+export class FakeTools implements ToolBox {
+  readonly tools: readonly Tool[] = TOOLS.map(([className, name, shortcut, icon]) => ({
+    className,
+    name,
+    shortcut,
+    icon,
+    properties: [],
+    cursor: "default",
+    hint: signal(""),
+    activate: () => undefined,
+    deactivate: () => undefined,
+    pointer: () => false,
+  }));
+  readonly current = signal<Tool>(this.tools[0] as Tool);
+  use(className: string): void {
+    this.current.value = this.tools.find((tool) => tool.className === className) ?? this.current.value;
+  }
+  save(): [] {
+    return [];
+  }
+  load(): string[] {
+    return [];
+  }
+}
+
+export class FakeFrames implements FrameTree {
+  readonly frames = signal<readonly string[]>(["base_link", "map", "odom"]);
+  describe(): [] {
+    return [];
+  }
+  lookup(target: string, source: string): NoTransform {
+    return new NoTransform(`No transform from [${source}] to [${target}]`, "");
+  }
+}
+
+export interface FakePage extends Page {
+  readonly frames: FakeFrames;
+  readonly connection: FakeConnection;
+  readonly world: FakeWorld;
+  readonly scene: FakeScene;
+  readonly views: FakeViews;
+  readonly displays: FakeDisplayList;
+  readonly commands: CommandList;
+}
+
+/** The server says that the session has changed. */
+export function changeSession({ connection, session }: FakePage, change: Partial<Session>): void {
+  const payload = new TextEncoder().encode(JSON.stringify({ ...session, ...change }));
+  connection.receiveRaw("trundle/session", new DataView(payload.buffer));
+}
+
+export function fakePage(session: Partial<Session> = {}): FakePage {
+  const connection = new FakeConnection();
+  const frames = new FakeFrames();
+  const scene = new FakeScene();
+  const undo = new UndoHistory();
+  const live = liveSession({ ...SESSION, ...session }, connection, () => undefined);
+  return {
+    get session() {
+      return live.value;
+    },
+    connection,
+    frames,
+    scene,
+    views: new FakeViews(),
+    world: new FakeWorld(),
+    displays: new FakeDisplayList({ connection, names: new GraphNames(), frames, scene, displays: signal([]), fixedFrame: signal("map") }, undo),
+    tools: new FakeTools(),
+    selection: signal(null),
+    hovered: signal(null),
+    commands: new CommandList(),
+    undo,
+    drive: new Drive({
+      connection,
+      get session() {
+        return live.value;
+      },
+    }),
+    theme: signal("dark"),
+  };
+}

@@ -1,0 +1,47 @@
+import { expect, test } from "vitest";
+
+import { feedTransforms } from "../../src/frames/tf_topics";
+import { TransformTree } from "../../src/frames/transform_tree";
+import { FakeConnection } from "../fake_connection";
+
+function message(child: string, sec: number) {
+  const transform = { translation: { x: 0, y: 0, z: 0 }, rotation: { x: 0, y: 0, z: 0, w: 1 } };
+  return {
+    transforms: [{ header: { seq: 0, stamp: { sec, nsec: 0 }, frame_id: "map" }, child_frame_id: child, transform }],
+  };
+}
+
+function fed() {
+  const connection = new FakeConnection();
+  const tree = new TransformTree();
+  const subscription = feedTransforms(tree, connection);
+  connection.time = 50_000_000_000n;
+  connection.receive("/tf", message("base", 50));
+  connection.receive("/tf_static", message("laser", 0));
+  return { connection, tree, subscription };
+}
+
+test("transforms come from both topics, until it is closed", () => {
+  const { connection, tree, subscription } = fed();
+  expect(tree.frames.value).toEqual(["base", "laser", "map"]);
+  subscription.close();
+  expect(connection.subscriptions("/tf") + connection.subscriptions("/tf_static")).toBe(0);
+});
+
+test("when the time goes back, what moved is forgotten", () => {
+  const { connection, tree } = fed();
+  connection.time = 49_950_000_000n; // a clock that is corrected
+  connection.receive("/tf", message("other", 49));
+  expect(tree.frames.value).toEqual(["base", "laser", "map", "other"]);
+  connection.time = 1_000_000_000n;
+  connection.receive("/tf", message("other", 1));
+  expect(tree.frames.value).toEqual(["laser", "map", "other"]);
+});
+
+test("in a new connection everything is forgotten", () => {
+  const { connection, tree } = fed();
+  connection.state.value = { kind: "lost", retryInSeconds: 1 };
+  expect(tree.frames.value).toHaveLength(3);
+  connection.state.value = { kind: "connected" };
+  expect(tree.frames.value).toEqual([]);
+});

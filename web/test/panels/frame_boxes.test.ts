@@ -1,0 +1,33 @@
+import { expect, test } from "vitest";
+
+import type { FrameInfo } from "../../src/frames/frame_tree";
+import { frameBoxes } from "../../src/panels/graph/frame_boxes";
+import { layered } from "../../src/panels/graph/layered_layout";
+
+const NOW = 100_000_000_000n;
+const frame = (name: string, parent: string | null, changes: Partial<FrameInfo> = {}): FrameInfo => ({
+  name, parent, isStatic: false, stamp: NOW, rate: 10, publisher: null, ...changes,
+});
+const captions = (frames: readonly FrameInfo[], fixed = "map"): Record<string, string> =>
+  Object.fromEntries(frameBoxes(frames, fixed, NOW)[0].map((box) => [box.name, `${box.kind.slice(6)}|${box.caption ?? ""}`]));
+
+test("frames say their rate and age, and what is wrong", () => {
+  const frames = [
+    frame("odom", "map"), frame("laser", "odom", { isStatic: true, stamp: 0n, rate: null }),
+    frame("arm", "odom", { stamp: NOW - 14_000_000_000n }), frame("tag", "camera"),
+  ];
+  expect(captions(frames)).toEqual({ map: "|root", odom: "|10.0 Hz · 0.00 s", laser: "|static", arm: "warn|14.00 s old", tag: "warn|not connected", camera: "warn|not connected" });
+});
+
+test("a loop of parents is an error", () => {
+  expect(captions([frame("a", "b"), frame("b", "a")], "a")).toEqual({ a: "error|loop of parents", b: "error|loop of parents" });
+});
+
+test("layers follow the arrows, without overlaps, loops too", () => {
+  const boxes = ["a", "b", "c"].map((id) => ({ id, width: 80, height: 26 }));
+  const { boxes: placed, paths } = layered(boxes, [{ from: "a", to: "b" }, { from: "b", to: "c" }, { from: "c", to: "a" }, { from: "a", to: "a" }], "LR");
+  const x = (id: string): number => placed.get(id)?.[0] ?? NaN;
+  expect(x("b") - x("a")).toBeGreaterThan(80);
+  expect(x("c") - x("b")).toBeGreaterThan(80);
+  expect(paths.every((path) => /^M[\d.-]+ [\d.-]+[LQ]/.test(path))).toBe(true);
+});

@@ -1,0 +1,84 @@
+// @vitest-environment jsdom
+import { describe, expect, test } from "vitest";
+
+import { Curve } from "../../src/panels/plots/curve";
+import { PlotsState } from "../../src/panels/plots/plots_state";
+import { fakePage } from "../fake_page";
+import { MANIFEST } from "../harness/manifest";
+
+const at = (sec: number): { header: { stamp: { sec: number; nsec: number } } } => ({ header: { stamp: { sec, nsec: 0 } } });
+
+describe("a curve", () => {
+  test("takes the stamp where there is one, else the time of receiving", () => {
+    const page = fakePage();
+    page.connection.advertise("/odom", "nav_msgs/Odometry");
+    const [stamped, plain] = [new Curve(page, "/odom/twist/twist/linear/x"), new Curve(page, "/speed.data")];
+    page.connection.receive("/odom", { ...at(7), twist: { twist: { linear: { x: 0.5 } } } }, { time: 99_000_000_000n });
+    page.connection.receive("/speed", { data: 3 }, { time: 8_000_000_000n });
+    expect([stamped.points.lastX, stamped.points.lastY, stamped.unit.value]).toEqual([7, 0.5, "m/s"]);
+    expect([plain.points.lastX, plain.points.lastY]).toEqual([8, 3]);
+    expect([stamped.name, stamped.caption]).toEqual(["linear.x", "/odom twist.twist"]);
+  });
+
+  test("says why nothing is drawn", () => {
+    const page = fakePage();
+    const curve = new Curve(page, "/odom.twist.z");
+    expect(curve.fault.value).toBe("No message yet");
+    page.connection.receive("/odom", { twist: { x: 1, y: 2 } });
+    expect(curve.fault.value).toBe("There is no z; fields there: x, y");
+    const list = new Curve(page, "/scan.ranges");
+    page.connection.receive("/scan", { ranges: [1, 2] });
+    expect(list.fault.value).toBe("This is a list of 2; choose one, as [0]");
+    expect(new Curve(page, "nonsense").fault.value).toBe("No joint nonsense is simulated");
+  });
+
+  test("finds its topic once that is known, and lets go of the guess", () => {
+    const page = fakePage();
+    const curve = new Curve(page, "/a/b/c");
+    expect(page.connection.subscriptions("/a/b")).toBe(1);
+    page.connection.advertise("/a", "test/A");
+    expect([page.connection.subscriptions("/a/b"), page.connection.subscriptions("/a")]).toEqual([0, 1]);
+    curve.close();
+    expect(page.connection.subscriptions("/a")).toBe(0);
+  });
+
+  test("follows a simulated joint", () => {
+    const page = fakePage();
+    page.world.manifest.value = MANIFEST;
+    const curve = new Curve(page, "rp2w::camera_base_camera.velocity");
+    page.world.joints.value = [0, 1].map((value) => ({ position: value, velocity: value + 0.5, effort: 0 }));
+    expect([curve.fault.value, curve.points.lastX, curve.points.lastY]).toEqual(["", 12.48, 1.5]);
+  });
+});
+
+describe("plots", () => {
+  test("open what the session asks for; x:y are two curves", () => {
+    const state = new PlotsState(fakePage({ plots: ["/pose/x:y", "/speed/data"] }));
+    expect(state.curves.map((curve) => curve.path)).toEqual(["/pose/x", "/pose/y", "/speed/data"]);
+  });
+
+  test("a curve moves into a plot of its own, and back; an empty plot goes", () => {
+    const state = new PlotsState(fakePage({ plots: ["/a.x", "/b.x"] }));
+    const [, second] = state.curves;
+    if (second === undefined) throw new Error("no curve");
+    state.separate(second);
+    expect(state.plots.value.map((plot) => plot.curves.length)).toEqual([1, 1]);
+    state.move(second, 0);
+    expect(state.plots.value.map((plot) => plot.curves.length)).toEqual([2]);
+    state.remove(second);
+    expect(state.curves.map((curve) => curve.path)).toEqual(["/a.x"]);
+  });
+
+  test("show the newest seconds; paused ones stay, and the points go on", () => {
+    const page = fakePage({ plots: ["/a.x"] });
+    const state = new PlotsState(page);
+    const receive = (x: number): void => page.connection.receive("/a", { x }, { time: BigInt(x) * 1_000_000_000n });
+    receive(40);
+    state.pause(true);
+    receive(60);
+    expect(state.range()).toEqual([10, 40]);
+    state.pause(false);
+    expect(state.range()).toEqual([30, 60]);
+    expect(state.csv()).toBe("time,/a.x\n40,40\n60,60\n");
+  });
+});

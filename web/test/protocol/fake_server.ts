@@ -1,0 +1,96 @@
+/** The server's end of a connection, and a decoder with a MessageChannel in place of a worker. */
+
+import { DecodeService, type DecodeRequest } from "../../src/protocol/decode_service";
+import { FoxgloveConnection } from "../../src/protocol/foxglove_connection";
+import type { Socket } from "../../src/protocol/reconnecting_socket";
+
+export class FakeSocket implements Socket {
+  onopen: WebSocket["onopen"] = null;
+  onmessage: WebSocket["onmessage"] = null;
+  onclose: WebSocket["onclose"] = null;
+  readonly sent: (Record<string, unknown> | ArrayBuffer)[] = [];
+
+  send(frame: string | ArrayBufferLike | Blob | ArrayBufferView): void {
+    this.sent.push(typeof frame === "string" ? (JSON.parse(frame) as Record<string, unknown>) : (frame as ArrayBuffer));
+  }
+
+  close(): void {
+    this.onclose?.call(null as never, new Event("close") as CloseEvent);
+  }
+
+  text(frame: object): void {
+    this.#receive(JSON.stringify(frame));
+  }
+
+  binary(...parts: readonly (readonly number[] | Uint8Array)[]): void {
+    this.#receive(new Uint8Array(parts.flatMap((part) => [...part])).buffer);
+  }
+
+  /** Message Data. */
+  message(subscription: number, payload: Uint8Array | readonly number[], time = 0n): void {
+    this.binary([1], u32(subscription), u64(time), payload);
+  }
+
+  greet(capabilities = ["parameters", "parametersSubscribe", "connectionGraph"]): void {
+    this.text({ op: "serverInfo", name: "test", capabilities });
+  }
+
+  advertise(id: number, topic: string, schemaName: string, schema: string, encoding = "ros1"): void {
+    this.text({ op: "advertise", channels: [{ id, topic, encoding, schemaName, schema }] });
+  }
+
+  /** Number of the last subscription to a channel. */
+  subscription(channelId: number): number {
+    for (const frame of this.sent.toReversed()) {
+      if (frame instanceof ArrayBuffer || frame["op"] !== "subscribe") continue;
+      const all = frame["subscriptions"] as { id: number; channelId: number }[];
+      const found = all.find((one) => one.channelId === channelId);
+      if (found !== undefined) return found.id;
+    }
+    throw new Error(`channel ${String(channelId)} has no subscription`);
+  }
+
+  ops(op: string): Record<string, unknown>[] {
+    return this.sent.filter((frame) => !(frame instanceof ArrayBuffer) && frame["op"] === op) as Record<string, unknown>[];
+  }
+
+  #receive(data: string | ArrayBuffer): void {
+    this.onmessage?.call(null as never, new MessageEvent("message", { data }));
+  }
+}
+
+export class FakeServer {
+  readonly sockets: FakeSocket[] = [];
+  readonly connection: FoxgloveConnection;
+  readonly #ports: MessagePort[];
+
+  constructor() {
+    const { port1, port2 } = new MessageChannel();
+    this.#ports = [port1, port2];
+    const service = new DecodeService((response, transfer) => port2.postMessage(response, transfer));
+    port2.onmessage = (event: MessageEvent<DecodeRequest>) => service.handle(event.data);
+    this.connection = new FoxgloveConnection(() => {
+      const socket = new FakeSocket();
+      this.sockets.push(socket);
+      return socket;
+    }, port1);
+  }
+
+  get socket(): FakeSocket {
+    const last = this.sockets.at(-1);
+    if (last === undefined) throw new Error("nobody connected");
+    return last;
+  }
+
+  close(): void {
+    for (const port of this.#ports) port.close();
+  }
+}
+
+export function u32(value: number): Uint8Array {
+  return new Uint8Array(new Uint32Array([value]).buffer);
+}
+
+export function u64(value: bigint): Uint8Array {
+  return new Uint8Array(new BigUint64Array([value]).buffer);
+}

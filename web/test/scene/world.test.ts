@@ -1,0 +1,160 @@
+import "../../src/scene/conventions";
+
+import { BufferGeometry, Group, Quaternion, Vector3 } from "three";
+import { expect, test } from "vitest";
+
+import type { FrameTree } from "../../src/frames/frame_tree";
+import { NoTransform, type Transform } from "../../src/frames/transform";
+import type { Manifest } from "../../src/scene/simulated_world";
+import { BodyPoses } from "../../src/scene/world/body_poses";
+import { readJoints } from "../../src/scene/world/joint_states";
+import { WorldPlacement } from "../../src/scene/world/placement";
+import { isHidden } from "../../src/scene/world/world_feed";
+import { readLines, WorldLines } from "../../src/scene/world/world_lines";
+
+/** A message of `trundle/poses` at an odd offset of its buffer, as frames of the socket have it. */
+function poseMessage(time: bigint, generation: number, poses: readonly (readonly [number, ...number[]])[]): DataView {
+  const buffer = new ArrayBuffer(13 + 16 + 32 * poses.length);
+  const view = new DataView(buffer, 13);
+  view.setBigUint64(0, time, true);
+  view.setUint32(8, generation, true);
+  view.setUint32(12, poses.length, true);
+  poses.forEach(([body, ...numbers], i) => {
+    view.setUint32(16 + 4 * i, body, true);
+    numbers.forEach((number, j) => {
+      view.setFloat32(16 + 4 * poses.length + 28 * i + 4 * j, number, true);
+    });
+  });
+  return view;
+}
+
+test("poses move the objects of their bodies; the others stay", () => {
+  const poses = new BodyPoses();
+  const [a, b] = [new Group(), new Group()];
+  poses.attach(3, a);
+  poses.attach(200, b);
+
+  const isTaken = poses.apply(poseMessage(5n, 2, [[200, 1, 2, 3, 0, 0, 1, 0]]), 2);
+
+  expect(isTaken).toBe(true);
+  expect(b.position.toArray()).toEqual([1, 2, 3]);
+  expect(b.quaternion.toArray()).toEqual([0, 0, 1, 0]);
+  expect(a.position.toArray()).toEqual([0, 0, 0]);
+  expect(poses.pose(3)).toBeNull();
+  expect(poses.pose(200)?.position.z).toBe(3);
+});
+
+test("a body whose model comes after its pose stands at once where it is", () => {
+  const poses = new BodyPoses();
+  poses.apply(poseMessage(5n, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]), 1);
+  const late = new Group();
+  poses.attach(0, late);
+  expect(late.position.x).toBe(7);
+});
+
+test("poses of another generation and messages that are cut short change nothing", () => {
+  const poses = new BodyPoses();
+  const whole = poseMessage(5n, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]);
+  expect(poses.apply(whole, 2)).toBe(false);
+  expect(poses.apply(new DataView(whole.buffer, 13, 40), 1)).toBe(false);
+  expect(poses.apply(new DataView(new ArrayBuffer(3)), 1)).toBe(false);
+  expect(poses.pose(0)).toBeNull();
+});
+
+test("joints are read in order", () => {
+  const view = new DataView(new ArrayBuffer(16 + 48));
+  view.setUint32(8, 4, true);
+  view.setUint32(12, 2, true);
+  [1, 2, 3, 4, 5, 6].forEach((number, i) => {
+    view.setFloat64(16 + 8 * i, number, true);
+  });
+  expect(readJoints(view, 4)).toEqual([
+    { position: 1, velocity: 2, effort: 3 },
+    { position: 4, velocity: 5, effort: 6 },
+  ]);
+  expect(readJoints(view, 5)).toBeNull();
+});
+
+function lineMessage(lines: readonly { readonly id: string; readonly kind: number; readonly points: readonly number[] }[]): DataView {
+  const bytes: number[] = [];
+  const u32 = (value: number): void => void bytes.push(...new Uint8Array(new Uint32Array([value]).buffer));
+  bytes.push(0, 0, 0, 0, 0, 0, 0, 0);
+  u32(lines.length);
+  for (const { id, kind, points } of lines) {
+    const text = new TextEncoder().encode(id);
+    u32(text.length);
+    bytes.push(...text, 255, 0, 51, 255);
+    u32(kind);
+    u32(points.length / 3);
+    bytes.push(...new Uint8Array(new Float32Array(points).buffer));
+  }
+  return new DataView(new Uint8Array(bytes).buffer);
+}
+
+test("lines are drawn, changed and dropped by their ids", () => {
+  const drawn = new WorldLines();
+  const strip = { id: "räder", kind: 0, points: [0, 0, 0, 1, 0, 0, 1, 1, 0] };
+  const rays = { id: "scan", kind: 1, points: [0, 0, 0, 5, 0, 0] };
+
+  drawn.show(readLines(lineMessage([strip, rays])) ?? []);
+  expect(drawn.children.map(({ type }) => type)).toEqual(["Line", "LineSegments"]);
+  drawn.show(readLines(lineMessage([{ ...strip, points: [0, 0, 0, 2, 0, 0] }])) ?? []);
+
+  expect(drawn.children).toHaveLength(1);
+  const geometry = (drawn.children[0] as unknown as { geometry: BufferGeometry }).geometry;
+  expect(geometry.drawRange.count).toBe(2);
+  expect(geometry.getAttribute("position").getX(1)).toBe(2);
+  const whole = lineMessage([rays]);
+  expect(readLines(new DataView(whole.buffer, 0, whole.byteLength - 4))).toBeNull();
+});
+
+test("a link is hidden with its model and those around it", () => {
+  expect(isHidden("arm::hand::tip", new Set(["arm"]))).toBe(true);
+  expect(isHidden("arm::hand::tip", new Set(["arm::hand"]))).toBe(true);
+  expect(isHidden("arm::hand::tip", new Set(["arm::hand::tip"]))).toBe(true);
+  expect(isHidden("arm2::tip", new Set(["arm", "tip"]))).toBe(false);
+});
+
+function at(x: number, yaw = 0): Transform {
+  return { position: new Vector3(x, 0, 0), orientation: new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), yaw) };
+}
+
+const MANIFEST = { generation: 1, robot: 0, frames: [{ frame: "base_link", parent: "odom", body: 0 }] } as unknown as Manifest;
+
+/** The robot drives at 1 m/s from x = 10; odom began there, and tf is 0.1 s late. */
+function drivingRobot(poses: BodyPoses, time: bigint): FrameTree {
+  poses.apply(poseMessage(time, 1, [[0, 10 + Number(time) * 1e-9, 0, 0, 0, 0, 0, 1]]), 1);
+  const lookup = (target: string, source: string, asked: bigint): Transform | NoTransform =>
+    target === "odom" && source === "base_link" && asked <= time - 100_000_000n ? at(Number(asked) * 1e-9) : new NoTransform("", "");
+  return { lookup } as unknown as FrameTree;
+}
+
+test("the world stands still in odom while the robot drives and tf is late", () => {
+  const poses = new BodyPoses();
+  const world = new Group();
+  let now = 0n;
+  const frames: FrameTree = { lookup: (...asked: [string, string, bigint]) => drivingRobot(poses, now).lookup(...asked) } as unknown as FrameTree;
+  const placement = new WorldPlacement(world, poses, frames);
+  const moved: boolean[] = [];
+  for (let i = 0; i <= 20; i += 1) {
+    now = BigInt(i) * 50_000_000n;
+    drivingRobot(poses, now);
+    placement.remember(MANIFEST);
+    moved.push(placement.update(MANIFEST, "odom"));
+  }
+  expect(world.position.x).toBeCloseTo(-10, 4);
+  expect(moved.filter(Boolean)).toHaveLength(1);
+});
+
+test("in the robot's own frame the world moves around it; in world it stays", () => {
+  const poses = new BodyPoses();
+  const world = new Group();
+  const frames = { lookup: () => new NoTransform("", "") } as unknown as FrameTree;
+  const placement = new WorldPlacement(world, poses, frames);
+  poses.apply(poseMessage(0n, 1, [[0, 4, 0, 0, 0, 0, 0, 1]]), 1);
+  placement.remember(MANIFEST);
+  placement.update(MANIFEST, "/base_link");
+  expect(world.position.x).toBeCloseTo(-4);
+  placement.update(MANIFEST, "world");
+  expect(world.position.x).toBeCloseTo(0);
+});

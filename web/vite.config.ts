@@ -1,0 +1,22 @@
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vitest/config";
+
+import { licenses } from "./licenses.ts";
+
+const { page, worker } = licenses();
+
+export default defineConfig({
+  base: "./",
+  plugins: [page],
+  build: {
+    outDir: fileURLToPath(new URL("../src/trundle/page/client", import.meta.url)),
+    emptyOutDir: true,
+    target: "es2022",
+    assetsInlineLimit: 0, // the content security policy has no data: for scripts
+    chunkSizeWarningLimit: 2500, // one file: it comes from this machine or the same network
+    rolldownOptions: { checks: { bundlerTimings: false } }, // figures of a busy machine are no fault of the code
+  },
+  worker: { format: "es", plugins: () => [worker] },
+  // Tests leave nothing behind; a process for each file would double their time.
+  test: { isolate: false, include: ["test/**/*.test.ts", "test/**/*.test.tsx"] },
+});
