@@ -266,3 +266,34 @@ def test_a_xacro_of_standard_input_is_expanded_beside_where_the_user_is(cart: Pa
     (model,) = json.loads(run("check", "-", "--json", stdin=text)[1])["models"]
     assert model["links"][0]["mass"] == 2.0
     assert '<mass value="2"' in run("convert", "-", "--to", "urdf", stdin=text)[1]
+
+
+def test_a_glb_has_the_links_of_the_model_and_the_mesh_s_image(cart: Path, tmp_path: Path) -> None:
+    assert run("convert", str(cart), "--to", "glb", "-o", "cart.glb") == (0, "")
+
+    scene = trimesh.load_scene(tmp_path / "cart.glb")
+    assert {"cart::base", "cart::wheel"} <= set(scene.graph.nodes)
+    assert scene.graph["cart::wheel"][0][:3, 3] == pytest.approx([0.0, 0.0, -1.0])  # y up
+    images = [geometry.visual.material.baseColorTexture for geometry in scene.geometry.values()]
+    assert [image.size for image in images if image is not None] == [(1, 1)]
+
+
+def test_a_world_without_lights_is_lit_in_a_glb_and_a_model_is_not(tmp_path: Path, cart: Path) -> None:
+    (tmp_path / "w.world").write_text("<sdf version='1.6'><world name='w'/></sdf>")
+    for file in ("w.world", str(cart)):
+        run("convert", file, "--to", "glb", "-o", f"{Path(file).stem}.glb")
+
+    assert b"KHR_lights_punctual" in (tmp_path / "w.glb").read_bytes()
+    assert b"KHR_lights_punctual" not in (tmp_path / "model.glb").read_bytes()
+
+
+def test_a_glb_goes_to_a_pipe_but_not_to_a_terminal(cart: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    assert main(["convert", str(cart), "--to", "glb"]) == 0
+    assert capfdbinary.readouterr().out[:4] == b"glTF"
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.stdout.isatty", lambda: True)
+        assert main(["convert", str(cart), "--to", "glb"]) != 0
+
+    out, err = capfdbinary.readouterr()
+    assert (out, b"standard output is a terminal; name a file with -o" in err) == (b"", True)

@@ -6,14 +6,16 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from msgspec.structs import replace
+from tests.bringup.simulation_page.fake_server import FakeServer
 
 import trundle
-from trundle.bringup.page import SimulationPage
 from trundle.bringup.ray_overlay import RayOverlay
+from trundle.bringup.realtime_pacer import RealtimePacer
+from trundle.bringup.simulation_page.page import SimulationPage
+from trundle.page import PageServer
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation
-from trundle.viewer import Viewer
 
 _SCAN = """<ray><scan><horizontal><samples>{}</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>
 </horizontal></scan><range><min>0.1</min><max>9</max></range></ray>"""
@@ -53,7 +55,7 @@ def test_rays_are_drawn_from_the_sensor_to_what_they_meet(tmp_path: Path) -> Non
     side = 2 * np.tan(0.5)
     ends = [(3, -side, 0), (3, 0, 0), (3, side, 0)]
     assert line.points[1::2] == pytest.approx(np.array(ends), abs=1e-4)
-    assert line.points[0::2] == pytest.approx(np.array([(1, 0, 0)] * 4))
+    assert line.points[0::2] == pytest.approx(np.array([(1, 0, 0)] * 3))
 
 
 def test_of_many_rays_some_are_drawn_and_of_a_sonar_its_cone(tmp_path: Path) -> None:
@@ -82,38 +84,27 @@ def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) 
     assert sight.lines(sim.snapshot()) == ()
 
 
-class Screen:
-    """Stand-in for the viewer."""
-
-    alive = True
-
-    def __init__(self) -> None:
-        self.images: list[int] = []
-
-    def image(self, number: int, rgb: object) -> None:
-        del rgb
-        self.images.append(number)
-
-    def replace(self, scene: object, *, state: object) -> None:
-        pass
-
-
 def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
     """The page gets all cameras again whenever a model comes or goes."""
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
-    screen = Screen()
-    page = SimulationPage(cast(Viewer, screen), sim, None, [])
+    server = FakeServer()
+    page = SimulationPage(cast(PageServer, server), sim, [], has_graph=False)
     assert sim.lines_are_shown
-    page.reload(sim, [first])
+
+    def show(*cameras: Any) -> None:
+        page.set_sensors(cameras)
+        page.update(RealtimePacer(None), paused=False, at_once=True)
+        server.images.clear()
+        sim.run(0.1)
+
+    show(first)
+    assert [topic for topic, _, _ in server.images] == ["/eye/l/camera/image_raw"]
     sim.spawn(replace(sim["eye"].model, name="other"))
     second = mount_cameras(sim, NativeRenderer, model="other", beside=[first])[0]
     sim.add_hook(second, period_ns=second.period_ns, enabled=second.enabled)
-
-    page.reload(sim, [first, second])
-    sim.run(0.1)
-    assert sorted(screen.images) == [0, 1]
+    show(first, second)
+    assert sorted(topic for topic, _, _ in server.images) == ["/eye/l/camera/image_raw", "/other/l/camera/image_raw"]
 
     sim.delete("eye")
-    page.reload(sim, [second])
-    sim.run(0.1)
-    assert screen.images[2:] == [0]
+    show(second)
+    assert [topic for topic, _, _ in server.images] == ["/other/l/camera/image_raw"]

@@ -1,10 +1,13 @@
-"""gzserver -r: state logs of a world whose models come and go."""
+"""State logs: of gzserver -r, whose models come and go, and of the page."""
 
 from pathlib import Path
 
 import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
+import trundle
+from trundle.bringup.state_logs import PageRecording
+from trundle.diagnostics import UsageError
 from trundle.nodes.gazebo import GazeboServer
 from trundle.ros import Node
 from trundle.simulation import read_state_log
@@ -49,3 +52,36 @@ def test_a_folder_that_cannot_be_made_is_said_and_the_world_goes_on(bare_gazebo:
     bare_gazebo.call("unpause_physics")
     until(lambda: any("recording ends" in said for said in bare_gazebo.said))
     bare_gazebo.until_s(bare_gazebo.time_s + 0.05)
+
+
+def test_a_person_records_parts_of_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    said: list[str] = []
+    sim = trundle.load("model://ball")
+    recording = PageRecording(sim, said.append)
+    assert recording.since_ns is None
+
+    sim.run(0.5)
+    recording.set(True)
+    recording.set(True)
+    sim.run(1.0)
+    assert recording.since_ns == 500_000_000
+    recording.set(False)
+    sim.run(1.0)
+
+    assert recording.since_ns is None
+    (file,) = tmp_path.glob("recorded/*/state.log")
+    log = read_state_log(file)
+    assert (log.times[0], log.times[-1]) == pytest.approx((0.5, 1.5))
+    assert [str(file.relative_to(tmp_path)) in line for line in said] == [True]
+
+
+def test_a_recording_that_cannot_be_written_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "recorded").write_text("a file, not a folder")
+    recording = PageRecording(trundle.load("model://ball"), lambda _: None)
+
+    with pytest.raises(UsageError, match="cannot be written"):
+        recording.set(True)
+
+    assert recording.since_ns is None

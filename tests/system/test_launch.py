@@ -280,6 +280,14 @@ def test_a_launch_can_wait_for_a_master(start, until, env: dict[str, str], packa
     assert not pid.exists()
 
 
+def test_a_launch_without_nodes_sets_its_parameters_and_ends(launch: Launch, trundle, package: Path) -> None:
+    (package / "noop.launch").write_text('<launch><param name="noop" value="5"/></launch>')
+
+    assert launch("p", "noop.launch", "--wait").returncode == 0
+
+    assert trundle("param", "get", "/noop").stdout == "5\n"
+
+
 def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="there" machine="far" args="0"/>'
@@ -581,13 +589,3 @@ def test_a_launch_that_is_killed_takes_its_nodes_with_it(start, package: Path, t
             "its end",
             lambda pid=pid: not (status := Path(f"/proc/{pid}/status")).exists() or "Z (z" in status.read_text(),
         )
-
-
-def test_a_node_whose_python_has_no_rospy_is_told_the_way_out(launch: Launch, package: Path) -> None:
-    script = package / "asks.py"
-    script.write_text(f"#!{sys.executable} -s\nimport rospy\n")
-    script.chmod(0o755)
-    (package / "main.launch").write_text('<launch><node pkg="p" type="asks.py" name="asks"/></launch>')
-    done = launch("p", "main.launch", "--headless")
-    assert "[asks-1] process has died [exit code 1]" in done.stdout
-    assert "\n[asks-1] its Python has no rospy, which comes with ROS" in done.stdout

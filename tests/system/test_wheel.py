@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,8 @@ from trundle import __version__
 
 SEEDS = ROOT.parent / "shared/seeds"
 WHEELS = sorted((ROOT / "dist").glob("trundle-*.whl"))
+CLIENT = "src/trundle/page/client/"
+"""The built client, which is no file of the repository."""
 TIMEOUT_S = 300.0
 
 pytestmark = [
@@ -81,8 +84,26 @@ def test_the_sdist_holds_files_of_the_repository_alone() -> None:
     with tarfile.open(next((ROOT / "dist").glob("trundle-*.tar.gz"))) as sdist:
         packed = {name.partition("/")[2] for name in sdist.getnames()}
 
-    assert packed - set(tracked) == {"PKG-INFO"}
+    assert {name for name in packed - set(tracked) if not name.startswith(CLIENT)} == {"PKG-INFO"}
     assert {"CMakeLists.txt", "cpp/kernel.cc", "examples/rp2w/model.sdf", "src/trundle/py.typed"} <= packed
+
+
+def test_the_page_s_client_is_in_sdist_and_wheel() -> None:
+    """Whole, so that neither needs Node; with licences, but without what only its build needs."""
+    with tarfile.open(next((ROOT / "dist").glob("trundle-*.tar.gz"))) as sdist:
+        packed = {name.partition("/")[2] for name in sdist.getnames()}
+    with zipfile.ZipFile(WHEELS[-1]) as wheel:
+        installed = {f"src/{name}" for name in wheel.namelist()}
+        document = wheel.read("trundle/page/client/index.html").decode()
+        licenses = wheel.read("trundle/page/client/licenses.txt").decode()
+
+    client = {name for name in packed if name.startswith(CLIENT)}
+    assert client == {name for name in installed if name.startswith(CLIENT)}
+    named = set(re.findall(r'(?:src|href)="\./([^"]+)"', document))
+    assert any(name.endswith(".js") for name in named)
+    assert {f"{CLIENT}{name}" for name in named} <= client
+    assert "preact" in licenses
+    assert not [name for name in packed | installed if "node_modules" in name]
 
 
 def test_the_installed_trundle_is_the_wheel_s(run: Run, commands: Path) -> None:

@@ -11,10 +11,10 @@ class CallQueue:
 
     def __init__(self, loop: GraphLoop) -> None:
         self._loop = loop
-        self._waiting: deque[tuple[Callable[[], None], object]] = deque()
+        self._waiting: deque[tuple[Callable[[], object], object]] = deque()
         """(function, token of its pending work)."""
 
-    def post(self, call: Callable[[], None]) -> None:
+    def post(self, call: Callable[[], object]) -> None:
         """Queue a function; from any thread."""
         self._waiting.append((call, self._loop.work.start()))
 

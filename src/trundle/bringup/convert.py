@@ -4,17 +4,20 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Literal, TypeAlias
 
+from msgspec.structs import replace
+
 from trundle.atomic_write import write_atomically
 from trundle.description import LoadedDescription, UriOf, write_sdf, write_urdf, written_uri
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.meshes import Texture
 from trundle.model import flattened
 from trundle.packages import Packages
+from trundle.spatial import rows_from_poses
 
 from .file_copies import FileCopies
 from .load_input import load_input
 
-Format: TypeAlias = Literal["sdf", "urdf", "mjcf"]
+Format: TypeAlias = Literal["sdf", "urdf", "mjcf", "glb"]
 
 
 def convert(
@@ -25,7 +28,7 @@ def convert(
     *,
     start: Path,
     output: Path | None = None,
-) -> str:
+) -> str | bytes:
     """Read a description and write it in a format.
 
     Args:
@@ -34,10 +37,10 @@ def convert(
         environment: variables that locate packages and models.
         report: takes what cannot be read or written.
         start: packages are searched around it, too.
-        output: file to write, with copies of the meshes beside it; None: only return the text.
+        output: file to write, with copies of the meshes beside it; None: only return the content.
 
     Returns:
-        The text.
+        The content: text, or the bytes of a GLB.
 
     Raises:
         DescriptionError: the file cannot be read, or not written in that format.
@@ -47,10 +50,10 @@ def convert(
     if output is None:
         return _written(loaded, to, written_uri, lambda _: None, report)
     copies = FileCopies(output, report)
-    text = _written(loaded, to, copies.relative_uri, copies.png_path, report)
+    content = _written(loaded, to, copies.relative_uri, copies.png_path, report)
     copies.copy()
-    write_atomically(output, text)
-    return text
+    write_atomically(output, content)
+    return content
 
 
 def _written(
@@ -59,7 +62,7 @@ def _written(
     uri_of: UriOf,
     picture_of: Callable[[Texture], str | None],
     report: Diagnostics,
-) -> str:
+) -> str | bytes:
     match to:
         case "sdf":
             return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
@@ -70,6 +73,8 @@ def _written(
             return compile_mjcf(
                 loaded.world, scene_from_world(flattened(loaded.world), report), report, picture_of=picture_of
             )
+        case "glb":
+            return _glb(loaded, report)
         case "urdf" if loaded.urdf is not None:
             return loaded.urdf
         case "urdf":
@@ -77,3 +82,22 @@ def _written(
             if len(models) != 1:
                 raise DescriptionError(loaded.world.at, f"a URDF is one robot; here are {len(models)} models")
             return write_urdf(models[0], uri_of=uri_of, report=report)
+
+
+def _glb(loaded: LoadedDescription, report: Diagnostics) -> bytes:
+    """Return the visuals as described, with joints at zero; a model without a world has no lights but its own."""
+    from trundle.gltf import glb_from_scene
+    from trundle.render import DEFAULT_LIGHTS, report_unreadable_textures, scene_from_world
+    from trundle.simulation import with_actors
+
+    world = flattened(with_actors(loaded.world, report))
+    scene = scene_from_world(world, report)
+    if loaded.kind == "world":
+        scene = replace(scene, lights=scene.lights or DEFAULT_LIGHTS)
+    report_unreadable_textures(scene, report)
+    poses = [
+        model.world_from_model @ (link.initial_pose or link.model_from_link)
+        for model in world.models
+        for link in model.links
+    ]
+    return glb_from_scene(scene, rows_from_poses(poses))

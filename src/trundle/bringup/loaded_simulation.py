@@ -136,6 +136,7 @@ class LoadedSimulation(Simulation):
         if self._ros is None:
             super().advance(until_ns)
             return
+        self._ros.settle()
         left_ns = until_ns - self.time_ns
         while left_ns > 0:
             before_ns = self.simulated_ns

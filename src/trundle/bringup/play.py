@@ -1,28 +1,37 @@
-"""`trundle play`: shows a state log on a page, at any speed."""
+"""`trundle play`: shows a state log or a bag on a page, at any speed."""
 
-import math
 import os
 import sys
 import time
-from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from trundle.bridge import WORLD_FRAME
 from trundle.description import load_text
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.model import flattened
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, TrundleError
+from trundle.files import open_file
+from trundle.model import AnimationState, flattened
 from trundle.packages import Packages
-from trundle.page_address import AllowedNames
+from trundle.page import JOINTS, POSES, BagFile, PageServer, Playback, RenderView, Session
+from trundle.page_address import AllowedNames, PageAddress
+from trundle.ros import open_bag
 from trundle.simulation import Simulation, StateLog, read_state_log
-from trundle.viewer import Pause, Play, Reset, SetSpeed, Step, Viewer, ViewerState
+from trundle.spatial import NS_PER_S
 
 from .console import Console
-from .page_scene import build_page_scene, joint_indices
 from .signals import StopFlag, stop_flag
+from .simulation_page.actor_bones import ActorBones
+from .simulation_page.body_numbers import BodyNumbers
+from .simulation_page.manifest import find_robot, single_axes, world_manifest
+from .simulation_page.pictures import WorldPictures
+from .simulation_page.world_builder import WorldBuilder
 
 _FRAME_S = 1 / 30
+_ALIVE_S = 0.5
+_BAG_MAGIC = (b"#ROSBAG", b"#ROSRECORD", b"\x89MCAP0\r\n")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,13 +46,20 @@ class PlayOptions:
     """Recorded seconds per second of wall time."""
     paused: bool = False
 
+    @property
+    def address(self) -> PageAddress:
+        """Address of the page."""
+        return PageAddress(host=self.host, port=self.port, allowed=self.allowed)
+
 
 def play(file: Path, options: PlayOptions) -> int:
-    """Show a state log until Ctrl-C; return the exit code.
+    """Show a state log or bag until Ctrl-C; return the exit code.
 
     Raises:
-        TrundleError: the file is not a state log, or its world cannot be read.
+        TrundleError: the file is neither, or its world cannot be read.
     """
+    if _is_bag(file):
+        return play_bag(file, options)
     log = read_state_log(file)
     if len(log.times) == 0:
         raise DescriptionError(Source(str(file)), "nothing was recorded")
@@ -53,70 +69,119 @@ def play(file: Path, options: PlayOptions) -> int:
     simulation = Simulation(flattened(loaded.world), report)
     if simulation.engine.compiled.link_names != log.links:
         raise DescriptionError(Source(str(file), 1), "the world in this log has other links than were recorded")
-    layout = build_page_scene(simulation, [], drive=False)
     show = Console(sys.stderr, report)
     show.findings()
-    with stop_flag() as stop, ExitStack() as open_things:
-        viewer = Viewer.start(
-            layout.scene, host=options.host, port=options.port, allowed=options.allowed, state=layout.first
-        )
-        open_things.callback(viewer.close)
-        show.line(f"see it at {viewer.url}")
-        _Player(log, viewer, joint_indices(simulation, layout.joints), options).run(stop)
+    robot = find_robot(simulation.world)
+    session = Session(title=file.name, kind="log", robot=None if robot is None else robot.name, fixed_frame=WORLD_FRAME)
+    with stop_flag() as stop, PageServer.start(session, at=options.address) as server:
+        show.line(f"see it at {server.url}")
+        LogPage(server, log, simulation, options).run(stop)
     return 130
 
 
-class _Player:
-    def __init__(self, log: StateLog, viewer: Viewer, sliders: list[int], options: PlayOptions) -> None:
+def play_bag(file: Path, options: PlayOptions) -> int:
+    """Show a bag until Ctrl-C; return the exit code.
+
+    Raises:
+        TrundleError: the file is damaged, or has no messages.
+    """
+    with open_bag(file) as bag:
+        if not any(bag.counts):
+            raise DescriptionError(Source(str(file)), "nothing was recorded")
+    playing = BagFile(path=str(file.absolute()), speed=options.speed, paused=options.paused)
+    session = Session(title=file.name, kind="bag")
+    with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
+        Console(sys.stderr, Diagnostics()).line(f"see it at {server.url}")
+        while not stop.wait(_ALIVE_S) and server.alive:
+            pass
+    return 130
+
+
+def _is_bag(file: Path) -> bool:
+    """True if a file begins as a ROS bag or an MCAP file does."""
+    with open_file(file) as stream:
+        return stream.read(max(map(len, _BAG_MAGIC))).startswith(_BAG_MAGIC)
+
+
+class LogPage:
+    """Page of a state log."""
+
+    def __init__(self, server: PageServer, log: StateLog, simulation: Simulation, options: PlayOptions) -> None:
+        """Show a log.
+
+        Args:
+            server: the page's.
+            log: what was recorded.
+            simulation: of the log's world; it does not run.
+            options: speed and pause.
+        """
+        self._server = server
         self._log = log
-        self._viewer = viewer
-        self._sliders = sliders
-        self._speed = options.speed
-        self._paused = options.paused
-        self._at_s = float(log.times[0])
+        self._simulation = simulation
+        self._pictures = WorldPictures(server.respond_picture)
+        times_ns = np.rint(log.times * NS_PER_S).astype(np.int64)
+        self._playback = Playback(times_ns, speed=options.speed, paused=options.paused)
+        self._joints = _joint_columns(log, single_axes(simulation))
+        self._bodies = BodyNumbers()
+        self._bones = ActorBones(simulation.world)
+        bodies = (*log.links, *self._bones.names)
+        self._bodies.update(bodies)
+        self._builder = WorldBuilder()
+        manifest = world_manifest(simulation, [], self._bodies) | {"generation": 1}
+        self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
 
     def run(self, stop: StopFlag) -> None:
-        """Play in a loop until stopped."""
+        """Play until stopped."""
         then = time.monotonic()
         while not stop.wait(_FRAME_S):
             now = time.monotonic()
-            self._handle_requests()
-            if not self._paused:
-                self._at_s += (now - then) * self._speed
-                if self._at_s > self._log.times[-1]:
-                    self._at_s = float(self._log.times[0])
+            self.update(now - then)
             then = now
-            self._show()
+        self._builder.close()
+        self._pictures.close()
 
-    def _handle_requests(self) -> None:
-        for request in self._viewer.requests():
-            match request:
-                case Play():
-                    self._paused = False
-                case Pause():
-                    self._paused = True
-                case Reset():
-                    self._at_s = float(self._log.times[0])
-                case Step(count):
-                    self._paused = True
-                    row = min(self._row() + count, len(self._log.times) - 1)
-                    self._at_s = float(self._log.times[row])
-                case SetSpeed(factor):
-                    self._speed = factor if math.isfinite(factor) else 100.0
-                case _:
-                    pass
+    def update(self, wall_s: float) -> None:
+        """Handle the requests, play for a duration [s] and show the state."""
+        server, playback = self._server, self._playback
+        for request in server.requests():
+            if isinstance(request.action, RenderView):
+                self._draw(request.id, request.action)
+                continue
+            try:
+                playback.handle(request.action)
+            except TrundleError as error:
+                server.respond(request.id, str(error))
+            else:
+                server.respond(request.id)
+        playback.advance(wall_s)
+        while (built := self._builder.poll()) is not None:
+            self._simulation.report.extend(built.report.findings)
+            server.set_world(built.manifest, built.files)
+        sample = playback.sample
+        if server.is_watched(POSES):
+            poses = self._bones.with_bones(self._log.poses[sample], self._animation_state)
+            server.put_poses(playback.time_ns, self._bodies.rows(poses))
+        if server.is_watched(JOINTS):
+            server.put_joints(playback.time_ns, self._joints[sample])
+        server.put_state(playback.state)
 
-    def _row(self) -> int:
-        return max(0, int(np.searchsorted(self._log.times, self._at_s, side="right")) - 1)
+    def _animation_state(self, actor: str) -> AnimationState:
+        """State of an actor's script at the time shown; what a plugin did with it is not recorded."""
+        player = self._simulation.actors.get(actor)
+        return AnimationState() if player is None else player.animation_state(self._playback.time_ns)
 
-    def _show(self) -> None:
-        row = self._row()
-        self._viewer.show(
-            ViewerState(
-                time_ns=round(self._log.times[row] * 1e9),
-                body_poses=self._log.poses[row],
-                joint_positions=self._log.positions[row][self._sliders],
-                real_time_factor=None if self._paused else self._speed,
-                paused=self._paused,
-            )
-        )
+    def _draw(self, request_id: int, view: RenderView) -> None:
+        states = {name: self._animation_state(name) for name in self._simulation.actors}
+        poses = self._log.poses[self._playback.sample]
+        self._pictures.draw(request_id, view, self._simulation.world, poses, states)
+
+
+def _joint_columns(log: StateLog, joints: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return (samples, joints, 3): positions, their change over time, and no efforts, which are not recorded."""
+    positions = log.positions[:, joints]
+    columns = np.full((*positions.shape, 3), np.nan)
+    columns[..., 0] = positions
+    columns[..., 1] = 0.0
+    if len(log.times) > 1:
+        columns[1:, :, 1] = np.diff(positions, axis=0) / np.maximum(np.diff(log.times), 1e-9)[:, None]
+    return columns

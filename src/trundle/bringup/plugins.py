@@ -127,6 +127,8 @@ _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diagnostics) -> list[_Sensor]:
     """Attach the sensors' plugins, which publish their readings; return the sensors without one, in order."""
+    from trundle.ros import Publisher
+
     silent: list[_Sensor] = []
     for sensor in sensors:
         attached = 0
@@ -137,7 +139,9 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
                 _warn_unsupported(sensor.name, tag, report)
                 continue
             try:
-                attach(sensor, node, TagParameters(tag.node, report))
+                with node.endpoints.record() as ends:
+                    attach(sensor, node, TagParameters(tag.node, report))
+                sensor.topics |= {end.topic: end.type for end in ends if isinstance(end, Publisher)}
                 attached += 1
             except TrundleError as error:
                 report.warn_error(error, tag.at, _TOPICS_WITHOUT, who=_sensor_plugin(sensor.name, tag))

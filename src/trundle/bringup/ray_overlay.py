@@ -6,15 +6,15 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.page import Line
 from trundle.sensors import CameraSensor, InstrumentSensor, RangeReading, RangeSensor, SonarSensor, directions_of
 from trundle.simulation import Snapshot
-from trundle.spatial import Pose
-from trundle.viewer import DrawnLine
+from trundle.spatial import Pose, transform_points
 
 _MAX_RAYS = 90
 """Rays drawn per sensor; of more, every n-th."""
 _RIM = 24
-_BLUE = (90, 150, 255)
+_BLUE = (90, 150, 255, 255)
 
 
 class RayOverlay:
@@ -44,9 +44,9 @@ class RayOverlay:
             else:
                 self._listen_to_sonar(sensor)
 
-    def lines(self, snapshot: Snapshot) -> tuple[DrawnLine, ...]:
+    def lines(self, snapshot: Snapshot) -> tuple[Line, ...]:
         """Rays at the current sensor poses."""
-        return tuple(_fan(_place(sensor, snapshot), ends) for sensor, ends in self._ends.items() if len(ends))
+        return tuple(_fan(sensor, snapshot, ends) for sensor, ends in self._ends.items() if len(ends))
 
     def _listen_to_rays(self, sensor: RangeSensor) -> None:
         directions = directions_of(sensor.scan)
@@ -75,9 +75,11 @@ def _place(sensor: RangeSensor | SonarSensor, snapshot: Snapshot) -> Pose:
     return sensor.world_from_sensor(snapshot)
 
 
-def _fan(world_from_rays: Pose, ends: NDArray[np.float64]) -> DrawnLine:
-    """One line strip that goes out along each ray and back."""
-    strip = np.empty((2 * len(ends) + 1, 3), dtype=np.float32)
-    strip[0::2] = world_from_rays.position
-    strip[1::2] = [world_from_rays.transform_point((x, y, z)) for x, y, z in ends.tolist()]
-    return DrawnLine(strip, _BLUE)
+def _fan(sensor: RangeSensor | SonarSensor, snapshot: Snapshot, ends: NDArray[np.float64]) -> Line:
+    """A line along each ray."""
+    world_from_rays = _place(sensor, snapshot)
+    points = np.empty((2 * len(ends), 3), dtype=np.float32)
+    points[0::2] = world_from_rays.position
+    points[1::2] = transform_points(world_from_rays, ends)
+    name = f"{sensor.model.name}::{sensor.parent_name}::{sensor.sensor.name}"
+    return Line(id=name, rgba=_BLUE, points=points, kind="pairs")

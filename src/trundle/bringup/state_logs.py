@@ -1,10 +1,11 @@
 """State logs of a simulation, for `trundle play`."""
 
 from collections.abc import Callable
+from datetime import datetime
 from pathlib import Path
 
 from trundle.description import write_sdf, written_uri
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
 from trundle.simulation import Simulation, Snapshot, StateRecorder
 
@@ -88,6 +89,11 @@ class WorldRecorder:
             self._recorder.close()
             self._recorder = None
 
+    @property
+    def is_recording(self) -> bool:
+        """True while a file is open."""
+        return self._recorder is not None
+
     def _begin(self) -> None:
         self.close()
         self._files += 1
@@ -96,3 +102,53 @@ class WorldRecorder:
         simulation = self._simulation
         self._recorder = start_state_log(path, simulation, simulation.world, simulation.report)
         self._say(f"recording into {path}; trundle play shows it")
+
+
+class PageRecording:
+    """Recording that a person at the page begins and ends, each into a folder of its own."""
+
+    def __init__(self, simulation: Simulation, say: Callable[[str], None]) -> None:
+        """Prepare.
+
+        Args:
+            simulation: the one to record.
+            say: prints the files' names.
+        """
+        self._simulation = simulation
+        self._say = say
+        self._recorder: WorldRecorder | None = None
+        self._since_ns = 0
+
+    @property
+    def since_ns(self) -> int | None:
+        """Simulation time at its begin; None: nothing is recorded."""
+        recorder = self._recorder
+        return self._since_ns if recorder is not None and recorder.is_recording else None
+
+    def set(self, on: bool) -> None:
+        """Begin or end a recording in `recorded/<date and time>` below the working directory.
+
+        Raises:
+            UsageError: it cannot be written.
+        """
+        if on == (self.since_ns is not None):
+            return
+        if self._recorder is not None:
+            self._simulation.remove_hook(self._recorder)
+            self._recorder.close()
+            self._recorder = None
+        if on:
+            folder = Path("recorded", datetime.now().strftime("%Y-%m-%d_%H-%M-%S"))
+            recorder = self._recorder = WorldRecorder(self._simulation, folder, self._say)
+            self._since_ns = self._simulation.time_ns
+            recorder.after_step(self._simulation.snapshot())
+            if not recorder.is_recording:
+                self._recorder = None
+                raise UsageError(f"{folder} cannot be written")
+            self._simulation.add_hook(recorder, period_ns=recorder.period_ns)
+
+    def follow(self) -> None:
+        """Go on after the simulation went to another moment, at which it may not have been recorded."""
+        if self._recorder is not None:
+            self._simulation.remove_hook(self._recorder)
+            self._simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)

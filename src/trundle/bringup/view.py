@@ -6,16 +6,14 @@ import sys
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
-from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.names import anonymous_name
-from trundle.packages import Packages
-from trundle.page_address import AllowedNames
+from trundle.page_address import AllowedNames, PageAddress
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
-from trundle.viewer import GraphPage
 
 from .console import Console
+from .graph_page import GraphPage
 from .network_warning import warn_of_network
 from .signals import stop_flag
 
@@ -56,15 +54,8 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         # Anonymous, as rviz is: a second node of the name rviz would shut that of a launch down.
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
-        packages = Packages(env, start=Path.cwd())
-        page = GraphPage(
-            packages=packages,
-            report=report,
-            say=show.line,
-            host=options.host,
-            port=options.port,
-            allowed=options.allowed,
-        )
+        at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
+        page = GraphPage(say=show.line, at=at)
         open_things.callback(page.close)
         shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
         while not stop.wait(0.1):

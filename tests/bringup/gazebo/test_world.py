@@ -261,7 +261,10 @@ def test_a_plugin_that_raises_pauses_the_world_and_is_named(gazebo: Gazebo, tmp_
     plugin = '<plugin name="bad" filename="libbad.so"/></model>'
     assert gazebo.spawn(_BALL.replace("</model>", plugin), "robot").success
     gazebo.call("unpause_physics")
-    until(lambda: any("ValueError: no such thing; the simulation is paused" in line for line in gazebo.said))
+    what = "plugin bad.py: before_step: ValueError: no such thing; the simulation is paused"
+    until(lambda: any(what in said for said in gazebo.said))
+    said = next(said for said in gazebo.said if what in said)
+    assert f'File "{tmp_path / "bad.py"}", line 10, in before_step' in said
     assert gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties").pause is True
 
 

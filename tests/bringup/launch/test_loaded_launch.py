@@ -10,7 +10,7 @@ def test_listing_nodes_loads_nothing_heavy(tmp_path: Path) -> None:
     file.write_text('<launch><node pkg="p" type="t" name="one"/><param name="x" value="1"/></launch>')
     code = (
         f"import sys; from trundle.cli import main; assert main(['launch', '--nodes', {str(file)!r}]) == 0;"
-        "print([name for name in ('asyncio', 'numpy', 'mujoco', 'rosbags', 'viser') if name in sys.modules])"
+        "print([name for name in ('asyncio', 'numpy', 'mujoco', 'rosbags', 'aiohttp') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == ["/one", "[]"]
@@ -24,7 +24,7 @@ def test_a_launch_without_a_page_does_not_wait_for_one(tmp_path: Path) -> None:
     words = ["launch", "--headless", "--duration", "0.1", str(file)]
     code = (
         f"import sys; from trundle.cli import main; assert main({words!r}) == 0;"
-        "print([name for name in ('trundle.viewer', 'trundle.render', 'mujoco') if name in sys.modules])"
+        "print([name for name in ('trundle.page', 'trundle.render', 'mujoco') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.run.run import OnInstability, RunOptions, run
+from trundle.bringup.run.run import run
+from trundle.bringup.run.run_options import OnInstability, RunOptions
 from trundle.cli.main import main
 from trundle.physics import SimulationUnstableError
 

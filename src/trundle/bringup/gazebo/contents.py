@@ -9,7 +9,7 @@ from trundle.bridge import ClockTopic
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.ros import Clock, Node
+from trundle.ros import Clock, Deliver, Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
@@ -38,7 +38,7 @@ class GazeboContents:
         renderer: RendererName,
         clock: Clock,
         clock_hz: float | None,
-        deliver: Callable[[Callable[[], None]], None],
+        deliver: Deliver,
         say: Callable[[str], None],
     ) -> None:
         """Compile the world; `load` starts what is on it.

@@ -3,26 +3,32 @@
 from collections.abc import Callable, Sequence
 
 from trundle.diagnostics import TrundleError
+from trundle.page import GraphAddress
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 
-from ..page import SimulationPage
 from ..realtime_pacer import RealtimePacer
+from ..simulation_page.page import SimulationPage
+from ..state_logs import PageRecording
+
+_CMD_VEL = "/cmd_vel"
 
 
 class GzclientPage:
     """Page of the world behind /gazebo; all but `url`, `is_over` and `is_wanted` belongs to the simulation's thread."""
 
-    def __init__(self, at: PageAddress | None, say: Callable[[str], None]) -> None:
+    def __init__(self, at: PageAddress | None, graph: GraphAddress, say: Callable[[str], None]) -> None:
         """Prepare; `open` serves the page.
 
         Args:
             at: address of the page; None: headless.
+            graph: ROS graph that the page joins.
             say: prints the page's URL.
         """
         self._at = at
+        self._graph = graph
         self._say = say
         self._page: SimulationPage | None = None
 
@@ -47,17 +53,25 @@ class GzclientPage:
         if self._at is None or self._page is not None:
             return
         try:
-            self._page = SimulationPage.open(simulation, sensors, None, self._at)
+            self._page = SimulationPage.open(
+                simulation,
+                sensors,
+                self._at,
+                graph=self._graph,
+                node=node,
+                drive_topic=_CMD_VEL,
+                recorder=PageRecording(simulation, self._say),
+            )
         except TrundleError as error:
             node.log.error(str(error))
             self._at = None
         else:
             self._say(f"see the simulation at {self._page.url}")
 
-    def reload(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        """Rebuild the scene after models or lights came or went."""
+    def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
+        """Set the sensors that measure after models came or went."""
         if self._page is not None:
-            self._page.reload(simulation, sensors)
+            self._page.set_sensors(sensors)
 
     def update(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Handle the page's requests and send it the state; return True if the simulation is paused now."""

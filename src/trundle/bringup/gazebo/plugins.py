@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from trundle.ros import Clock, Node
+from trundle.ros import Clock, Deliver, Node
 from trundle.simulation import ModelHandle, Simulation
 
 from ..graph import Graph
@@ -22,7 +22,7 @@ class GazeboPlugins:
         graph: Graph,
         env: Mapping[str, str],
         clock: Clock,
-        deliver: Callable[[Callable[[], None]], None],
+        deliver: Deliver,
         say: Callable[[str], None],
     ) -> None:
         """Prepare; `load` loads the plugins.

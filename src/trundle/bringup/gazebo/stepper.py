@@ -7,6 +7,7 @@ from trundle.ros import GraphLoop, SimClock
 from trundle.simulation import Simulation
 
 from ..lockstep import Lockstep
+from ..plugin_error import plugin_error
 from ..realtime_pacer import RealtimePacer
 from .simulation_thread import SimulationThread
 
@@ -81,7 +82,7 @@ class GazeboStepper:
         except SimulationUnstableError as error:
             self._stop(str(error))
         except Exception as error:  # a plugin's code may raise anything
-            self._stop(f"{type(error).__name__}: {error}")
+            self._stop(str(plugin_error(error) or f"{type(error).__name__}: {error}"))
         self.clock.set(simulation.time_ns)
         if self._lockstep is None and self.pacer.speed is None:
             self._loop.flush_deliveries()  # delivery order does not depend on the machine's speed
@@ -99,4 +100,5 @@ class GazeboStepper:
 
     def _stop(self, why: str) -> None:
         self.paused = True
-        self._say(f"{why}; the simulation is paused (/gazebo/unpause_physics tries to go on)")
+        what, *lines = why.split("\n")
+        self._say("\n".join([f"{what}; the simulation is paused (/gazebo/unpause_physics tries to go on)", *lines]))

@@ -10,6 +10,7 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
 from trundle.packages import Packages
+from trundle.page import GraphAddress
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
@@ -67,7 +68,7 @@ class GazeboWorld:
         self._folder = folder
         self._say = say
         self._renderer: RendererName = renderer
-        self._window = GzclientPage(window, say)
+        self._window = GzclientPage(window, GraphAddress(master_uri=graph.master_uri, host=graph.host), say)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
         self._stepper = GazeboStepper(graph.loop, self._thread, speed=speed, lockstep=steps, say=say)
@@ -102,7 +103,7 @@ class GazeboWorld:
         if paused:
             self._say("the world is paused; /gazebo/unpause_physics starts it")
 
-    def post(self, call: Callable[[], None]) -> None:
+    def post(self, call: Callable[[], object]) -> None:
         """Queue a function for the simulation's thread, between two strides."""
         self._thread.calls.post(call)
 
@@ -134,6 +135,11 @@ class GazeboWorld:
     def is_open(self) -> bool:
         """True if a world is open."""
         return self._thread.is_running
+
+    @property
+    def is_ready(self) -> bool:
+        """True if an open world has its contents."""
+        return self._contents is not None
 
     # -- on its thread
 
@@ -167,23 +173,25 @@ class GazeboWorld:
         """Pause, or go on."""
         self._stepper.set_paused(paused)
 
+    def open_window(self, node: Node) -> str | None:
+        """Open the page unless it is open; return its URL, or None if it cannot be served."""
+        self._window.open(self.simulation, self.sensors, node)
+        return self._window.url
+
     def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
         """Add a model."""
         self.contents.spawn(xml, name=name, world_from_model=world_from_model, namespace=namespace)
-        self._reload_page()
+        self._update_page()
         self.contents.load_plugins(name)
 
     def delete(self, name: str) -> None:
         """Remove a model."""
         self.contents.delete(name)
-        self._reload_page()
+        self._update_page()
 
     def edit(self, world: World) -> None:
         """Replace gravity, masses, limits or lights."""
-        lights = self.simulation.world.lights
         self.simulation.edit(world)
-        if world.lights != lights:
-            self._reload_page()
 
     def set_speed(self, speed: float | None) -> None:
         """Set the real-time factor; None: flat out."""
@@ -227,6 +235,6 @@ class GazeboWorld:
         )
         self._contents.load(logs)
 
-    def _reload_page(self) -> None:
-        self._window.reload(self.simulation, self.sensors)
+    def _update_page(self) -> None:
+        self._window.set_sensors(self.sensors)
         self._stepper.pacer.restart()

@@ -24,6 +24,7 @@ from trundle.nodes import (
 )
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
+from trundle.rospy.environment import with_finder
 from trundle.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, RespawnPolicy, TaskJob
 from trundle.yaml_loader import load_yaml
 
@@ -147,7 +148,7 @@ class NodeStarter:
                 f"__name:={node.name}",
                 f"__log:={log}.log",
             ),
-            env=env,
+            env=with_finder(env, self.packages.package_folders()),
             cwd=program.parent if node.cwd == "node" else ros_home(env),
             output=self.output or node.output,
             log_file=log.with_name(f"{log.name}-stdout.log"),

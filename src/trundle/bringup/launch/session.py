@@ -17,7 +17,7 @@ from trundle.supervisor import Event, ProcessTree, StopTimeouts
 
 from ..console import say
 from ..graph import Graph
-from ..lockstep import START_S, Lockstep
+from ..lockstep import Lockstep
 from . import printing
 from .clock_publisher import ClockPublisher
 from .loaded_launch import LoadedLaunch
@@ -29,9 +29,8 @@ from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
 
 if TYPE_CHECKING:
-    from trundle.viewer import GraphPage
-
     from ..gazebo.world import GazeboWorld
+    from ..graph_page import GraphPage
 
 _START_S = 60.0
 """Starting programs takes long on a busy machine."""
@@ -113,16 +112,10 @@ class LaunchSession:
                 show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
                 self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
         if not options.headless:
-            from trundle.viewer import GraphPage  # a launch without a page does not wait for it
+            from ..graph_page import GraphPage  # a launch without a page does not wait for it
 
-            self._page = page = GraphPage(
-                packages=read.packages,
-                report=read.report,
-                say=show.line,
-                host=options.host,
-                port=options.view_port,
-                allowed=options.allowed,
-            )
+            at = PageAddress(host=options.host, port=options.view_port, allowed=options.allowed)
+            self._page = page = GraphPage(say=show.line, at=at, source=next(iter(read.plan.files), None))
             self._open_things.callback(page.close)
         tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
         self.starter = NodeStarter(
@@ -231,7 +224,8 @@ class LaunchSession:
             self.starter, nodes, timeouts=timeouts, quiet=options.quiet, listener=self._on_event
         )
         steps = self._lockstep
-        loop.run(running.start(is_ending, None if steps is None else steps.wait_started), timeout_s=_START_S + START_S)
+        # No timeout: a large launch on a busy machine takes minutes.
+        loop.run(running.start(is_ending, None if steps is None else steps.wait_started), timeout_s=None)
         if steps is not None:
             steps.start()
         self._read.show.findings()

@@ -19,7 +19,7 @@ def add_robot(scene: Scene, robot: Robot, packages: Packages, report: Diagnostic
     Returns:
         the scene with the robot's links as further bodies; their (links, 7) poses in the world.
     """
-    from trundle.viewer import robot_scene  # slow to load; other pictures do not need it
+    from .robot_scene import robot_scene  # slow to load; other pictures do not need it
 
     drawn = robot_scene(robot, packages, report)
     poses = root_from_links(robot, {})

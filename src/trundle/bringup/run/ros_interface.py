@@ -20,6 +20,8 @@ from ..plugins import attach_sensor_plugins
 from ..world_setup import LoadedWorld
 
 NODE_NAME = "/trundle"
+_SETTLE_S = 5.0
+"""Wait for registrations; a master elsewhere may have died."""
 
 
 class SimulationClock(SimClock):
@@ -47,6 +49,7 @@ class RosInterface:
     ) -> None:
         self._graph = graph
         self._simulation = simulation
+        self._nodes: list[Node] = []
         self.clock = SimulationClock(graph.loop, simulation)
         self.node = self.make_node(NODE_NAME)
         loop = graph.loop
@@ -64,7 +67,6 @@ class RosInterface:
             loop.run(self.node.params.set("/robot_description", stage.urdf))
             states = JointStatesTopic(self.node, simulation.models[0])
             simulation.add_hook(states, period_ns=states.period_ns, enabled=states.has_subscribers)
-        self._cmd_vel = None
 
     @classmethod
     def open(
@@ -93,14 +95,20 @@ class RosInterface:
     def make_node(self, name: str) -> Node:
         """Make a node on simulation time, whose callbacks run on the simulation's thread between two steps."""
         simulation = self._simulation
-        return Node(
+        node = Node(
             name,
             loop=self._graph.loop,
             master_uri=self._graph.master_uri,
             clock=self.clock,
-            deliver=lambda call: simulation.post(lambda _: call()),
+            deliver=simulation.post_input,
             host=self._graph.host,
         )
+        self._nodes.append(node)
+        return node
+
+    def settle(self) -> None:
+        """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""
+        self._graph.loop.wait_idle(_SETTLE_S, unless=lambda: False)
 
     def tick(self, *, wait: bool) -> None:
         """Set the nodes' clock at the end of a stride.
@@ -113,11 +121,17 @@ class RosInterface:
         if wait:
             self._graph.loop.flush_deliveries()
 
-    def drive(self, linear: float, angular: float) -> None:
-        """Publish a velocity command [m/s, rad/s] of the page's drive pad."""
-        if self._cmd_vel is None:
-            self._cmd_vel = self.node.advertise("/cmd_vel", "geometry_msgs/Twist")
-        self._cmd_vel.publish({"linear": {"x": linear}, "angular": {"z": angular}})
+    def replaced(
+        self,
+        simulation: Simulation,
+        stage: LoadedWorld,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+    ) -> Self:
+        """Leave the graph and return the interface of another simulation on it."""
+        for node in self._nodes:
+            self._graph.loop.run(node.shutdown(), timeout_s=_SETTLE_S)
+        return type(self)(self._graph, simulation, cameras, sensors, stage)
 
     def close(self) -> None:
         """Leave the graph; stop it if it was started here."""

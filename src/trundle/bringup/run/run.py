@@ -5,16 +5,13 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING
 
 from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.garbage import no_garbage
 from trundle.packages import Packages
-from trundle.page_address import AllowedNames, PageAddress
+from trundle.page_address import PageAddress
 from trundle.physics import SimulationUnstableError
-from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation, with_actors
 from trundle.spatial import NS_PER_S
 
@@ -22,48 +19,17 @@ from ..console import Console
 from ..load_input import report_workspace
 from ..network_warning import warn_of_network
 from ..plugin_error import plugin_error
-from ..plugins import load_plugins, load_world_plugins
 from ..realtime_pacer import RealtimePacer, shorten_gil_interval
-from ..renderers import RENDERERS, RendererName
 from ..signals import StopFlag, stop_flag
-from ..world_setup import load_world
+from .run_options import RunOptions
 from .run_result import RunResult
+from .running_world import RunningWorld
 
-if TYPE_CHECKING:  # a run without a page or a graph starts without their modules
-    from ..page import SimulationPage
-    from ..state_logs import RunRecorder
-    from .ros_interface import RosInterface
+if TYPE_CHECKING:  # a run without a page starts without its modules
+    from ..simulation_page.page import SimulationPage
 
-OnInstability: TypeAlias = Literal["pause", "reset", "exit"]
 _MAX_RESETS = 10
 """Resets after which --on-instability reset exits."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RunOptions:
-    """Options of `trundle run`, with its defaults."""
-
-    headless: bool = False
-    host: str = "127.0.0.1"
-    port: int | None = None
-    """Port of the page; None: 8080 or the next free one."""
-    allowed: AllowedNames = AllowedNames()
-    """Hosts and origins that the page serves beside its own."""
-    duration_s: float | None = None
-    """Simulation time [s]; None: until interrupted."""
-    speed: float | None = 1.0
-    """Simulated seconds per second of wall time; None: flat out."""
-    paused: bool = False
-    seed: int = 0
-    ros: bool = True
-    sensors: bool = True
-    renderer: RendererName = "cpu"
-    """Renderer of cameras: Trundle's own, or OpenGL over EGL."""
-    strict: bool = False
-    record: Path | None = None
-    """State log to write."""
-    on_instability: OnInstability | None = None
-    """Reaction to unstable physics; None: pause if there is a page, else exit."""
 
 
 def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = None) -> RunResult:
@@ -86,75 +52,70 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         if joined := master_notice(env):
             show.line(f"{joined}: something else started it")
     warn_of_network(options.host, show.line)
-    packages = Packages(env, start=Path.cwd())
-    report_workspace(file, packages, show.line)
-    with no_garbage():
-        stage = load_world(file, packages, report, seed=options.seed)
-        simulation = Simulation(
-            stage.world, report, seed=options.seed
-        )  # nothing is open yet: Ctrl-C ends the process at once
+    report_workspace(file, Packages(env, start=Path.cwd()), show.line)
+    world = RunningWorld(file, options, env, report, show)  # nothing is open yet: Ctrl-C ends the process at once
     with stop_flag() as stop, ExitStack() as open_things:
-        cameras = mount_cameras(simulation, RENDERERS[options.renderer])
-        sensors = mount_sensors(simulation)
-        if not options.sensors:
-            cameras.clear()
-            sensors.clear()
-        for sensor in (*cameras, *sensors):
-            sensor.start(simulation)
-        show.findings()
-        ros = None
-        if options.ros:
-            from .ros_interface import RosInterface
-
-            ros = open_things.enter_context(
-                RosInterface.open(simulation, stage, cameras, sensors, env, host=options.host)
-            )
-            if ros.graph.core is not None:
-                show.line(ros.graph.summary)
-        recorder = None
-        if options.record is not None:
-            from ..state_logs import RunRecorder, start_state_log
-
-            log = start_state_log(options.record, simulation, stage.written, report)
-            recorder = RunRecorder(log, show.line)
-            simulation.add_hook(recorder, period_ns=recorder.period_ns)
-            open_things.callback(recorder.close)
-        make_node = None if ros is None else ros.make_node
-        load_plugins(simulation, make_node, env, say=show.line)
-        load_world_plugins(simulation, make_node, env, say=show.line)
-        show.findings()
+        open_things.callback(world.close)
+        world.start()
         page = None
         if not options.headless:
-            from ..page import SimulationPage
-
-            shown = (*cameras, *sensors)
-            at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
-            page = open_things.enter_context(SimulationPage.open(simulation, shown, ros, at))
+            page = open_things.enter_context(_open_page(world, options, show.line))
             show.line(f"see it at {page.url}")
-        wall_s = _simulate(simulation, ros, page, options, stop, show.line, recorder=recorder)
+            show.line(f"Foxglove connects to {page.foxglove_url}")
+        wall_s = _simulate(world, page, options, stop, show.line)
         show.findings()
+        simulation = world.simulation
         return RunResult(
-            world=with_actors(stage.written, report),
+            world=with_actors(world.stage.written, report),
             snapshot=simulation.snapshot(),
             steps=simulation.simulated_steps,
             simulated_s=simulation.simulated_ns / NS_PER_S,
             wall_s=wall_s,
-            images=sum(camera.image_count for camera in cameras),
+            images=sum(camera.image_count for camera in world.cameras),
             report=report,
             interrupted=stop.is_set(),
-            recording_broke_off=recorder is not None and recorder.has_failed,
+            recording_broke_off=world.recorder is not None and world.recorder.has_failed,
         )
 
 
+def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], None]) -> "SimulationPage":
+    """Serve the page; with ROS it joins the graph, and drives what listens to /cmd_vel."""
+    from trundle.page import GraphAddress
+
+    from ..simulation_page.page import SimulationPage
+    from ..state_logs import PageRecording
+
+    ros = world.ros
+    page = SimulationPage.open(
+        world.simulation,
+        (*world.cameras, *world.sensors),
+        PageAddress(host=options.host, port=options.port, allowed=options.allowed),
+        graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
+        node=None if ros is None else ros.node,
+        drive_topic=None if ros is None else "/cmd_vel",
+        recorder=PageRecording(world.simulation, say),
+        timeline=world.timeline,
+    )
+
+    def reload() -> None:
+        page.end_recording()
+        world.reload()
+        node = None if world.ros is None else world.ros.node
+        recorder = PageRecording(world.simulation, say)
+        sensors = (*world.cameras, *world.sensors)
+        page.show(world.simulation, sensors, node=node, recorder=recorder, timeline=world.timeline)
+        say(f"{world.simulation.world.name} is loaded again")
+
+    page.on_reload = reload
+    return page
+
+
 def _simulate(
-    simulation: Simulation,
-    ros: "RosInterface | None",
+    world: RunningWorld,
     page: "SimulationPage | None",
     options: RunOptions,
     stop: StopFlag,
     say: Callable[[str], None],
-    *,
-    recorder: "RunRecorder | None",
 ) -> float:
     """Step until the end of --duration, a failed recording or Ctrl-C; return the wall time taken [s].
 
@@ -167,8 +128,14 @@ def _simulate(
     shorten_gil_interval()
     paused = options.paused
     resets = 0
+
+    def warn(text: str) -> None:
+        say(text)
+        if page is not None:
+            page.warn(text)
+
     started = time.monotonic()
-    while not stop.is_set() and (end_ns is None or simulation.time_ns < end_ns):
+    while not stop.is_set() and (end_ns is None or world.simulation.time_ns < end_ns):
         try:
             if page is not None:
                 paused = page.handle_requests(pacer, paused=paused)
@@ -177,11 +144,11 @@ def _simulate(
                 stop.wait(0.02)
                 pacer.restart()
                 continue
-            target_ns = pacer.next_target(simulation.time_ns)
-            simulation.advance(target_ns if end_ns is None else min(target_ns, end_ns))
+            target_ns = pacer.next_target(world.simulation.time_ns)
+            world.advance(target_ns if end_ns is None else min(target_ns, end_ns))
         except SimulationUnstableError as error:
             resets += 1
-            paused = _recover(simulation, options, error, resets, say)
+            paused = _recover(world.simulation, options, error, resets, warn)
             pacer.restart()
             continue
         except TrundleError:
@@ -190,9 +157,9 @@ def _simulate(
             if (theirs := plugin_error(error)) is None:
                 raise
             raise theirs from None
-        if ros is not None:
-            ros.tick(wait=pacer.speed is None)
-        if recorder is not None and recorder.has_failed:
+        if world.ros is not None:
+            world.ros.tick(wait=pacer.speed is None)
+        if world.recorder is not None and world.recorder.has_failed:
             break
     return time.monotonic() - started
 

@@ -1,0 +1,1 @@
+"""`trundle doctor` and `roswtf`: what a machine and a graph have and lack."""

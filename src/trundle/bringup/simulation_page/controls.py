@@ -1,0 +1,137 @@
+"""Requests of the page to a running simulation: time, joints and recording."""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Protocol
+
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.page import (
+    MoveJoint,
+    PageAction,
+    Pause,
+    Play,
+    Record,
+    Reload,
+    Reset,
+    Seek,
+    SetSpeed,
+    Step,
+)
+from trundle.simulation import JointHandle, Simulation
+from trundle.timeline import Timeline
+
+from ..realtime_pacer import RealtimePacer
+
+_STEPS_AT_ONCE = 100
+"""Steps between two looks at the requests."""
+_JOINT_EFFORT = 10.0
+"""Effort limit of a joint without one of its own that the page moves [N·m or N]."""
+
+
+class Recorder(Protocol):
+    """Recording that the page begins and ends."""
+
+    @property
+    def since_ns(self) -> int | None:
+        """Simulation time at its begin; None: nothing is recorded."""
+        ...
+
+    def set(self, on: bool) -> None:
+        """Begin or end it."""
+        ...
+
+    def follow(self) -> None:
+        """Go on after the simulation went to another moment."""
+        ...
+
+
+class SimulationControls:
+    """State of the controls: paused or not, and the steps that are still to do."""
+
+    def __init__(self, simulation: Simulation, recorder: Recorder | None, timeline: Timeline | None = None) -> None:
+        """Prepare.
+
+        Args:
+            simulation: the running one.
+            recorder: None: it cannot be recorded.
+            timeline: None: it cannot go back.
+        """
+        self._simulation = simulation
+        self.recorder = recorder
+        self.timeline = timeline
+        self._steps = 0
+
+    def handle(self, action: PageAction, pacer: RealtimePacer, *, paused: bool) -> bool:
+        """Do what a person asks for; return True if the simulation is paused now.
+
+        Raises:
+            TrundleError: it cannot be done; the message says why.
+        """
+        match action:
+            case Play():
+                paused, self._steps = False, 0
+                pacer.restart()
+            case Pause():
+                paused, self._steps = True, 0
+            case Step(count):
+                paused, self._steps = True, self._steps + count
+            case Reset(what):
+                self._do(lambda sim: sim.reset(time=what != "poses", poses=what != "time"))
+                pacer.restart()
+            case SetSpeed(factor):
+                pacer.set_speed(factor)
+            case MoveJoint():
+                self._do(partial(_move_joint, action))
+            case Seek(time_ns) if self.timeline is not None:
+                paused, self._steps = True, 0
+                self.timeline.seek(time_ns)
+                if self.recorder is not None:
+                    self.recorder.follow()
+                pacer.restart()
+            case Record(on) if self.recorder is not None:
+                self.recorder.set(on)
+            case Reload():
+                raise UsageError("this world is loaded once: end what started it and start it again")
+            case _:
+                raise UsageError("this simulation does not do that")
+        return paused
+
+    def step(self, pacer: RealtimePacer) -> bool:
+        """Do some of the steps asked for; return True if any was done."""
+        count = min(self._steps, _STEPS_AT_ONCE)
+        if count:
+            self._steps -= count
+            simulation = self._simulation
+            advance = simulation.advance if self.timeline is None else self.timeline.advance
+            advance(simulation.time_ns + count * simulation.step_ns)
+            pacer.restart()
+        return count > 0
+
+    def _do(self, command: Callable[[Simulation], None]) -> None:
+        if self.timeline is None:
+            command(self._simulation)
+        else:
+            self.timeline.do(command)
+
+
+def _move_joint(move: MoveJoint, simulation: Simulation) -> None:
+    joint = _find_joint(simulation, move)
+    axis = joint.joint.axis
+    effort = math.inf if axis is not None and math.isfinite(axis.effort) else _JOINT_EFFORT
+    if move.position is not None:
+        joint.command_position(move.position, max_effort=effort)
+    elif move.velocity is not None:
+        joint.command_velocity(move.velocity, max_effort=effort)
+
+
+def _find_joint(simulation: Simulation, move: MoveJoint) -> JointHandle:
+    """Return the joint of a model, or of one nested in it, `outer::inner`."""
+    name = f"{move.model}::{move.joint}"
+    outer = max((m.name for m in simulation.models if name.startswith(f"{m.name}::")), key=len, default=move.model)
+    return simulation[outer].joint(name.removeprefix(f"{outer}::"))
+
+
+def reason_of(error: TrundleError) -> str:
+    """Return a failure as the sentence of a response."""
+    return " ".join(str(error).split())

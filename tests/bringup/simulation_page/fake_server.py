@@ -1,0 +1,70 @@
+"""A page's server that keeps what it is given."""
+
+import queue
+from typing import Any
+
+import numpy as np
+
+from trundle.page import PageAction, Request
+
+
+class FakeServer:
+    """Stands for `trundle.page.PageServer`; everything is watched."""
+
+    url = "http://localhost:1"
+
+    def __init__(self) -> None:
+        self.watched: set[str] | None = None
+        self.pending: list[Request] = []
+        self.answers: dict[int, str | None] = {}
+        self.worlds: list[tuple[dict[str, Any], dict[str, bytes]]] = []
+        self.states: list[Any] = []
+        self.poses: list[tuple[int, Any]] = []
+        self.joints: list[tuple[int, Any]] = []
+        self.lines: list[Any] = []
+        self.images: list[tuple[str, int, Any]] = []
+        self.pictures: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
+        self.notices: list[tuple[str, str | None]] = []
+        self.is_closed = False
+
+    def ask(self, action: PageAction) -> int:
+        """A person asks; return the request's id."""
+        self.pending.append(Request(len(self.pending) + len(self.answers), action))
+        return self.pending[-1].id
+
+    def requests(self) -> list[Request]:
+        pending, self.pending = self.pending, []
+        return pending
+
+    def set_notice(self, notice_id: str, text: str | None) -> None:
+        self.notices.append((notice_id, text))
+
+    def respond(self, request_id: int, error: str | None = None) -> None:
+        self.answers[request_id] = error
+
+    def respond_picture(self, request_id: int, png: bytes) -> None:
+        self.pictures.put((request_id, png))
+
+    def is_watched(self, stream: str) -> bool:
+        return self.watched is None or stream in self.watched
+
+    def set_world(self, manifest: dict[str, Any], files: dict[str, bytes]) -> None:
+        self.worlds.append((manifest, files))
+
+    def put_state(self, state: Any) -> None:
+        self.states.append(state)
+
+    def put_poses(self, time_ns: int, poses: Any) -> None:
+        self.poses.append((time_ns, np.array(poses)))
+
+    def put_joints(self, time_ns: int, joints: Any) -> None:
+        self.joints.append((time_ns, np.array(joints)))
+
+    def put_lines(self, time_ns: int, lines: Any) -> None:
+        self.lines.append((time_ns, list(lines)))
+
+    def put_image(self, topic: str, time_ns: int, rgb: Any) -> None:
+        self.images.append((topic, time_ns, rgb))
+
+    def close(self) -> None:
+        self.is_closed = True

@@ -1,0 +1,151 @@
+"""`trundle doctor` and roswtf: states of ports, variables, names, and faults of a running graph."""
+
+import json
+import socket
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.graphs import Graph, running_graph
+
+from trundle.bringup.doctor.check import Check, table
+from trundle.bringup.doctor.environment_checks import environment_checks
+from trundle.bringup.doctor.graph_faults import graph_faults
+from trundle.bringup.doctor.machine import machine_checks
+from trundle.cli import main
+from trundle.ros import MasterProxy
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with running_graph() as running:
+        yield running
+
+
+def _checks(environment: dict[str, str], folder: Path) -> dict[str, Check]:
+    env = {"HOME": str(folder), "ROS_HOME": str(folder / "ros"), **environment}
+    return {check.name: check for check in environment_checks(env, folder)}
+
+
+def test_the_machine_has_what_tests_need() -> None:
+    checks = {check.name: check for check in machine_checks({"PATH": "/nowhere", "TERM": "dumb"})}
+
+    assert [checks[name].state for name in ("python", "trundle", "mujoco")] == ["ok"] * 3
+    assert (checks["compiler"].state, checks["browser"].state) == ("missing", "missing")
+    assert "C++ nodes and plugins cannot be compiled" in checks["compiler"].cost
+
+
+def test_a_terminal_that_is_not_utf_8_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    checks = {check.name: check for check in machine_checks({"PATH": ""})}
+    assert "no TERM" in checks["terminal"].found
+
+
+def test_wrong_variables_are_problems(tmp_path: Path) -> None:
+    here = f"{tmp_path}:{tmp_path / 'gone'}"
+    wrong = {
+        "ROS_MASTER_URI": "http://no-such-host.invalid:11311",
+        "ROS_HOSTNAME": "no-such-host.invalid",
+        "ROS_PACKAGE_PATH": here,
+        "GAZEBO_MODEL_PATH": here,
+    }
+
+    checks = _checks(wrong, tmp_path)
+
+    assert {name for name, check in checks.items() if check.state == "problem"} == set(wrong)
+    assert str(tmp_path / "gone") in checks["ROS_PACKAGE_PATH"].cost
+    assert "set ROS_IP" in checks["ROS_HOSTNAME"].cost
+
+
+def test_packages_and_models_are_counted(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        (tmp_path / "src" / name).mkdir(parents=True)
+        (tmp_path / "src" / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    before = int(_checks({}, tmp_path)["ROS_PACKAGE_PATH"].found.partition("; ")[2].split()[0])
+
+    found = _checks({"ROS_PACKAGE_PATH": str(tmp_path / "src")}, tmp_path)["ROS_PACKAGE_PATH"].found
+
+    assert found in (f"{before + 2} packages found; 1 folders", f"{before} packages found; 1 folders")
+
+
+def test_a_master_is_told_from_silence(graph: Graph, tmp_path: Path) -> None:
+    assert "a master answers" in _checks({"ROS_MASTER_URI": graph.core.uri}, tmp_path)["ROS_MASTER_URI"].found
+    silent = _checks({"ROS_MASTER_URI": "http://127.0.0.1:9"}, tmp_path)["ROS_MASTER_URI"]
+    assert (silent.state, silent.cost) == ("missing", "roscore starts one")
+
+
+def test_the_command_prints_a_table_and_json(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "gone"))
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9")
+    monkeypatch.setenv("HOME", str(tmp_path))
+
+    assert main(["doctor", "--json"]) == 1
+    checks = json.loads(capsys.readouterr().out)["checks"]
+    assert {"name", "state", "found", "cost"} == set(checks[0])
+    assert main(["doctor"]) == 1
+    assert "problem  ROS_PACKAGE_PATH" in capsys.readouterr().out
+
+
+def test_costs_stand_below_what_was_found() -> None:
+    checks = [
+        Check(name="a", state="ok", found="1"),
+        Check(name="bcd", state="missing", found="none", cost="less"),
+    ]
+    assert table(checks).splitlines() == ["ok       a    1", "missing  bcd  none", "              → less"]
+
+
+def test_a_healthy_graph_has_no_faults(graph: Graph) -> None:
+    node = graph.node("talker")
+    node.advertise("/chatter", "std_msgs/String")
+    graph.node("listener").subscribe("/chatter", "std_msgs/String", lambda _: None)
+    graph.ready(node)
+
+    assert graph_faults(MasterProxy(graph.core.uri)) == []
+
+
+def test_faults_of_a_graph_are_named(graph: Graph) -> None:
+    first, second = graph.node("first"), graph.node("second")
+    first.advertise("/mixed", "std_msgs/String")
+    second.subscribe("/mixed", "std_msgs/Float64", lambda _: None)
+    second.subscribe("/lonely", "std_msgs/String", lambda _: None)
+    graph.ready(first, second)
+    proxy = MasterProxy(graph.core.uri, caller_id="/dead")
+    with socket.socket() as closed:
+        closed.bind(("127.0.0.1", 0))
+        uri = f"http://127.0.0.1:{closed.getsockname()[1]}/"
+    proxy.call("registerService", "/dead/serve", uri.replace("http", "rosrpc"), uri)
+    proxy.call("setParam", "/use_sim_time", True)
+
+    faults = {fault.what: fault for fault in graph_faults(proxy)}
+
+    assert faults["Could not contact the following nodes:"].names == ("/dead",)
+    assert faults["The following services belong to nodes that do not answer:"].names == ("/dead/serve (/dead)",)
+    mixed = faults["The following topics are used with different types:"].names
+    assert mixed == ("/mixed: std_msgs/Float64 by /second; std_msgs/String by /first",)
+    assert faults["The following node subscriptions are unconnected:"].names == ("/lonely: /second",)
+    assert not faults["The following node subscriptions are unconnected:"].is_error
+    assert "Nodes wait for /clock, which no node publishes:" in faults
+
+
+def test_roswtf_prints_them_in_its_words(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    graph.node("second").subscribe("/lonely", "std_msgs/String", lambda _: None)
+    monkeypatch.setenv("ROS_MASTER_URI", graph.core.uri)
+    graph.until(lambda: "/lonely" in str(MasterProxy(graph.core.uri).call("getSystemState")))
+
+    assert main(["--as", "roswtf"]) == 0
+
+    printed = capsys.readouterr().out
+    assert "Static checks summary:" in printed
+    assert "Found 1 warning(s)." in printed
+    assert "WARNING The following node subscriptions are unconnected:\n * /lonely: /second" in printed
+
+
+def test_without_a_master_roswtf_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9")
+
+    assert main(["--as", "roswtf"]) == 0
+
+    assert "ROS Master does not appear to be running." in capsys.readouterr().out
