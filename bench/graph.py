@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from bench.table import Row
-from trundle.ros import Core, GraphLoop
+from trundle.ros import Core, GraphLoop, Node
 
 _END = Path(__file__).parent / "ros_end.py"
 _TWIST, _IMAGE = "geometry_msgs/Twist", "sensor_msgs/Image"
@@ -32,7 +32,18 @@ def run() -> list[Row]:
         _row("Twist in one process", "messages/s", lambda end, own: _rate(end, _TWIST, 30_000, one=own)),
         _row("Image 320x240, flat out", "messages/s", lambda end, _: _rate(end, _IMAGE, 3000)),
         _row("Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end)),
+        *_rospy_rows(),
         _row("topic list, start to exit", "s", lambda _, own: _topic_list(own), against="rostopic list"),
+    ]
+
+
+def _rospy_rows() -> list[Row]:
+    """Measure Trundle's rospy, with the same program."""
+    return [
+        _row("rospy, Twist, flat out", "messages/s", lambda end, _: _rate(end, _TWIST, 30_000), own=_modules),
+        _row("rospy, Image 320x240, flat out", "messages/s", lambda end, _: _rate(end, _IMAGE, 3000), own=_modules),
+        _row("rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end), own=_modules),
+        _row("rospy, start of a node to its first message", "s", lambda end, _: _first_message(end), own=_modules),
     ]
 
 
@@ -57,11 +68,23 @@ def _ours() -> list[str]:
     return [sys.executable, str(_END), "trundle"]
 
 
-def _row(name: str, unit: str, measure: Callable[[Sequence[str], bool], float], *, against: str = "rospy") -> Row:
+def _modules() -> list[str]:
+    """End over Trundle's rospy."""
+    return [*_ours()[:-1], "modules"]
+
+
+def _row(
+    name: str,
+    unit: str,
+    measure: Callable[[Sequence[str], bool], float],
+    *,
+    against: str = "rospy",
+    own: Callable[[], list[str]] = _ours,
+) -> Row:
     """Measure both in alternation, if rospy is installed."""
     if not Path(_ROSTOPIC).exists():
-        return Row(name, statistics.median(measure(_ours(), True) for _ in range(_RUNS)), unit, "", None)
-    pairs = [(measure(_ours(), True), measure(_THEIRS, False)) for _ in range(_RUNS)]
+        return Row(name, statistics.median(measure(own(), True) for _ in range(_RUNS)), unit, "", None)
+    pairs = [(measure(own(), True), measure(_THEIRS, False)) for _ in range(_RUNS)]
     ratio = statistics.median(own / other for own, other in pairs)
     return Row(name, statistics.median(own for own, _ in pairs), unit, against, ratio)
 
@@ -79,6 +102,22 @@ def _age(end: Sequence[str]) -> float:
     """99th percentile of message ages at 1 kHz [ms]."""
     ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000)[0]["ages"])
     return ages[len(ages) * 99 // 100] * 1e3
+
+
+def _first_message(end: Sequence[str]) -> float:
+    """Time from starting a node to its first message at a subscriber that waits [s]."""
+    with _fresh_master() as env, GraphLoop() as loop:
+        arrived: list[float] = []
+        waiting = Node("bench_waiting", loop=loop, master_uri=env["ROS_MASTER_URI"])
+        waiting.subscribe("/bench", "*", lambda _: arrived.append(time.perf_counter()))
+        loop.run(waiting.wait_registered())
+        command = [*end, "first", _TWIST, "1", "0"]
+        start = time.perf_counter()
+        with subprocess.Popen(command, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            while not arrived:
+                time.sleep(0.001)
+            process.kill()
+        return arrived[0] - start
 
 
 def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict[str, Any]]:

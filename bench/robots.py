@@ -46,7 +46,7 @@ def run() -> list[Row]:
             steps, rolling = 8_000 // count, min(least, count)
             if what == "of which one rolls" and count == 1:
                 continue
-            sim, theirs = _ours(count, rolling=rolling), _by_hand(count, rolling=rolling)
+            sim, theirs = rolling_robots(count, rolling=rolling), _by_hand(count, rolling=rolling)
             sim.step(1024)
             theirs(1024)
             pairs = [(cpu_rate(sim.step, steps), cpu_rate(theirs, steps)) for _ in range(_PAIRS)]
@@ -63,7 +63,7 @@ def run() -> list[Row]:
         rows.append(Row(f"one of {count} RP2W {what}", cost, "µs a step", "one alone", ratio))
     most = _COUNTS[-1]
     start = time.process_time()
-    _ours(most, rolling=0).step(1)
+    rolling_robots(most, rolling=0).step(1)
     took = time.process_time() - start
     _by_hand(most, rolling=0)(1)
     ratio = took / (time.process_time() - start - took)
@@ -79,7 +79,7 @@ def run() -> list[Row]:
 
 def print_peak(count: int) -> None:
     """Simulate some robots for two seconds, and print the largest resident memory of this process [MB]."""
-    _ours(count, rolling=count).step(2000)
+    rolling_robots(count, rolling=count).step(2000)
     print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
@@ -90,7 +90,8 @@ def _beside_loop(sim: Simulation, count: int, steps: int) -> Row:
     return Row(f"the same {count} (Gazebo 11: {_GAZEBO[count]:,})", value, "steps/s", "mj_step on the same", ratio)
 
 
-def _ours(count: int, *, rolling: int) -> Simulation:
+def rolling_robots(count: int, *, rolling: int) -> Simulation:
+    """Some RP2Ws on a plane, of which `rolling` drive ahead."""
     alone = trundle.load(str(ROBOT)).world
     robot = replace(next(m for m in alone.models if not m.static), plugins=())
     robots = [

@@ -1,6 +1,6 @@
 """One end of a topic, over Trundle's graph or over rospy; `bench.graph` runs it as a program.
 
-usage: ros_end.py trundle|rospy  pub|sub|both  Twist|Image  COUNT  RATE_HZ (0: flat out)
+usage: ros_end.py trundle|rospy|modules  pub|sub|both|first  Twist|Image  COUNT  RATE_HZ (0: flat out)
 
 A subscriber prints one JSON object when it has COUNT messages, a publisher when it has sent them; stamps are
 `time.monotonic()`, which all processes of a machine share.
@@ -24,8 +24,7 @@ class OverTrundle:
     """Trundle's own client library."""
 
     def __init__(self, role: str) -> None:
-        if sys.flags.no_site:  # an interpreter that has Trundle elsewhere
-            site.addsitedir(os.environ["BENCH_SITE"])
+        _add_site()
         from trundle.ros import GraphLoop, Node
 
         self._loop = GraphLoop()
@@ -90,6 +89,22 @@ class OverRospy:
         self._rospy.Subscriber("/bench", _rospy_type(kind), callback)
 
 
+class OverModules(OverRospy):
+    """Trundle's rospy."""
+
+    def __init__(self, role: str) -> None:
+        _add_site()
+        from trundle.rospy.finder import install
+
+        install()
+        super().__init__(role)
+
+
+def _add_site() -> None:
+    if sys.flags.no_site:  # an interpreter that has Trundle elsewhere
+        site.addsitedir(os.environ["BENCH_SITE"])
+
+
 def _rospy_type(kind: str) -> Any:
     package, _, name = kind.partition("/")
     return getattr(import_module(f"{package}.msg"), name)
@@ -98,7 +113,7 @@ def _rospy_type(kind: str) -> Any:
 def main() -> None:
     """Run the ends that the command line names."""
     library, role, kind, count, rate_hz = sys.argv[1:]
-    end = {"trundle": OverTrundle, "rospy": OverRospy}[library](role)
+    end = {"trundle": OverTrundle, "rospy": OverRospy, "modules": OverModules}[library](role)
     total, period_s = int(count), 1 / float(rate_hz) if float(rate_hz) else 0.0
     ages: list[float] = []
     done = threading.Event()
@@ -109,9 +124,14 @@ def main() -> None:
             done.set()
 
     said: dict[str, Any] = {}
-    if role != "pub":
+    if role == "first":
+        publish, is_heard = end.publisher(kind)
+        while not is_heard():
+            time.sleep(0.001)
+        publish(0.0)
+    if role in ("sub", "both"):
         end.subscribe(kind, take)
-    if role != "sub":
+    if role not in ("sub", "first"):
         publish, is_heard = end.publisher(kind)
         while not is_heard():
             time.sleep(0.01)
@@ -123,7 +143,7 @@ def main() -> None:
                 due += period_s
                 time.sleep(max(0.0, due - time.monotonic()))
             publish(time.monotonic())
-    if role != "pub":
+    if role in ("sub", "both"):
         done.wait()
         said |= {"end": time.monotonic(), "ages": ages[1:] if period_s else []}
     print(json.dumps(said), flush=True)

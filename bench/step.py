@@ -14,12 +14,14 @@ import mujoco
 
 import trundle
 from bench.table import Row
-from trundle.bringup.run.run import RunOptions
 from trundle.bringup.run.run import run as launch_run
+from trundle.bringup.run.run_options import RunOptions
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 PUBLISHED = ROBOT.parents[2] / "shared/seeds/rp2w"
 _STEPS = 20_000
+_COMMAND_STEPS = 10 * _STEPS
+"""Longer, as the time of starting is taken off and it varies."""
 _PAIRS = 7
 
 
@@ -41,7 +43,7 @@ def run() -> list[Row]:
 
     def as_the_command(robot: Path) -> float:
         """`trundle run --headless --speed max --no-sensors`, ROS graph on; less the time of starting."""
-        return _STEPS / (_cost(robot, 1.0 + _STEPS / 1000) - _cost(robot, 1.0))
+        return _COMMAND_STEPS / (_cost(robot, 1.0 + _COMMAND_STEPS / 1000) - _cost(robot, 1.0))
 
     rows: list[Row] = []
     commands = {"trundle run, RP2W with its Python plugin at 50 Hz": ROBOT}

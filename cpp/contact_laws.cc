@@ -15,6 +15,7 @@
 
 #include "contact_offset.h"
 #include "friction_slip.h"
+#include "joint_stop.h"
 #include "law_tables.h"
 #include "midpoint.h"
 #include "mujoco_api.h"
@@ -51,22 +52,27 @@ void rebuild_constraints(const mjModel* m, mjData* d) {
 }
 
 void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
+  start_at_midpoint(laws, m, d);
   const bool changed = turn_friction(laws, m, d);
   if (changed) rebuild_constraints(m, d);
   const bool bounced = !laws.restitution.empty() && apply_restitution(laws, m, d);
   if (bounced || changed) mujoco.mj_fwdVelocity(m, d);
   resist_slip(laws, m, d);
   apply_damping(laws, m, d);
-  shift_contacts(laws, m, d);
+  apply_compliance(laws, m, d);
+  hold_sliding(laws, m, d);
+  approach_stops(m, d);
 }
 
-// For a state that is evaluated, not stepped: friction only, nothing that acts over a step.
-void apply_friction(const LawTables& laws, const mjModel* m, mjData* d) {
+// For a state that is evaluated, not stepped: nothing that acts over a step.
+void apply_static_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   if (turn_friction(laws, m, d)) {
     rebuild_constraints(m, d);
     mujoco.mj_fwdVelocity(m, d);
   }
   resist_slip(laws, m, d);
+  apply_compliance(laws, m, d);
+  approach_stops(m, d);
 }
 
 thread_local bool busy = false;  // a previous callback may call this one
@@ -78,8 +84,8 @@ void on_control(const mjModel* m, mjData* d) {
   LawTables laws;
   if (LawTables::find(m, laws)) {
     if (laws.on) apply_laws(laws, m, d);
-    else if (laws.evaluates) apply_friction(laws, m, d);
-    apply_springs(laws, m, d);
+    else if (laws.evaluates) apply_static_laws(laws, m, d);
+    add_springs(laws, d, d->qfrc_passive);
     apply_midpoint_bias(laws, m, d);
     drive_motors(laws, m, d);
     update_ccd(laws, m, d);

@@ -141,21 +141,29 @@ thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Ac
 
 }  // namespace
 
-void shift_contacts(const LawTables& laws, const mjModel* m, mjData* d) {
+void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d) {
+  if (laws.compliance.empty()) return;
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0) continue;
+    const ComplianceRow* row = find_pair(laws.compliance, pair_key(m, contact.geom));
+    if (!row) continue;
+    double& margin = d->efc_margin[contact.efc_address];
+    if (row->depth > 0) margin = std::max(contact.dist, -row->depth);
+    margin = contact.dist - row->factor * (contact.dist - margin);
+  }
+}
+
+void hold_sliding(const LawTables& laws, const mjModel* m, mjData* d) {
   if (m->opt.integrator != mjINT_DISCRETE || m->opt.cone != mjCONE_ELLIPTIC) return;
   Accelerations accelerations(laws, m, d);
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.efc_address < 0) continue;
-    double& margin = d->efc_margin[contact.efc_address];
-    if (!laws.dead_zones.empty()) {
-      const DeadZoneRow* zone = find_pair(laws.dead_zones, pair_key(m, contact.geom));
-      if (zone) margin = std::max(contact.dist, -zone->depth);
-    }
     if (contact.dim < 3) continue;
     const double* after = accelerations.after_jump(contact);
     if (!after && !is_sliding(contact, d)) continue;
-    margin -= lift(contact, d, m->opt.timestep, after ? after : accelerations.before());
+    d->efc_margin[contact.efc_address] -= lift(contact, d, m->opt.timestep, after ? after : accelerations.before());
   }
 }
 

@@ -1,15 +1,19 @@
-// Shifts of contact margins: sliding contacts do not lift off, and SDF's min_depth.
+// Shifts of contact margins: sliding contacts do not lift off; SDF's min_depth, kp and kd.
 //
 // MuJoCo's convex friction cone lifts a contact that slides at v by μ times what friction would take of v, far more
 // than it sinks in under its load, so it hops. SDF's min_depth is a depth up to which a contact stops bodies without
-// pushing them out. Both shift the depth at which a contact begins to push.
+// pushing them out. MuJoCo's springs act on the depth at the end of the step, which damps; a spring with little damping
+// acts on a multiple of the depth instead. All shift the depth at which a contact begins to push.
 #pragma once
 
 #include "law_tables.h"
 
 namespace trundle {
 
-// Shift the margins of this step's contacts; call after mj_fwdVelocity.
-void shift_contacts(const LawTables& laws, const mjModel* m, mjData* d);
+// Set the margins of contacts with a min_depth, or with a stiffer spring than the model has.
+void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d);
+
+// Keep sliding contacts down in this step; call after mj_fwdVelocity and `apply_compliance`.
+void hold_sliding(const LawTables& laws, const mjModel* m, mjData* d);
 
 }  // namespace trundle

@@ -44,7 +44,7 @@ thread_local std::vector<SlippingContact> slipping;
 thread_local const mjData* slipping_in = nullptr;
 thread_local std::vector<double> rows, solved, shares;  // reused between steps
 
-Group* groups(const mjModel* m, mjData* d) { return reinterpret_cast<Group*>(d->userdata + m->nu); }
+Group* groups(const mjModel* m, mjData* d) { return reinterpret_cast<Group*>(d->userdata + m->nu + m->nv); }
 
 // Add the slip of a moving surface, if one of the bodies has it.
 bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact,

@@ -34,12 +34,15 @@ struct DampingRow {
   double body, linear, angular;  // fraction of the velocity lost per step
 };
 
-struct DeadZoneRow {
-  double pair, depth;  // [m] up to which a contact stops bodies without pushing them out
+struct ComplianceRow {
+  double pair;
+  double depth;   // [m] up to which a contact stops bodies without pushing them out
+  double factor;  // from the stiffness in the model to the contact's
 };
 
 struct GeomRow {
-  double body;  // of its link; a static link's geoms belong to the world body
+  double body;         // of its link; a static link's geoms belong to the world body
+  double friction[2];  // along the first direction and across it, of a geom without pairs; 0: it has pairs
 };
 
 struct MotionRow {    // indexed by body
@@ -83,13 +86,14 @@ struct LawTables {
   std::span<const MotorRow> motors;
   std::span<const ChainRow> chains;
   std::span<const SpringRow> springs;
-  std::span<const DeadZoneRow> dead_zones;
+  std::span<const ComplianceRow> compliance;
   std::span<const GeomRow> geoms;
-  // mjData.userdata: each motor's target speed [rad/s or m/s], then the contact groups: of bodies with a surface
-  // motion, of pairs of collisions
+  // mjData.userdata: each motor's target speed [rad/s or m/s]; 1 for each degree of freedom whose velocity is a
+  // midpoint's; contact groups: of bodies with a surface motion, of pairs of collisions
   int pair_groups;         // number of the latter
   int motor_equality;      // equality whose solref motors use
   std::uintptr_t stepped;  // address of the mjData that the engine steps; others are evaluated
+  bool crowd;              // geoms without pairs have two frictions
   double thin_speed;       // [m/s] above which tunnelling is possible; 0: never
   bool on;                 // all laws apply
   bool evaluates;          // friction laws apply

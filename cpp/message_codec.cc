@@ -46,12 +46,14 @@ NB_MODULE(_message_codec, module) {
   module.attr("SCALAR") = kScalar;
   module.attr("VARIABLE") = kVariable;
   nb::class_<MessageCodec>(module, "MessageCodec")
-      .def("__init__",
-           [](MessageCodec* self, const std::vector<LayoutTuple>& layouts) {
-             MessageCodec program;
-             add_layouts(program, layouts);
-             new (self) MessageCodec(std::move(program));
-           })
+      .def(
+          "__init__",
+          [](MessageCodec* self, const std::vector<LayoutTuple>& layouts, bool plain_arrays) {
+            MessageCodec program(plain_arrays ? Arrays::kPlain : Arrays::kNumpy);
+            add_layouts(program, layouts);
+            new (self) MessageCodec(std::move(program));
+          },
+          nb::arg(), nb::arg("plain_arrays") = false)
       .def("write", [](const MessageCodec& self,
                        nb::handle message) { return returned([&] { return self.write(message.ptr()); }); })
       .def("frame", [](const MessageCodec& self,

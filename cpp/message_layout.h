@@ -64,10 +64,16 @@ struct Layout {
 // Limit of messages without bytes in an array: their number is not limited by the data's size.
 constexpr uint64_t kMaxEmpty = 1024;
 
+// What arrays of numbers are read as.
+enum class Arrays : uint8_t {
+  kNumpy,  // views of the bytes
+  kPlain,  // as in genpy: bytes for uint8 and char, a list for bool, else a tuple
+};
+
 // Reads and writes one message type.
 class MessageCodec {
  public:
-  MessageCodec() = default;
+  explicit MessageCodec(Arrays arrays = Arrays::kNumpy) : arrays_(arrays) {}
   MessageCodec(MessageCodec&&) = default;
 
   // A type comes after those that it refers to, so none contains itself; the last one is the message's own.
@@ -83,6 +89,7 @@ class MessageCodec {
   Object receive(PyObject* recv_into, PyObject* room) const;
 
  private:
+  Arrays arrays_;
   std::vector<std::unique_ptr<Layout>> layouts_;
 };
 

@@ -34,7 +34,8 @@ struct Numpy {
 
 class Reader {
  public:
-  explicit Reader(PyObject* data) : data_(data), view_(data, PyBUF_SIMPLE), no_arguments_(steal(PyTuple_New(0))) {}
+  Reader(PyObject* data, Arrays arrays)
+      : data_(data), view_(data, PyBUF_SIMPLE), arrays_(arrays), no_arguments_(steal(PyTuple_New(0))) {}
 
   Object read_all(const Layout& layout) {
     Object message = read(layout);
@@ -56,7 +57,7 @@ class Reader {
   Object read_some(const Field& field) {
     const uint64_t count = field.count == kVariable ? number<uint32_t>(field) : static_cast<uint64_t>(field.count);
     if (count * field.min_size > left()) truncated(field);
-    if (is_number(field.kind)) return read_numbers(field, count);
+    if (is_number(field.kind)) return arrays_ == Arrays::kPlain ? read_plain(field, count) : read_numbers(field, count);
     if (field.min_size == 0 && field.count == kVariable && count * field.message->empty_messages > kMaxEmpty)
       raise_error(PyExc_ValueError, "'%U' holds too many messages without bytes", field.name.get());
     Object list = steal(PyList_New(static_cast<Py_ssize_t>(count)));
@@ -87,7 +88,19 @@ class Reader {
 
   Object read_text(const Field& field) {
     const uint32_t size = number<uint32_t>(field);
-    return steal(PyUnicode_DecodeUTF8(consume(field, size), static_cast<Py_ssize_t>(size), nullptr));
+    const char* const errors = arrays_ == Arrays::kPlain ? "replace" : nullptr;
+    return steal(PyUnicode_DecodeUTF8(consume(field, size), static_cast<Py_ssize_t>(size), errors));
+  }
+
+  Object read_plain(const Field& field, uint64_t count) {
+    const auto size = static_cast<Py_ssize_t>(count);
+    if (field.kind == Kind::kUInt8) return steal(PyBytes_FromStringAndSize(consume(field, count), size));
+    const bool is_list = field.kind == Kind::kBool;
+    Object numbers = steal(is_list ? PyList_New(size) : PyTuple_New(size));
+    for (Py_ssize_t i = 0; i < size; ++i)
+      if (is_list) PyList_SET_ITEM(numbers.get(), i, read_one(field).release());
+      else PyTuple_SET_ITEM(numbers.get(), i, read_one(field).release());
+    return numbers;
   }
 
   // Returns a view of the bytes.
@@ -122,6 +135,7 @@ class Reader {
 
   PyObject* const data_;
   const View view_;
+  const Arrays arrays_;
   const Object no_arguments_;
   Py_ssize_t at_ = 0;
 };
@@ -146,7 +160,7 @@ struct ReceivedFrame {
 
 }  // namespace
 
-Object MessageCodec::read(PyObject* data) const { return Reader(data).read_all(*layouts_.back()); }
+Object MessageCodec::read(PyObject* data) const { return Reader(data, arrays_).read_all(*layouts_.back()); }
 
 Object MessageCodec::receive(PyObject* recv_into, PyObject* buffer) const {
   const ReceivedFrame frame(recv_into, buffer);

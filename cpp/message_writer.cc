@@ -109,6 +109,7 @@ float float32(const Field& field, PyObject* value) {
 }
 
 bool boolean(PyObject* value) {
+  if (PyUnicode_Check(value)) raise_error(PyExc_TypeError, "a text is no bool");
   const int is_true = PyObject_IsTrue(value);
   if (is_true < 0) throw PythonError{};
   return is_true;

@@ -26,10 +26,20 @@ bool swings(const mjModel* m, const mjData* d, int tree) {
   return false;
 }
 
-// Trees with moving chains; of those in contact, only the ones that swing.
-void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
-  chains.clear();
-  if (laws.chains.empty()) return;
+// True if a tree hangs from something fixed and has a ball joint; others keep the velocities that they are given, which
+// are of the start of a step.
+bool has_ball(const mjModel* m, int tree) {
+  const int first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
+  bool found = false;
+  for (int i = first; i < last; ++i) {
+    if (m->jnt_type[m->dof_jntid[i]] == mjJNT_FREE) return false;
+    found |= m->jnt_type[m->dof_jntid[i]] == mjJNT_BALL;
+  }
+  return found;
+}
+
+// Trees in contact, one flag each.
+const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
   thread_local std::vector<char> touching;
   touching.assign(m->ntree, 0);
   for (int i = 0; i < d->ncon; ++i) {
@@ -38,6 +48,29 @@ void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::
       if (tree >= 0) touching[tree] = 1;
     }
   }
+  return touching;
+}
+
+// Degrees of freedom in the air whose velocities are new; they count as midpoints' from now on.
+void find_started(const LawTables& laws, const mjModel* m, mjData* d, std::vector<int>& started) {
+  started.clear();
+  double* known = d->userdata + m->nu;
+  for (const ChainRow& row : laws.chains) {
+    const int tree = static_cast<int>(row.tree), first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
+    if (!has_ball(m, tree)) continue;
+    for (int i = first; i < last; ++i) {
+      if (known[i] != 0.0) continue;
+      known[i] = 1.0;
+      if (!find_touching(m, d)[tree]) started.push_back(i);
+    }
+  }
+}
+
+// Trees with moving chains; of those in contact, only the ones that swing.
+void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
+  chains.clear();
+  if (laws.chains.empty()) return;
+  const std::vector<char>& touching = find_touching(m, d);
   for (const ChainRow& row : laws.chains) {
     const int tree = static_cast<int>(row.tree);
     const double* speeds = d->qvel + m->tree_dofadr[tree];
@@ -56,6 +89,25 @@ void find_driven(const LawTables& laws, const mjModel* m, const mjData* d, std::
 }
 
 }  // namespace
+
+void start_at_midpoint(const LawTables& laws, const mjModel* m, mjData* d) {
+  thread_local std::vector<int> started;
+  thread_local std::vector<double> forces, accelerations;
+  find_started(laws, m, d, started);
+  if (started.empty()) return;
+  forces.assign(d->qfrc_passive, d->qfrc_passive + m->nv);
+  for (int i = 0; i < m->nv; ++i) forces[i] += d->qfrc_applied[i] - d->qfrc_bias[i];
+  add_springs(laws, d, forces.data());
+  for (int body = 1; body < m->nbody; ++body) {
+    const double* wrench = d->xfrc_applied + 6 * body;
+    if (std::any_of(wrench, wrench + 6, [](double each) { return each != 0.0; }))
+      mujoco.mj_applyFT(m, d, wrench, wrench + 3, d->xipos + 3 * body, body, forces.data());
+  }
+  accelerations.resize(m->nv);
+  mujoco.mj_solveM(m, d, accelerations.data(), forces.data(), 1);
+  for (const int i : started) d->qvel[i] -= 0.5 * m->opt.timestep * accelerations[i];
+  mujoco.mj_fwdVelocity(m, d);
+}
 
 void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d) {
   thread_local std::vector<int> chains, driven;
@@ -86,10 +138,9 @@ void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d) {
   std::copy(axes.begin(), axes.end(), d->cdof_dot);
 }
 
-void apply_springs(const LawTables& laws, const mjModel* m, mjData* d) {
-  (void)m;
+void add_springs(const LawTables& laws, const mjData* d, double* forces) {
   for (const SpringRow& row : laws.springs)
-    d->qfrc_passive[static_cast<int>(row.dof)] -= row.stiffness * (d->qpos[static_cast<int>(row.qpos)] - row.reference);
+    forces[static_cast<int>(row.dof)] -= row.stiffness * (d->qpos[static_cast<int>(row.qpos)] - row.reference);
 }
 
 }  // namespace trundle

@@ -72,14 +72,28 @@ double spin_of(const mjData* d, int body, const MotionRow& motion) {
   return dot(d->cvel + 6 * body, axis);
 }
 
+namespace {
+
+// Friction of a contact that MuJoCo's search found: the smaller of its geoms' in each direction; false: of a pair.
+bool combine_friction(const LawTables& laws, mjContact& contact) {
+  const double* frictions[2];
+  for (int side = 0; side < 2; ++side)
+    frictions[side] = laws.geoms[static_cast<std::size_t>(contact.geom[side])].friction;
+  if (frictions[0][0] <= 0 || frictions[1][0] <= 0) return false;
+  for (int t = 0; t < 2; ++t) contact.friction[t] = std::min(frictions[0][t], frictions[1][t]);
+  return true;
+}
+
+}  // namespace
+
 void align_friction(const LawTables& laws, const mjModel* m, mjData* d) {
-  if (laws.friction.empty()) return;
+  if (laws.friction.empty() && !laws.crowd) return;
   for (int i = 0; i < d->ncon; ++i) {
     mjContact& contact = d->contact[i];
     const FrictionRow* row = find_pair(laws.friction, pair_key(m, contact.geom));
-    if (!row) continue;
+    if (!row && (!laws.crowd || contact.dim < 3 || !combine_friction(laws, contact))) continue;
     double along[3];
-    if (row->geom >= 0) {
+    if (row && row->geom >= 0) {
       to_world(d->geom_xmat + 9 * static_cast<int>(row->geom), row->along, along);
       if (align_tangents(m, d, contact, along)) continue;
     }

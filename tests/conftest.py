@@ -48,9 +48,12 @@ def shared() -> Path:
     return _SHARED
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
-    """Start a real browser with software rendering."""
+    """Start a real browser with software rendering.
+
+    For one module: Playwright keeps an event loop running in this thread, which asyncio.run of other tests refuses.
+    """
     if not _CHROMIUM.exists():
         pytest.skip(f"{_CHROMIUM} is not installed")
     api = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

@@ -126,10 +126,10 @@ class TestEveryReader:
                 read_map(file)
 
     def test_of_rviz_configurations(self, fifo: Path) -> None:
-        from trundle.viewer.rviz import read_rviz_config
+        from trundle.bringup.graph_page import read_rviz_file
 
         with pytest.raises(DescriptionError, match=self.SAID):
-            read_rviz_config(fifo, Diagnostics())
+            read_rviz_file(fifo)
 
     def test_of_recordings(self, fifo: Path) -> None:
         from trundle.ros import RosError, open_bag

@@ -24,7 +24,6 @@ from trundle.launch import read_launch
 from trundle.meshes import load_mesh, load_motion, load_skin, mean_colour, read_heights
 from trundle.packages import Packages, model_file, run_dependencies
 from trundle.render.textures import load_texture
-from trundle.viewer import read_rviz_config
 
 XACRO = """<?xml version="1.0"?><robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
 <xacro:arg name="n" default="2"/><xacro:property name="l" value="${2 * 0.5}"/>
@@ -37,15 +36,6 @@ MODEL_CONFIG = """<?xml version="1.0"?><model><name>m</name><version>1.0</versio
 <sdf version="1.4">model.sdf</sdf><sdf version='1.6'>model.sdf</sdf><description>d</description></model>"""
 PACKAGE = """<package format="2"><name>p</name><depend>roscpp</depend><exec_depend condition="$ROS_VERSION == 1">x
 </exec_depend><export><gazebo_ros gazebo_model_path="${prefix}/models" plugin_path="lib"/></export></package>"""
-RVIZ = """Panels: []
-Visualization Manager:
-  Displays:
-    - {Class: rviz/Grid, Name: Grid, Enabled: true, Color: 160; 160; 164}
-    - Class: rviz/Group
-      Displays: [{Class: rviz/TF, Name: TF, Show Names: false}, {Class: rviz/Image, Image Topic: /eye/image}]
-    - {Class: rviz/RobotModel, Robot Description: robot_description, Collision Enabled: &on true}
-  Global Options: {Background Color: 48; 48; 48, Fixed Frame: odom}
-"""
 ODD = st.one_of(
     st.sampled_from(
         [b"nan", b"1e400", b"-1", b"0", b"", b"\0", b"<", b"&", b'"', b"${", b"$(find x)", b"../../x", b"{"]
@@ -72,10 +62,6 @@ def _package(path: Path) -> None:
     packages.find_package("p")
     packages.worlds()
     packages.material_folders()
-
-
-def _rviz(path: Path) -> None:
-    read_rviz_config(path, Diagnostics())
 
 
 def _collada(path: Path) -> bytes:
@@ -142,7 +128,6 @@ CASES: dict[str, tuple[Callable[[Path], bytes], Callable[[Path], object]]] = {
     "r.urdf.xacro": (lambda _: XACRO.encode(), _xacro),
     "model.config": (lambda _: MODEL_CONFIG.encode(), _model_config),
     "package.xml": (lambda _: PACKAGE.encode(), _package),
-    "c.rviz": (lambda _: RVIZ.encode(), _rviz),
     "m.dae": (_collada, load_mesh),
     "m.obj": (_obj, load_mesh),
     "m.stl": (_exported("stl"), load_mesh),

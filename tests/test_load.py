@@ -27,7 +27,7 @@ def test_a_push_rolls_the_robot_or_not(shared: Path, force: float, distance: flo
 
 def test_importing_it_loads_nothing_heavy() -> None:
     """Light commands must answer at once."""
-    code = "import sys, trundle, trundle.cli; print(*sorted({'numpy', 'mujoco', 'viser', 'lxml'} & set(sys.modules)))"
+    code = "import sys, trundle, trundle.cli; print(*sorted({'numpy', 'mujoco', 'aiohttp', 'lxml'} & set(sys.modules)))"
 
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
@@ -58,7 +58,7 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
         "trundle.model.measuring",
         "trundle.physics.convex.mesh_decomposition",
         "trundle.physics.step.surface_motion",
-        "trundle.render.skinned_actors",
+        "trundle.render.actor_skins",
         "trundle.sensors.cameras.depth",
         "trundle.sensors.imu",
         "trundle.sensors.mount_instruments",

@@ -36,8 +36,9 @@ for name in HIDDEN:
 sys.meta_path.insert(0, Absent())
 """
 IMPORT_ALL = """
-import importlib, pkgutil, trundle
+import importlib, pkgutil, trundle, trundle.rospy.finder
 
+trundle.rospy.finder.install()
 found = [module.name for module in pkgutil.walk_packages(trundle.__path__, "trundle.")]
 for name in found:
     importlib.import_module(name)

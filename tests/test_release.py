@@ -23,4 +23,4 @@ def test_the_container_has_all_that_the_build_reads() -> None:
     """.dockerignore passes the files that CMake and the package's metadata name."""
     let_through = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
 
-    assert {"src", "cpp", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= let_through
+    assert {"src", "cpp", "web", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= let_through

@@ -11,7 +11,6 @@ import trundle
 
 SOURCE = Path(trundle.__file__).parent
 CPP = SOURCE.parents[1] / "cpp"
-REPLACED_NEXT = SOURCE / "viewer"
 
 MODULES = {
     "beat", "between", "doors", "doubts", "errands", "exposure", "feeling", "grip", "lowest", "makers", "nearby",
@@ -40,7 +39,7 @@ def _tree(file: Path) -> ast.Module:
 
 
 def _sources() -> Iterator[Path]:
-    return (file for file in sorted(SOURCE.rglob("*.py")) if REPLACED_NEXT not in file.parents)
+    return iter(sorted(SOURCE.rglob("*.py")))
 
 
 def _definitions(kinds: tuple[type[ast.AST], ...]) -> Iterator[tuple[str, str]]:

@@ -5,9 +5,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.diagnostics import UsageError
 from trundle.nodes.map_server.occupancy_grid import read_map
-from trundle.viewer import read_rviz_config
 from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
 
 
@@ -66,5 +65,3 @@ def test_other_readers_of_yaml_are_bounded_too(tmp_path: Path) -> None:
     bomb.write_text(billions("[x, x]", "[{0}]"))
     with pytest.raises(UsageError, match="its aliases stand for more than"):
         read_map(bomb)
-    with pytest.raises(DescriptionError, match="not YAML: its aliases stand for more than"):
-        read_rviz_config(bomb, Diagnostics())

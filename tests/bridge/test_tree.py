@@ -51,8 +51,7 @@ class Ear:
                 else:
                     self.named[topic] = item["header"]["frame_id"]
 
-        del type_
-        return SimpleNamespace(publish=publish, has_subscribers=True)
+        return SimpleNamespace(topic=topic, type=type_, publish=publish, has_subscribers=True)
 
     def take(self, parent: str, child: str, stamp: int, place: Any, turn: Any) -> None:
         assert self.tree.frames().get(child) in (None, parent), f"{child} has two parents"

@@ -324,9 +324,8 @@ def test_a_plugin_of_a_lumped_link_gets_the_merged_link_and_an_offset(tmp_path: 
 
     assert (plugin.string("bodyName"), plugin.string("frameName")) == ("base", "base")
     assert plugin.string("robotBaseFrame") == "imu_link"
-    report = Diagnostics()
-    assert plugin.vector("xyzOffset", default=(0, 0, 0), report=report) == pytest.approx((1.0, 2.5, 3.0))
-    assert plugin.vector("rpyOffset", default=(0, 0, 0), report=report) == pytest.approx((0.0, 0.0, math.pi / 2))
+    assert plugin.vector("xyzOffset", default=(0, 0, 0)) == pytest.approx((1.0, 2.5, 3.0))
+    assert plugin.vector("rpyOffset", default=(0, 0, 0)) == pytest.approx((0.0, 0.0, math.pi / 2))
 
 
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
@@ -415,6 +414,24 @@ def test_a_gazebo_block_with_an_unknown_reference_is_reported(tmp_path: Path) ->
         "<mu1> for 'b' in <gazebo> names no known link or joint; it is ignored",
         "<x> for 'b' in <gazebo> names no known link or joint; it is ignored",
     ]
+
+
+def test_slip_in_a_gazebo_block_is_ignored_as_in_gazebo_with_the_place_that_counts(tmp_path: Path) -> None:
+    report = Diagnostics()
+    block = "<collision><surface><friction><ode><slip2>0.2</slip2></ode></friction></surface></collision>"
+    shape = '<collision><geometry><sphere radius="1"/></geometry></collision>'
+    links = "".join(f'<link name="{name}">{BODY}{shape}</link>' for name in "ab")
+    joint = '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+    blocks = f'<gazebo reference="a"><slip1>0.1</slip1></gazebo><gazebo reference="b">{block}</gazebo>'
+    text = f'<robot name="r">{links}{joint}{blocks}</robot>'
+
+    world = read(tmp_path, text, report, name="x.urdf").world
+
+    a, b = (link.collisions[0].surface for link in world.models[0].links)
+    assert (a.slip1, b.slip2) == (0.0, 0.2)
+    (said,) = (line.partition(": warning: ")[2] for line in report.warnings)
+    read_instead = "<collision><surface><friction><ode><slip1> is not"
+    assert said == f"<slip1> for 'a' in <gazebo> is ignored, as in Gazebo; {read_instead}"
 
 
 @pytest.mark.parametrize("name", ["x.sdf", "x.urdf"])

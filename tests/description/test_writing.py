@@ -7,12 +7,13 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from trundle.bringup.check.json_output import description_json
 from trundle.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
 from trundle.description.writing.tag import Tag
 from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Joint, Link, Model, model_from_joint
+from trundle.model import Joint, Link, Model, Surface, model_from_joint
 from trundle.packages import Packages
 from trundle.spatial import Pose, quaternion_from_rpy
 from trundle.xmlnode import parse_xml
@@ -208,6 +209,18 @@ def test_poses_are_kept_in_a_urdf() -> None:
         then = before.links[0].model_from_link.inverse() @ was.model_from_link @ on_was
         assert now.as_list() == pytest.approx(then.as_list(), abs=1e-9)
     assert wheel.visuals[0].material.diffuse == pytest.approx((1.0, 0.0, 0.0, 1.0))
+
+
+def test_a_surface_with_more_than_urdf_expresses_is_kept_in_a_urdf() -> None:
+    model = read(CART).world.models[0]
+    surface = Surface(mu=0.2, kp=3e4, slip1=0.1, torsional_coefficient=0.5, patch_radius=0.02, restitution=0.7)
+    base = model.link("base")
+    collisions = tuple(replace(each, surface=surface) for each in base.collisions)
+    changed = replace(model, links=tuple(replace(x, collisions=collisions) if x is base else x for x in model.links))
+
+    after = read(urdf_of(changed)).world.models[0].link("base")
+
+    assert [each.surface for each in after.collisions] == [surface]
 
 
 @pytest.mark.parametrize(

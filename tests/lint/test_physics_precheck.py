@@ -96,7 +96,7 @@ def test_checking_a_plain_robot_loads_no_engine(tmp_path: Path) -> None:
     (tmp_path / "x.sdf").write_text(f"<sdf version='1.7'><world name='w'>{car}</world></sdf>")
     code = (
         "import sys; from trundle.cli import main; main(['check', 'x.sdf']);"
-        "print(sorted({'mujoco', 'numpy', 'viser', 'PIL'} & set(sys.modules)))"
+        "print(sorted({'mujoco', 'numpy', 'aiohttp', 'PIL'} & set(sys.modules)))"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True, timeout=120

@@ -153,10 +153,14 @@ class _Page:
     def __init__(self) -> None:
         self.images: list[str] = []
         self.driven: list[str] = []
+        self.panels: list[str] = []
         self.shown = 0
 
     def show_image(self, topic: str) -> None:
         self.images.append(topic)
+
+    def open_panel(self, program: str) -> None:
+        self.panels.append(program)
 
     def drive_on(self, topic: str) -> None:
         self.driven.append(topic)

@@ -7,6 +7,7 @@ from typing import Any
 import trundle
 from trundle.bringup.plugins import load_plugins, load_world_plugins
 from trundle.ros import Messages
+from trundle.ros.node.endpoint_recorder import EndpointRecorder
 from trundle.simulation import Simulation
 
 BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
@@ -26,6 +27,7 @@ class Wires:
         self._heard_by: dict[str, list[tuple[str, Callable[[Any], None]]]] = {}
         self.said: dict[str, list[Any]] = {}
         self.latched: set[str] = set()
+        self.endpoints = EndpointRecorder()
 
     def subscribe(self, topic: str, kind: str, call: Callable[[Any], None], **_: Any) -> None:
         self._heard_by.setdefault(topic, []).append((kind, call))

@@ -129,6 +129,13 @@ def test_a_job_is_respawned_when_asked_for(tmp_path: Path) -> None:
     assert stage.kinds("a") == ["started", "finished", "respawning"] * 2 + ["started", "stopping"]
 
 
+def test_without_jobs_there_is_nothing_to_wait_for(tmp_path: Path) -> None:
+    async def play(stage: Stage) -> None:
+        assert await stage.supervisor.wait() is None
+
+    on_stage(tmp_path, play)
+
+
 def test_a_required_job_ends_everything_however_cleanly_it_ends(tmp_path: Path) -> None:
     async def play(stage: Stage) -> None:
         await stage.python("other", "import time; time.sleep(600)")

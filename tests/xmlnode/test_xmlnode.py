@@ -33,7 +33,7 @@ def test_a_second_one_of_what_there_is_one_of_is_named() -> None:
     report = Diagnostics()
     node = parse_xml("<inertia><ixx>1</ixx><link/><link/>\n<ixx>2</ixx><ixx>3</ixx></inertia>", name="x.sdf")
 
-    assert node.number("ixx", default=0.0, report=report) == 1.0
+    assert node.number("ixx", default=0.0) == 1.0
     assert len(node.all("link")) == 2
     node.report_unread(report)
 
@@ -112,13 +112,13 @@ def test_an_entity_bomb_is_refused_before_it_grows() -> None:
 def test_a_number_is_finite_or_the_default(text: str, value: float) -> None:
     node = parse_xml(f"<a><n>{text}</n></a>", name="x.xml")
 
-    assert node.number("n", default=7.0, report=Diagnostics()) == value
+    assert node.number("n", default=7.0) == value
 
 
 def test_a_whole_number_may_be_hexadecimal_as_bitmasks_are() -> None:
     report = Diagnostics()
-    node = parse_xml("<contact><collide_bitmask>0x0F</collide_bitmask></contact>", name="w.sdf")
-    assert node.integer("collide_bitmask", default=1, report=report) == 15
+    node = parse_xml("<contact><collide_bitmask>0x0F</collide_bitmask></contact>", name="w.sdf", report=report)
+    assert node.integer("collide_bitmask", default=1) == 15
     assert not report.findings
 
 

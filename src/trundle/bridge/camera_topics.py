@@ -61,6 +61,7 @@ class CameraTopics:
             if row.name == "camera_info" and camera.optics.info_topic:
                 topic = global_topic(camera.optics.info_topic)
             self._topics.append((node.advertise(topic, row.type, queue_size=row.queue_size), row.encoder(camera)))
+        camera.topics = {topic.topic: topic.type for topic, _ in self._topics}
         if camera.optics.triggered:
             own = sensor_topic(model, link.name, camera.sensor, "trigger", main=main, part=camera.optics.name)
             topic = global_topic(camera.optics.trigger_topic) if camera.optics.trigger_topic else own

@@ -40,6 +40,7 @@ class InstrumentTopics:
             )
             for row in outputs
         ]
+        sensor.topics = {topic.topic: topic.type for topic, _, _ in self._topics}
         sensor.listen(self._publish, enabled=lambda: any(topic.has_subscribers for topic, _, _ in self._topics))
 
     def _publish(self, reading: Any) -> None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .budget import bound_length
+from .containers import known_keys
 from .formatting import format_text
 from .functions import sort
 from .values import Callee, Caller, Function
@@ -46,7 +47,15 @@ def attribute(owner: object, name: str) -> object:
             return getattr(owner, name)
         what = f"{type(owner).__name__!r} object"
     kept_back = " that an expression may use" if name.startswith("_") or hasattr(type(owner), name) else ""
-    raise AttributeError(f"{what} has no attribute {name!r}{kept_back}")
+    raise AttributeError(f"{what} has no attribute {name!r}{kept_back}{_instead(owner, name)}")
+
+
+def _instead(owner: object, name: str) -> str:
+    """End of the sentence on a missing attribute: the keys of a dictionary, which xacro's own have as attributes."""
+    if not isinstance(owner, dict):
+        return ""
+    keys: dict[object, object] = owner
+    return f"; its key is written [{name!r}]" if name in keys else f", nor such a key{known_keys(keys)}"
 
 
 def _of_first(kind: type, name: str) -> Callable[..., Any]:

@@ -1,3 +1,4 @@
+from .cache import cache_folder as cache_folder
 from .cache import load_parts as load_parts
 from .cache import save_parts as save_parts
 from .heightmap_image import read_heights as read_heights

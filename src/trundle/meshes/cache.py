@@ -25,7 +25,7 @@ VERSION = 4
 _MAX_BYTES = 512 * 1024 * 1024
 
 
-def folder() -> Path:
+def cache_folder() -> Path:
     """Return the folder below XDG_CACHE_HOME, or ~/.cache."""
     root = os.environ.get("XDG_CACHE_HOME") or home_folder(os.environ) / ".cache"
     return Path(root) / "trundle" / "meshes"
@@ -33,7 +33,7 @@ def folder() -> Path:
 
 def load_parts(key: str) -> list[RawPart] | None:
     """Load the parts of a key; None if missing or damaged."""
-    path = folder() / f"{key}.npz"
+    path = cache_folder() / f"{key}.npz"
     if not is_owned_by_user(path.parent):  # another user's file could be any mesh
         return None
     try:
@@ -55,10 +55,10 @@ def save_parts(key: str, parts: Sequence[RawPart]) -> None:
     if len(packed) > _MAX_BYTES // 8:
         return
     try:
-        folder().mkdir(mode=0o700, parents=True, exist_ok=True)
-        if not is_owned_by_user(folder()):
+        cache_folder().mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not is_owned_by_user(cache_folder()):
             return
-        _write(folder() / f"{key}.npz", packed)
+        _write(cache_folder() / f"{key}.npz", packed)
         _trim()
     except OSError:
         return
@@ -116,7 +116,7 @@ def _unpacked(data: bytes) -> list[RawPart]:
 
 
 def _trim() -> None:
-    files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder().iterdir())
+    files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in cache_folder().iterdir())
     total = sum(size for _, size, _ in files)
     for _, size, path in files:
         if total <= _MAX_BYTES:

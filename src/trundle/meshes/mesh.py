@@ -64,19 +64,7 @@ class Mesh(Struct, frozen=True, eq=False):
 
     def scaled(self, scale: tuple[float, float, float]) -> "Mesh":
         """Return the mesh scaled along its axes; a mirrored one keeps its faces outwards."""
-        if scale == (1.0, 1.0, 1.0):
-            return self
-        mirrored = scale[0] * scale[1] * scale[2] < 0
-        step = -1 if mirrored else 1
-        factors = np.asarray(scale, dtype=np.float32)
-        upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # along 1 / factors, but finite for zeros
-        return replace(
-            self,
-            vertices=self.vertices * factors,
-            faces=self.faces[:, ::step].copy(),
-            uv=None if self.uv is None else self.uv[:, ::step].copy(),
-            normals=None if self.normals is None else self.normals[:, ::step] * upright,
-        )
+        return self if scale == (1.0, 1.0, 1.0) else _scaled(self, scale)
 
     def with_vertices(self, vertices: NDArray[np.float32]) -> "Mesh":
         """Return the mesh with other vertices (N, 3) [m]; its normals rotate with their faces."""
@@ -100,6 +88,21 @@ def _axes(corners: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 @lru_cache(maxsize=256)  # a robot's four wheels stay instances of one mesh
+def _scaled(mesh: Mesh, scale: tuple[float, float, float]) -> Mesh:
+    mirrored = scale[0] * scale[1] * scale[2] < 0
+    step = -1 if mirrored else 1
+    factors = np.asarray(scale, dtype=np.float32)
+    upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # along 1 / factors, but finite for zeros
+    return replace(
+        mesh,
+        vertices=mesh.vertices * factors,
+        faces=mesh.faces[:, ::step].copy(),
+        uv=None if mesh.uv is None else mesh.uv[:, ::step].copy(),
+        normals=None if mesh.normals is None else mesh.normals[:, ::step] * upright,
+    )
+
+
+@lru_cache(maxsize=256)
 def _split_by_material(mesh: Mesh) -> tuple[Mesh, ...]:
     looks: dict[tuple[Rgba | None, Texture | None, Rgba], list[MeshPart]] = {}
     for part in mesh.parts:

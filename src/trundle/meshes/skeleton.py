@@ -43,10 +43,11 @@ class Track:
 
     def pose_at(self, time_s: float, scale: float) -> _Array:
         """Return the interpolated pose (4, 4) at a time, with positions multiplied by `scale`."""
-        after = int(np.clip(np.searchsorted(self.times, time_s, side="right"), 1, max(len(self.times) - 1, 1)))
-        before, after = after - 1, min(after, len(self.times) - 1)
-        span = self.times[after] - self.times[before]
-        u = float(np.clip((time_s - self.times[before]) / span, 0.0, 1.0)) if span > 0.0 else 0.0
+        last = len(self.times) - 1
+        after = min(max(int(self.times.searchsorted(time_s, side="right")), 1), max(last, 1))
+        before, after = after - 1, min(after, last)
+        span = float(self.times[after] - self.times[before])
+        u = min(max((time_s - float(self.times[before])) / span, 0.0), 1.0) if span > 0.0 else 0.0
 
         def mixed(values: _Array) -> _Array:
             return values[before] + u * (values[after] - values[before])
@@ -105,13 +106,20 @@ class Skin:
     weights: _Array
     """(N, K) weights; each row's sum is 1."""
 
-    def vertices(self, poses: Mapping[int, _Array]) -> NDArray[np.float32]:
-        """Return the (N, 3) vertices for parent_from_bone (4, 4) of some bones; the others are in the rest pose."""
+    def joint_poses(self, poses: Mapping[int, _Array]) -> _Array:
+        """Return skin_from_bone (A, 4, 4) of each bind matrix, for parent_from_bone (4, 4) of some bones.
+
+        The others are in the rest pose.
+        """
         skin_from_bone = np.empty((len(self.bones), 4, 4))
         for number, bone in enumerate(self.bones):
             local = poses.get(number, bone.rest)
             skin_from_bone[number] = local if bone.parent < 0 else skin_from_bone[bone.parent] @ local
-        moved = skin_from_bone[self.joint_indices] @ self.bone_from_skin
+        return skin_from_bone[self.joint_indices]
+
+    def vertices(self, poses: Mapping[int, _Array]) -> NDArray[np.float32]:
+        """Return the (N, 3) vertices for bones as `joint_poses` takes them."""
+        moved = self.joint_poses(poses) @ self.bone_from_skin
         found = np.zeros((len(self.bound), 3))
         for k in range(self.influences.shape[1]):
             along = np.einsum("nij,nj->ni", moved[self.influences[:, k], :3], self.bound)

@@ -67,5 +67,7 @@ from .road import Road as Road
 from .sensor import MEASURING as MEASURING
 from .sensor import Sensor as Sensor
 from .surface import Surface as Surface
+from .texture_colours import TEXTURE_COLOURS as TEXTURE_COLOURS
+from .texture_colours import with_plain_colour as with_plain_colour
 from .visibility import EVERY_BIT as EVERY_BIT
 from .world import World as World

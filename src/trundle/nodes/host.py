@@ -39,12 +39,8 @@ class Display(Protocol):
         """Show an image topic, besides those of an rviz configuration."""
         ...
 
-    def offer_options(self) -> None:
-        """Show the options of all nodes, as rqt_reconfigure does."""
-        ...
-
-    def show_graph(self) -> None:
-        """Show the node graph, as rqt_graph does."""
+    def open_panel(self, program: str) -> None:
+        """Open the panel that takes the place of a program: `rqt_graph`."""
         ...
 
     def plot(self, fields: Sequence[str]) -> None:
@@ -111,7 +107,7 @@ class Simulator(Protocol):
         """Stop the simulation and join its thread; call neither on that thread nor on the graph's loop."""
         ...
 
-    def post(self, call: Callable[[], None]) -> None:
+    def post(self, call: Callable[[], object]) -> None:
         """Call a function between steps, even while paused; thread-safe."""
         ...
 

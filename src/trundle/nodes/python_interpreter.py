@@ -11,6 +11,9 @@ from pathlib import Path
 from trundle.files import open_file
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
+_IMPORTS_ROS = re.compile(
+    rb"^\s*(?:import|from)\s+(?:ros\w+|actionlib|genpy|tf|tf2_\w+|\w+_(?:msgs|srvs)|\w+\.(?:msg|srv))\b", re.MULTILINE
+)
 _WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\b))", re.MULTILINE)
 """Modules of a ROS installation or a built workspace."""
 _ASKS = re.compile(rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python3?|\S*/python)\s*$", re.MULTILINE)
@@ -26,7 +29,7 @@ _DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-pac
 
 
 def can_run(program: Path, env: Mapping[str, str]) -> bool:
-    """True if the ROS modules that a program imports (rospy, messages) are found."""
+    """True if the ROS modules that a program imports (rospy, messages) are installed."""
     wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
     folders = [_DEBIAN_MODULES, *_python_path(env)]
     return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in wanted)
@@ -58,9 +61,8 @@ def missing_ros_module(output: str) -> str | None:
 def missing_rospy_advice(module: str) -> str:
     """Advice for a Python without ROS modules."""
     return (
-        f"its Python has no {module}, which comes with ROS or a built workspace; with ROS installed (Debian's "
-        "python3-rospy is enough) its Python runs the node; Trundle has no rospy yet, but runs the nodes of "
-        "`trundle exec --list` without ROS"
+        f"its Python has no {module}; `#!/usr/bin/env python3` as its first line runs it with Trundle's Python, and "
+        "`pip install trundle-rospy` brings ROS' packages to its own"
     )
 
 
@@ -68,15 +70,17 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     """Return the interpreter command for a program; [] if its shebang suffices.
 
     A script with a generic Python shebang gets Debian's if it imports rospy and only that one has it, as in Trundle's
-    virtual environment, and this process's if there is no `python`.
+    virtual environment. Without an installed rospy, and where there is no `python`, it gets this process's Python.
     """
     beginning = _beginning(program)
     asked = _ASKS.match(beginning)
     if asked is None:
         return []
     found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
-    if _IMPORTS_ROSPY.search(beginning) and _has_rospy(_DEBIAN_MODULES) and not any(map(_has_rospy, _python_path(env))):
-        return [] if found is not None and _brings_rospy(Path(found)) else [_DEBIAN_PYTHON]
+    if _IMPORTS_ROS.search(beginning) and not any(map(_has_rospy, _python_path(env))):
+        if found is not None and _brings_rospy(Path(found)):
+            return []
+        return [_DEBIAN_PYTHON if _has_rospy(_DEBIAN_MODULES) else sys.executable]
     return [] if found is not None else [sys.executable]
 
 
@@ -91,7 +95,7 @@ def _beginning(program: Path) -> bytes:
 def _brings_rospy(python: Path) -> bool:
     """True if a Python is Debian's, or has a rospy of its own."""
     if python.parent.resolve() == Path(_DEBIAN_PYTHON).parent:  # also the target of a virtual environment's link
-        return True
+        return _has_rospy(_DEBIAN_MODULES)
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
 

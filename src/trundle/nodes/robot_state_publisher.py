@@ -119,7 +119,7 @@ class RobotStatePublisher:
         name = await node.params.search("robot_description") or "robot_description"
         text = RosParameters({name: await node.params.get(name, None)}, "").text(name)
         report = Diagnostics()
-        robot = read_robot(parse_xml(text, name=node.resolve(name)), report)
+        robot = read_robot(parse_xml(text, name=node.resolve(name), report=report), report)
         for finding in report.findings:
             node.log.debug(str(finding))
         return robot

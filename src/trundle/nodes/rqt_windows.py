@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 class Window:
     """Any rqt program: opens the page, if there is one."""
 
+    panel = ""
+    """Program whose panel is opened; empty: none in particular."""
+
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
         self._arguments = arguments
@@ -30,10 +33,14 @@ class Window:
 
     def _prepare(self, display: Display) -> None:
         """Request the window's content from the page."""
+        if self.panel:
+            display.open_panel(self.panel)
 
 
 class ImageView(Window):
     """image_view/image_view: images of `image`; logs their size and encoding once."""
+
+    panel = "rqt_image_view"
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         super().__init__(node, arguments, host)
@@ -46,6 +53,7 @@ class ImageView(Window):
         return await super().run()
 
     def _prepare(self, display: Display) -> None:
+        super()._prepare(display)
         display.show_image(self._node.resolve("image"))
 
     def _on_image(self, image: "sensor_msgs.Image") -> None:
@@ -57,7 +65,10 @@ class ImageView(Window):
 class RqtImageView(Window):
     """rqt_image_view: images of the given topic."""
 
+    panel = "rqt_image_view"
+
     def _prepare(self, display: Display) -> None:
+        super()._prepare(display)
         for word in self._arguments:
             if not word.startswith("-"):
                 display.show_image(self._node.resolve(word))
@@ -65,6 +76,8 @@ class RqtImageView(Window):
 
 class RqtRobotSteering(Window):
     """rqt_robot_steering: the page's pad publishes on ~default_topic."""
+
+    panel = "rqt_robot_steering"
 
     async def run(self) -> int:
         """Show until the page is closed."""
@@ -77,14 +90,8 @@ class RqtRobotSteering(Window):
         return await super().run()
 
     def _prepare(self, display: Display) -> None:
+        super()._prepare(display)
         display.drive_on(self._node.resolve(self._topic))
-
-
-class RqtGraph(Window):
-    """rqt_graph: the node graph."""
-
-    def _prepare(self, display: Display) -> None:
-        display.show_graph()
 
 
 class RqtPlot(Window):
@@ -95,8 +102,55 @@ class RqtPlot(Window):
         display.plot([self._node.resolve(word) for word in words if word])
 
 
+class RqtBag(Window):
+    """rqt_bag: the timeline."""
+
+    panel = "rqt_bag"
+
+
+class RqtConsole(Window):
+    """rqt_console: the log."""
+
+    panel = "rqt_console"
+
+
+class RqtGraph(Window):
+    """rqt_graph: nodes and topics."""
+
+    panel = "rqt_graph"
+
+
+class RqtPublisher(Window):
+    """rqt_publisher: publishes messages typed in."""
+
+    panel = "rqt_publisher"
+
+
 class RqtReconfigure(Window):
     """rqt_reconfigure and reconfigure_gui: the options of all nodes."""
 
-    def _prepare(self, display: Display) -> None:
-        display.offer_options()
+    panel = "rqt_reconfigure"
+
+
+class RqtRobotMonitor(Window):
+    """rqt_robot_monitor: diagnostics."""
+
+    panel = "rqt_robot_monitor"
+
+
+class RqtServiceCaller(Window):
+    """rqt_service_caller: calls services."""
+
+    panel = "rqt_service_caller"
+
+
+class RqtTfTree(Window):
+    """rqt_tf_tree: frames and their parents."""
+
+    panel = "rqt_tf_tree"
+
+
+class RqtTopic(Window):
+    """rqt_topic: topics with rate, bandwidth and messages."""
+
+    panel = "rqt_topic"

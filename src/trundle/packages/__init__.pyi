@@ -1,5 +1,8 @@
 from .cmake import CMakeProgram as CMakeProgram
+from .cmake import cmake_libraries as cmake_libraries
 from .cmake import cmake_programs as cmake_programs
+from .cmake import cmake_requirements as cmake_requirements
+from .dependencies import build_dependencies as build_dependencies
 from .dependencies import run_dependencies as run_dependencies
 from .gazebo_paths import is_stand_in as is_stand_in
 from .model_config import model_file as model_file

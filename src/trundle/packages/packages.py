@@ -87,6 +87,10 @@ class Packages:
         self._ros.all()
         return self._cache.skipped
 
+    def package_folders(self) -> list[Path]:
+        """Return the folders of ROS packages: those of ROS_PACKAGE_PATH, and of the workspace around the start."""
+        return list(self._ros.roots)
+
     def ros_packages(self) -> Mapping[str, Path]:
         """Return every ROS package by name."""
         return self._ros.all()
@@ -121,6 +125,10 @@ class Packages:
     def worlds(self) -> list[str]:
         """Return the names of Trundle's worlds."""
         return sorted(path.name for path in (SHIPPED / "worlds").glob("*.world"))
+
+    def model_folders(self) -> list[Path]:
+        """Return the folders of models, in Gazebo's order."""
+        return self._gazebo.model_folders
 
     def material_folders(self) -> list[Path]:
         """Return the folders that Gazebo searches for material scripts by default."""

@@ -1,3 +1,6 @@
+from .actor_skins import skinned_actors as skinned_actors
+from .actor_skins import unsupported_reason as unsupported_reason
+from .actor_skins import update_skins as update_skins
 from .bounds import corners_of as corners_of
 from .bounds import outline_of as outline_of
 from .from_world import scene_from_world as scene_from_world
@@ -10,11 +13,12 @@ from .renderer import Intrinsics as Intrinsics
 from .renderer import Picture as Picture
 from .renderer import Renderer as Renderer
 from .renderer import size_of as size_of
+from .scene import DEFAULT_LIGHTS as DEFAULT_LIGHTS
 from .scene import Scene as Scene
 from .scene import SceneLight as SceneLight
 from .scene import SceneSkin as SceneSkin
 from .scene import Shape as Shape
 from .scene import ShapeGeometry as ShapeGeometry
-from .skinned_actors import unsupported_reason as unsupported_reason
-from .skinned_actors import update_skins as update_skins
+from .textures import LARGEST_TEXTURE_PX as LARGEST_TEXTURE_PX
+from .textures import load_texture as load_texture
 from .textures import report_unreadable_textures as report_unreadable_textures

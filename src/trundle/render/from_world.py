@@ -23,6 +23,7 @@ from trundle.model import (
     World,
 )
 
+from .material_shape import material_shape
 from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
@@ -54,7 +55,7 @@ def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = Fa
             actor = actors.get(link.name)
             moving = None
             if actor is not None and actor.name == model.name:
-                from .skinned_actors import skinned_shapes  # these read COLLADA's bones, which most worlds have none of
+                from .actor_skins import skinned_shapes  # these read COLLADA's bones, which most worlds have none of
 
                 moving = skinned_shapes(actor, len(bodies), len(shapes))
             if moving is None:
@@ -85,6 +86,7 @@ def _light(light: Light, body: int | None, world: World) -> SceneLight:
         return (colour[0] * light.intensity, colour[1] * light.intensity, colour[2] * light.intensity, colour[3])
 
     return SceneLight(
+        name=light.name,
         kind=light.type,
         body=body,
         position=light.world_from_light.position,
@@ -124,17 +126,10 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
 def _textured_shapes(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Shape]:
     """Yield a shape with its material; a mesh without one takes the colours of its file."""
     material = visual.material
-    shape = Shape(
-        name=visual.name,
-        body=body,
-        geometry=geometry,
+    shape = material_shape(visual.name, body, geometry, material)
+    shape = replace(
+        shape,
         body_from_shape=visual.link_from_visual,
-        rgba=material.diffuse,
-        ambient=material.ambient,
-        specular=material.specular,
-        emissive=material.emissive,
-        texture=material.texture,
-        texture_scale=material.texture_scale,
         casts_shadow=visual.cast_shadows,
         laser_retro=visual.laser_retro,
     )

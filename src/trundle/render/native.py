@@ -13,7 +13,7 @@ from trundle.spatial import Pose, rotation_from_z
 
 from . import _native
 from .renderer import Intrinsics, Picture, size_of
-from .scene import Scene, SceneLight, Shape
+from .scene import DEFAULT_LIGHTS, Scene, SceneLight, Shape
 from .textures import load_texture
 
 refuse_stale(_native)
@@ -31,7 +31,6 @@ _FOGS = {
     "quadratic": _native.FogKind.SQUARED,
 }
 _INDEX = np.dtype(np.int32)
-_DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
 
 
 Key = TypeVar("Key")
@@ -100,7 +99,7 @@ class NativeRenderer:
             meshes=meshes.items,
             textures=textures.items,
             shapes=shapes,
-            lights=[_native_light(light) for light in scene.lights or _DEFAULT_LIGHTS],
+            lights=[_native_light(light) for light in scene.lights or DEFAULT_LIGHTS],
             ambient=scene.ambient[:3],
             horizon=horizon[:3],
             zenith=zenith[:3],

@@ -2,11 +2,14 @@
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from trundle.diagnostics import Diagnostics
 from trundle.meshes import strip_mesh
 from trundle.model import World
 from trundle.spatial import Pose
 
+from .material_shape import material_shape
 from .scene import Shape
 
 
@@ -20,16 +23,5 @@ def road_shapes(world: World, report: Diagnostics) -> Iterator[Shape]:
             continue
         model, link = links[still]
         world_from_body: Pose = model.world_from_model @ link.model_from_link
-        yield Shape(
-            name=road.name,
-            body=still,
-            geometry=strip_mesh(road.points, road.width),
-            body_from_shape=world_from_body.inverse(),
-            rgba=road.material.diffuse,
-            ambient=road.material.ambient,
-            specular=road.material.specular,
-            emissive=road.material.emissive,
-            texture=road.material.texture,
-            texture_scale=road.material.texture_scale,
-            casts_shadow=False,
-        )
+        shape = material_shape(road.name, still, strip_mesh(road.points, road.width), road.material)
+        yield replace(shape, body_from_shape=world_from_body.inverse(), casts_shadow=False)

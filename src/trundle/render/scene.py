@@ -1,10 +1,9 @@
 """Scene data: shapes fixed to bodies, and lights.
 
-A scene is plain data for renderers and the viewer, independent of its source.
+A scene is plain data for renderers and the page, independent of its source.
 """
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from msgspec import Struct
@@ -15,6 +14,7 @@ from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, LightType, Pla
 from trundle.spatial import Pose, Vector3
 
 if TYPE_CHECKING:
+    from trundle.meshes import Skin
     from trundle.model import AnimationState
 
 ShapeGeometry = Box | Capsule | Cylinder | Ellipsoid | Mesh | Plane | Sphere
@@ -48,6 +48,7 @@ class Shape(Struct, frozen=True, kw_only=True):
 class SceneLight(Struct, frozen=True, kw_only=True):
     """Light fixed to a body or to the world."""
 
+    name: str = ""
     kind: LightType = "directional"
     body: int | None = None
     """Index into the poses; None: the world."""
@@ -66,16 +67,48 @@ class SceneLight(Struct, frozen=True, kw_only=True):
     casts_shadows: bool = False
 
 
+DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
+"""Lights of a scene without any."""
+
+
+class AnimatedSkin(Protocol):
+    """Skin with the bones that deform it."""
+
+    @property
+    def skin(self) -> "Skin":
+        """Skin in the bind pose."""
+        ...
+
+    @property
+    def bones(self) -> tuple[str, ...]:
+        """Names of the bones."""
+        ...
+
+    @property
+    def bone_from_skin(self) -> NDArray[np.float64]:
+        """Bind matrices (B, 4, 4) of the bones."""
+        ...
+
+    def bone_poses(self, state: "AnimationState") -> NDArray[np.float64]:
+        """Return (B, 7) x y z [m], qw qx qy qz of the bones in the body's frame."""
+        ...
+
+    def vertices(self, state: "AnimationState") -> NDArray[np.float32]:
+        """Return (N, 3) vertices in the body's frame [m]."""
+        ...
+
+
 class SceneSkin(Struct, frozen=True, eq=False, kw_only=True):
-    """Skin of an actor: meshes with vertices animated in their body's frame."""
+    """Skin of an actor: meshes that its bones deform."""
 
     actor: str
+    body: int
+    """Index of the body in whose frame it is animated."""
     first: int
     """Index of its first shape; the others follow."""
     rows: tuple[NDArray[np.intp], ...]
     """Indices of each shape's vertices in the skin's."""
-    vertices: "Callable[[AnimationState], NDArray[np.float32]]"
-    """(N, 3) vertices at an animation state, in the body's frame [m]."""
+    animated: AnimatedSkin
 
 
 class Scene(Struct, frozen=True, kw_only=True):
@@ -92,3 +125,8 @@ class Scene(Struct, frozen=True, kw_only=True):
     sky: tuple[Rgba, Rgba] | None = None
     """Colours at the horizon and overhead, which replace the background."""
     fog: Fog = Fog()
+
+    @property
+    def bones(self) -> tuple[str, ...]:
+        """Names of all skins' bones, `actor::bone 0`."""
+        return tuple(f"{skin.actor}::{bone}" for skin in self.skins for bone in skin.animated.bones)

@@ -11,7 +11,7 @@ from trundle.meshes import Texture, image_file, why_undecoded
 from .scene import Scene
 
 _MAX_PIXELS = 64 * 1024 * 1024
-_LARGEST = 4096
+LARGEST_TEXTURE_PX = 4096
 """Largest side [px]; a larger image is reduced."""
 
 
@@ -24,8 +24,8 @@ def load_texture(texture: Texture) -> NDArray[np.uint8] | str:
         with Image.open(image_file(texture)) as image:
             if image.width * image.height > _MAX_PIXELS:
                 return f"it has {image.width} x {image.height} pixels, more than {_MAX_PIXELS}"
-            if max(image.size) > _LARGEST:
-                image.thumbnail((_LARGEST, _LARGEST))
+            if max(image.size) > LARGEST_TEXTURE_PX:
+                image.thumbnail((LARGEST_TEXTURE_PX, LARGEST_TEXTURE_PX))
             return np.ascontiguousarray(np.asarray(image.convert("RGB")))
     except Exception as error:  # every decoder behind Pillow fails in its own way
         return why_undecoded(error)

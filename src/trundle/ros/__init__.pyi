@@ -2,6 +2,7 @@ from .bags import BagConnection as BagConnection
 from .bags import BagError as BagError
 from .bags import BagMessage as BagMessage
 from .bags import BagReader as BagReader
+from .bags import BagSummary as BagSummary
 from .bags import BagWriter as BagWriter
 from .bags import Player as Player
 from .bags import PlayerOptions as PlayerOptions
@@ -9,7 +10,9 @@ from .bags import Recorder as Recorder
 from .bags import RecorderOptions as RecorderOptions
 from .bags import StepRecorder as StepRecorder
 from .bags import UnindexedBagError as UnindexedBagError
+from .bags import byte_text as byte_text
 from .bags import create_bag as create_bag
+from .bags import median_rates as median_rates
 from .bags import open_bag as open_bag
 from .bags import recover_messages as recover_messages
 from .clients.action_server import ActionOutcome as ActionOutcome
@@ -72,6 +75,7 @@ from .migration import PlaceholderRule as PlaceholderRule
 from .migration import Rule as Rule
 from .migration import RuleFile as RuleFile
 from .migration import missing_rules as missing_rules
+from .node.callback_dispatch import Deliver as Deliver
 from .node.clock import Clock as Clock
 from .node.clock import SimClock as SimClock
 from .node.clock import WallClock as WallClock
@@ -81,7 +85,9 @@ from .node.loggers import Loggers as Loggers
 from .node.loop import GraphLoop as GraphLoop
 from .node.node import Node as Node
 from .node.publisher import Publisher as Publisher
+from .node.publisher_probe import probe_publisher as probe_publisher
 from .node.service import Service as Service
+from .node.service_client import call_service_bytes as call_service_bytes
 from .node.service_client import probe_service as probe_service
 from .node.subscription import Subscription as Subscription
 from .node.use_sim_time import follow_time as follow_time

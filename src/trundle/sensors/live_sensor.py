@@ -68,6 +68,8 @@ class LiveSensor(Generic[Reading]):
         self._handle: LinkHandle | None = None
         self.parent_name = mount.link.name
         """Name in its topics: its link, or the joint that it measures."""
+        self.topics: dict[str, str] = {}
+        """Topics that its readings are published on, the main one first, each with its message type."""
         rate = mount.sensor.update_rate_hz or default_rate_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None

@@ -103,9 +103,7 @@ def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
     from trundle.render import unsupported_reason
 
     why = unsupported_reason(actor)
-    if why is None:
-        report.info(actor.at, f"actor {actor.name!r}: cameras and lidars see its bones move; the page draws it stiff")
-    else:
+    if why is not None:
         report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {why}")
     return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
 

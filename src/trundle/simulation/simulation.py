@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 _MAX_STRIDE = 1000
 """Most steps of one stride; an unstable stride is rolled back to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
+Repeat: TypeAlias = Callable[[], object]
+"""Does once more what an input from outside, such as a message, did."""
 
 
 class Simulation:
@@ -73,8 +75,10 @@ class Simulation:
         self.lines: dict[str, DebugLine] = {}
         """Lines drawn by plugins, by `model::name`."""
         self.lines_are_shown = False
-        """True if a viewer shows the lines; plugins with expensive lines draw none before."""
+        """True if a page shows the lines; plugins with expensive lines draw none before."""
         self._commands: deque[Command] = deque()
+        self.record_input: Callable[[Repeat], None] | None = None
+        """Takes what repeats each input from outside."""
         self._schedule = Schedule[Simulation](self._clock)
         self._on_change: list[Callable[[], None]] = []
         self.actors = {
@@ -371,6 +375,19 @@ class Simulation:
     def post(self, command: Command) -> None:
         """Queue a function that is called with the simulation before its next step; thread-safe."""
         self._commands.append(command)
+
+    def post_input(self, call: Callable[[], Repeat | None]) -> None:
+        """Queue a callback that may come from outside the simulation, such as a message's; thread-safe.
+
+        Args:
+            call: returns what repeats it; None: it comes again by itself if the simulation is repeated.
+        """
+        self.post(lambda sim: sim._call_input(call))
+
+    def _call_input(self, call: Callable[[], Repeat | None]) -> None:
+        repeat = call()
+        if repeat is not None and self.record_input is not None:
+            self.record_input(repeat)
 
     def _drain(self) -> None:
         for _ in range(len(self._commands)):

@@ -6,6 +6,7 @@ from .arrays import matrix_from_quaternion as matrix_from_quaternion
 from .arrays import multiply_rows as multiply_rows
 from .arrays import pose_from_row as pose_from_row
 from .arrays import quaternion_from_matrix as quaternion_from_matrix
+from .arrays import quaternions_from_matrices as quaternions_from_matrices
 from .arrays import rotate_rows as rotate_rows
 from .arrays import rotate_vectors as rotate_vectors
 from .arrays import rows_from_poses as rows_from_poses

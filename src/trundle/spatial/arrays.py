@@ -83,16 +83,20 @@ def matrix_from_quaternion(q: Quaternion) -> _Array:
 
 
 def quaternion_from_matrix(m: _Array) -> Quaternion:
-    """The unit quaternion of a rotation matrix (3, 3), by the largest of Shepperd's four forms."""
-    trace = np.trace(m)
-    four = np.array(
-        [
-            [1 + trace, m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
-            [m[2, 1] - m[1, 2], 1 + 2 * m[0, 0] - trace, m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
-            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], 1 + 2 * m[1, 1] - trace, m[1, 2] + m[2, 1]],
-            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 + 2 * m[2, 2] - trace],
-        ]
-    )
-    best = four[int(np.argmax(np.diag(four)))]
-    w, x, y, z = (best / np.linalg.norm(best)).tolist()
+    """The unit quaternion of a rotation matrix (3, 3)."""
+    w, x, y, z = quaternions_from_matrices(m[None])[0].tolist()
     return (w, x, y, z)
+
+
+def quaternions_from_matrices(m: _Array) -> _Array:
+    """Unit quaternions (N, 4) of rotation matrices (N, 3, 3), each by the largest of Shepperd's four forms."""
+    trace = np.trace(m, axis1=1, axis2=2)
+    four = np.empty((len(m), 4, 4))
+    four[:, 0, 0] = 1 + trace
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        four[:, i + 1, i + 1] = 1 + 2 * m[:, i, i] - trace
+        four[:, 0, i + 1] = four[:, i + 1, 0] = m[:, k, j] - m[:, j, k]
+        four[:, i + 1, j + 1] = four[:, j + 1, i + 1] = m[:, j, i] + m[:, i, j]
+    best = four[np.arange(len(m)), np.diagonal(four, axis1=1, axis2=2).argmax(axis=1)]
+    return np.asarray(best / np.linalg.norm(best, axis=1, keepdims=True), dtype=np.float64)

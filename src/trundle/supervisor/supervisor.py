@@ -33,7 +33,6 @@ class _WatchedJob:
     job: Job
     policy: RespawnPolicy
     watch: asyncio.Task[None] | None = None
-    starts: int = 0
     code: int | None = None
 
 
@@ -46,6 +45,8 @@ class Supervisor:
         self._timeouts = timeouts or StopTimeouts()
         self._watched: dict[str, _WatchedJob] = {}
         self._ended = asyncio.Event()
+        """Set while no job is left; at first there is none."""
+        self._ended.set()
         self._required: str | None = None
         self._stop = asyncio.Event()
 
@@ -91,7 +92,6 @@ class Supervisor:
         except JobError as error:
             self._notify("failed", watched, f"cannot be started: {error}")
             return False
-        watched.starts += 1
         watched.code = None
         self._notify("started", watched, f"started {what}")
         return True

@@ -30,13 +30,23 @@ class XmlNode:
         "_read_once",
         "_read_tags",
         "is_declared_late",
+        "report",
         "tag",
     )
 
-    def __init__(self, element: etree._Element, *, file: str, first_line: int = 0) -> None:  # pyright: ignore[reportPrivateUsage]
+    def __init__(
+        self,
+        element: etree._Element,  # pyright: ignore[reportPrivateUsage]
+        *,
+        file: str,
+        report: Diagnostics,
+        first_line: int = 0,
+    ) -> None:
         self._element = element
         self.tag = _written_tag(element)
         """Element name as written, with prefix."""
+        self.report = report
+        """Takes warnings about values that cannot be read."""
         self._file = file
         self._first_line = first_line
         self._read_tags: set[str] = set()
@@ -82,7 +92,9 @@ class XmlNode:
     def children(self) -> list["XmlNode"]:
         """Child elements in file order; access does not mark them as read."""
         if self._children is None:
-            self._children = [XmlNode(e, file=self._file, first_line=self._first_line) for e in self._element]
+            self._children = [
+                XmlNode(e, file=self._file, report=self.report, first_line=self._first_line) for e in self._element
+            ]
         return self._children
 
     def all(self, tag: str) -> list["XmlNode"]:
@@ -129,17 +141,17 @@ class XmlNode:
         child = self.find(tag)
         return default if child is None else child.text
 
-    def number(self, tag: str, *, default: float, report: Diagnostics) -> float:
+    def number(self, tag: str, *, default: float) -> float:
         """Return a child's number, or the default with a warning if it is invalid."""
         child = self.find(tag)
-        return default if child is None else child.as_number(default=default, report=report)
+        return default if child is None else child.as_number(default=default)
 
-    def flag(self, tag: str, *, default: bool, report: Diagnostics) -> bool:
+    def flag(self, tag: str, *, default: bool) -> bool:
         """Return a child's boolean: true, false, 1 or 0."""
         child = self.find(tag)
-        return default if child is None else child.as_flag(default=default, report=report)
+        return default if child is None else child.as_flag(default=default)
 
-    def integer(self, tag: str, *, default: int, report: Diagnostics) -> int:
+    def integer(self, tag: str, *, default: int) -> int:
         """Return a child's integer, or the default with a warning if it is invalid."""
         child = self.find(tag)
         if child is None:
@@ -148,23 +160,23 @@ class XmlNode:
             return int(child.text)
         if _HEXADECIMAL.fullmatch(child.text):
             return int(child.text, 16)
-        value = child.as_number(default=float(default), report=report)
+        value = child.as_number(default=float(default))
         return int(value)
 
-    def vector(self, tag: str, *, default: Vector3, report: Diagnostics) -> Vector3:
+    def vector(self, tag: str, *, default: Vector3) -> Vector3:
         """Return a child's three numbers."""
         child = self.find(tag)
         if child is None:
             return default
-        values = child.as_numbers(3, report=report)
+        values = child.as_numbers(3)
         return default if values is None else (values[0], values[1], values[2])
 
-    def as_number(self, *, default: float, report: Diagnostics) -> float:
+    def as_number(self, *, default: float) -> float:
         """Return the text as one finite number."""
-        values = self.as_numbers(1, report=report, fallback=f"{default:g} is used")
+        values = self.as_numbers(1, fallback=f"{default:g} is used")
         return default if values is None else values[0]
 
-    def as_flag(self, *, default: bool, report: Diagnostics) -> bool:
+    def as_flag(self, *, default: bool) -> bool:
         """Return the text as a boolean."""
         text = self.text.lower()
         if text in ("true", "1"):
@@ -172,28 +184,28 @@ class XmlNode:
         if text in ("false", "0"):
             return False
         # libsdformat before 15 reads every other text as false.
-        report.warn(self.at, f"<{self.tag}>: {self.text!r} is neither true nor false; read as {str(default).lower()}")
+        self.report.warn(
+            self.at, f"<{self.tag}>: {self.text!r} is neither true nor false; read as {str(default).lower()}"
+        )
         return default
 
-    def as_numbers(
-        self, count: int, *, report: Diagnostics, fallback: str = "the default is used"
-    ) -> list[float] | None:
+    def as_numbers(self, count: int, *, fallback: str = "the default is used") -> list[float] | None:
         """Return the text as exactly `count` finite numbers, or None with a warning."""
         values = parse_numbers(self.text)
         if values is None or len(values) != count:
             wanted = "one number" if count == 1 else f"{count} numbers"
-            report.warn(self.at, f"<{self.tag}> needs {wanted}, got {shorten(self.text)}; {fallback}")
+            self.report.warn(self.at, f"<{self.tag}> needs {wanted}, got {shorten(self.text)}; {fallback}")
             return None
         if not all(map(math.isfinite, values)):
-            report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}")
+            self.report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}")
             return None
         return values
 
-    def as_pose(self, *, report: Diagnostics) -> Pose:
+    def as_pose(self) -> Pose:
         """Return the text as a pose x y z roll pitch yaw [m, rad]; empty text is the identity."""
         if not self.text:
             return Pose()
-        values = self.as_numbers(6, report=report, fallback="the identity is used")
+        values = self.as_numbers(6, fallback="the identity is used")
         return Pose() if values is None else Pose.from_rpy(*values)
 
     def attributes_to_children(self, kept: frozenset[str], texts: Mapping[str, str]) -> None:
@@ -227,7 +239,7 @@ class XmlNode:
         """Append a copy of another file's element, which keeps its source position."""
         copied = deepcopy(other._element)
         copied.tail = None
-        self.children.append(XmlNode(copied, file=other._file, first_line=other._first_line))
+        self.children.append(XmlNode(copied, file=other._file, report=self.report, first_line=other._first_line))
         self._element.append(copied)
 
     def remove(self, child: "XmlNode") -> None:
@@ -235,7 +247,7 @@ class XmlNode:
         self.children.remove(child)
         self._element.remove(child._element)
 
-    def merge_values(self, other: "XmlNode", report: Diagnostics) -> None:
+    def merge_values(self, other: "XmlNode") -> None:
         """Copy another element's text, unless empty, and its attributes."""
         if other.text:
             self._element.text = other.text
@@ -243,7 +255,7 @@ class XmlNode:
             try:
                 self._element.set(name, value)
             except ValueError:  # lxml refuses names that XML does not allow
-                report.warn(other.at, f"attribute {name!r} has an undeclared prefix; it is left out")
+                self.report.warn(other.at, f"attribute {name!r} has an undeclared prefix; it is left out")
 
     def drop_attributes(self, *names: str) -> None:
         """Remove attributes."""

@@ -27,7 +27,8 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     Args:
         text: the whole document.
         name: file name in messages.
-        report: if given, errors that Gazebo's and ROS's old XML parsers tolerate become warnings.
+        report: takes warnings about values, and errors that Gazebo's and ROS's old XML parsers tolerate; None: those
+            raise, and values that cannot be read become their defaults in silence.
         deepest: largest nesting depth, for readers that do not descend into all of it.
 
     Raises:
@@ -64,7 +65,7 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
             report.warn(at, f"{what}; read as Gazebo reads it")
     except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
         raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
-    node = XmlNode(root, file=name, first_line=before.count(b"\n"))
+    node = XmlNode(root, file=name, report=report or Diagnostics(), first_line=before.count(b"\n"))
     node.is_declared_late = bool(before) and document.startswith(b"<?xml")
     return node
 

@@ -186,7 +186,7 @@ def test_plugins_are_written_with_their_parameters() -> None:
 
     (tag,) = read_back(model).models[0].plugins
     assert (tag.name, tag.filename) == ("drive", "libdrive.so")
-    assert (tag.node.string("topic"), tag.node.number("rate", default=0.0, report=Diagnostics())) == ("/a<b", 20.0)
+    assert (tag.node.string("topic"), tag.node.number("rate", default=0.0)) == ("/a<b", 20.0)
 
 
 class Scene(NamedTuple):

@@ -72,6 +72,8 @@ def test_expressions_of_published_files_have_their_values(tmp_path: Path, expres
             "the dictionary has no key 1; it has '0', '1', '2', '3', '4', '5', '6', '7', …",
         ),
         ("dict()['z']", "the dictionary has no key 'z'; it has none"),
+        ("dict(a=1).b", "'dict' object has no attribute 'b', nor such a key; it has 'a'"),
+        ("dict(a=1).a", "'dict' object has no attribute 'a'; its key is written ['a']"),
         ("xacro.fatal('out', 'of', 3)", "out of 3"),
         ("python.clear()", "name 'clear' is not defined"),
         ("xacro.load_yaml.body", "'Function' object has no attribute 'body' that an expression may use"),

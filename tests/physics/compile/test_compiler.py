@@ -1,5 +1,6 @@
 """Compiled worlds: degrees of freedom, repaired values, and collision pairs."""
 
+import math
 from pathlib import Path
 
 import mujoco
@@ -318,6 +319,31 @@ def test_soft_and_deep_shapes_keep_their_ways_in_a_crowd() -> None:
     assert heights["deep"] == pytest.approx(1.0 - 0.004 - mass * 9.8 / 20000, abs=1e-4)
     assert heights["soft"] == pytest.approx(1.0 - 2 * mass * 9.8 / 2000, rel=1e-4)
     assert heights["above"] - heights["soft"] == pytest.approx(0.2 - mass * 9.8 / 1000, abs=1e-4)
+
+
+def test_mu2_acts_in_a_crowd() -> None:
+    """Shapes without pairs, for there are 50 standing and 50 moving ones: a floor's first direction is y."""
+    slippery = Surface(mu=0.8, mu2=0.1)
+    boxes = [
+        replace(
+            model(link("l", x=9.0 * i, surface=slippery, geometry=Box((0.2, 0.2, 0.2))), name=f"b{i}"),
+            world_from_model=Pose((0.0, 0.0, -0.9)),
+        )
+        for i in range(50)
+    ]
+    tiles = [
+        replace(
+            model(link("l", x=9.0 * i, surface=slippery, geometry=Box((8.0, 8.0, 0.2))), name=f"t{i}", static=True),
+            world_from_model=Pose((0.0, 0.0, -1.1)),
+        )
+        for i in range(50)
+    ]
+    world = World(name="w", at=AT, models=(*boxes, *tiles))
+    for gravity, moved in (((3.0, 0.0, -9.8), (3.0 - 0.98) / 2), ((0.0, 3.0, -9.8), 0.0)):
+        sim = Simulation(replace(world, physics=replace(world.physics, gravity=gravity)), Diagnostics(strict=True))
+        before = sim["b0"].links[0].pose.position
+        sim.run(1.0)
+        assert math.dist(sim["b0"].links[0].pose.position, before) == pytest.approx(moved, abs=0.02)
 
 
 def test_too_many_soft_shapes_are_simulated_hard_aloud() -> None:

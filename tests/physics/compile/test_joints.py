@@ -339,7 +339,8 @@ def test_a_stop_is_hard_whatever_its_stiffness_as_in_ode(load: Load) -> None:
 
 @pytest.mark.parametrize("kind", ["prismatic", "revolute"])
 @pytest.mark.parametrize("speed", [0.3, 1.7, 4.3])
-def test_what_runs_into_its_stop_is_over_it_for_no_more_than_a_step(load: Load, kind: str, speed: float) -> None:
+def test_what_runs_into_its_stop_does_not_pass_it(load: Load, kind: str, speed: float) -> None:
+    """Gazebo passes it by 0.01 mm; a MuJoCo limit by a step's motion, 1.7 mm at 1.7 m/s."""
     limit = "<limit><lower>-1</lower><upper>0.05</upper></limit>"
     sim = load(link("a"), joint("j", kind, "world", "a", axis("1 0 0", limit)), gravity=0.0)
     j = sim["m"].joint("j")
@@ -348,7 +349,7 @@ def test_what_runs_into_its_stop_is_over_it_for_no_more_than_a_step(load: Load, 
     for _ in range(500):
         sim.step()
         furthest, fastest_back = max(furthest, j.position), min(fastest_back, j.velocity)
-    assert 0.05 < furthest < 0.05 + 1.05e-3 * speed
+    assert 0.05 < furthest < 0.05 + 1e-7
     assert fastest_back > -0.005 * speed
 
 

@@ -186,3 +186,25 @@ def test_islands_are_looked_for_only_where_half_of_the_world_is_at_rest(load: Lo
         sim.run(2.0)
         rests.append(sim.engine.asleep > 0)
     assert rests == [False, True]
+
+
+@pytest.mark.parametrize("drive", ["velocity", "position"])
+def test_a_motor_that_presses_asleep_still_exerts_its_effort(load: Load, drive: str) -> None:
+    """A slider that a wall stops, alone and beside bodies that rest."""
+    slide = (
+        '<joint name="j" type="prismatic"><parent>world</parent><child>l</child><axis><xyz>1 0 0</xyz></axis></joint>'
+    )
+    wall = '<model name="wall"><static>true</static><pose>0.5 0 1 0 0 0</pose><link name="l"><collision name="c">'
+    wall += "<geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link></model>"
+    for others in (wall, wall + box("b", "5 5 0.1 0 0 0") + box("c", "7 5 0.1 0 0 0")):
+        sim = load(box("slider", "0 0 1 0 0 0", extra=slide), others)
+        joint = sim["slider"].joint("j")
+        if drive == "velocity":
+            joint.command_velocity(0.5, max_effort=20.0)
+        else:
+            joint.command_position(0.9, max_effort=20.0)
+        sim.run(4.0)
+
+        assert sim.engine.asleep >= 1
+        assert joint.effort == pytest.approx(20.0, rel=1e-6)
+        assert sim.snapshot().joint_efforts[0] == pytest.approx(20.0, rel=1e-6)

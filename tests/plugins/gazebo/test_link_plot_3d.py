@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.page_scene import drawn_lines
+from trundle.bringup.simulation_page.lines import plugin_lines
 from trundle.spatial import Twist
 
 PLOT = """<link name="l">{body}</link><plugin name="p" filename="libLinkPlot3DPlugin.so"><frequency>100</frequency>
@@ -33,9 +33,9 @@ def test_a_pen_beside_a_turning_link_draws_a_circle(tmp_path: Path) -> None:
         "<plot>: model 'm' has no link 'elsewhere'; there are: 'l'; it is left out"
     ]
 
-    (first, *_) = drawn_lines(sim)
+    (first, *_) = plugin_lines(sim)
     assert first.points.shape == (len(pen.points), 3)
-    assert first.rgb == (255, 0, 0)
+    assert first.rgba == (255, 0, 0, 255)
     sim.reset()
     assert pen.points == []
     sim.delete("m")

@@ -38,6 +38,11 @@ def read(transmission: str, rest: str = "") -> tuple[list[str], list[str]]:
             f'<transmission name="t">{TYPE}<joint name="a"><hardwareInterface/></joint>{MOTOR}</transmission>',
             "names no <hardwareInterface>",
         ),
+        (
+            f'<transmission name="t">{TYPE}<joint name="a">{EFFORT}</joint><joint name="b">{EFFORT}</joint>{MOTOR}'
+            "</transmission>",
+            "'t' has 2 joints, but gazebo_ros_control drives one joint per transmission",
+        ),
     ],
 )
 def test_a_transmission_that_the_parser_drops_is_left_out(transmission: str, said: str) -> None:
@@ -57,6 +62,15 @@ def test_a_joint_of_an_empty_name_goes_alone() -> None:
 
     assert joints == ["a", "z"]
     assert "the name is empty" in warning
+
+
+def test_a_joint_without_an_interface_is_no_second_one() -> None:
+    joints, (warning,) = read(
+        f'<transmission name="t">{TYPE}<joint name="a">{EFFORT}</joint><joint name="b"/>{MOTOR}</transmission>'
+    )
+
+    assert joints == ["a", "z"]
+    assert "joint 'b' names no <hardwareInterface>" in warning
 
 
 def test_elements_that_nobody_knows_and_a_second_interface_are_no_fault() -> None:

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.page_scene import drawn_lines
 from trundle.bringup.plugins import attach_sensor_plugins
+from trundle.bringup.simulation_page.lines import plugin_lines
 from trundle.sensors import mount_sensors
 from trundle.simulation import Simulation
 
@@ -50,9 +50,9 @@ def test_a_standing_foot_has_a_line_as_long_as_its_weight(tmp_path: Path) -> Non
     sim.run(0.1)
 
     assert ends(sim) == ((0.05, 0.0, 0.1), (0.05, 0.0, 0.3))
-    (drawn,) = drawn_lines(sim)
+    (drawn,) = plugin_lines(sim)
     assert drawn.points.shape == (2, 3)
-    assert drawn.rgb == (255, 0, 255)
+    assert drawn.rgba == (255, 0, 255, 255)
     assert sim.report.warnings == []
 
 

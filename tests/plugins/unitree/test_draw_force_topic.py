@@ -3,7 +3,7 @@
 import pytest
 from tests.gazebo_server import Gazebo, until
 
-from trundle.bringup.page_scene import drawn_lines
+from trundle.bringup.simulation_page.lines import plugin_lines
 
 _FOOT = """<sdf version="1.6"><model name="foot"><link name="l"><pose>0 0 0.1 0 0 0</pose>
 <inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
@@ -29,5 +29,5 @@ def test_a_line_of_the_force_on_a_foot_stands_on_the_foot(bare_gazebo: Gazebo) -
     until(lambda: line.points and line.points[1][2] > 0.25)
     bare_gazebo.until_s(bare_gazebo.time_s + 1.0)
     bare_gazebo.call("pause_physics")
-    (drawn,) = drawn_lines(simulation)
+    (drawn,) = plugin_lines(simulation)
     assert drawn.points.tolist() == [pytest.approx([0.0, 0.0, z], abs=2e-3) for z in (0.1, 0.296)]

@@ -36,9 +36,9 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
         world_from_actor=read_pose(node, context).pose,
         skin=_skin(node.find("skin"), context),
         animations=tuple(_animation(child, context) for child in node.all("animation")),
-        loop=script is None or script.flag("loop", default=True, report=report),
-        delay_start_s=0.0 if script is None else script.number("delay_start", default=0.0, report=report),
-        auto_start=script is None or script.flag("auto_start", default=True, report=report),
+        loop=script is None or script.flag("loop", default=True),
+        delay_start_s=0.0 if script is None else script.number("delay_start", default=0.0),
+        auto_start=script is None or script.flag("auto_start", default=True),
         trajectories=() if script is None else _trajectories(script, context),
         links=tuple(read_link(child, link, graph, context) for link, child in links.items()),
         joints=_joints(node, graph, context),
@@ -66,7 +66,7 @@ def _skin(node: XmlNode | None, context: Context) -> Skin | None:
     if node is None:
         return None
     path, uri = _file(node, context)
-    skin = Skin(path=path, uri=uri, scale=node.number("scale", default=1.0, report=context.report))
+    skin = Skin(path=path, uri=uri, scale=node.number("scale", default=1.0))
     node.report_unread(context.report)
     return skin
 
@@ -77,8 +77,8 @@ def _animation(node: XmlNode, context: Context) -> Animation:
         name=node.attribute("name") or "",
         path=path,
         uri=uri,
-        scale=node.number("scale", default=1.0, report=context.report),
-        interpolate_x=node.flag("interpolate_x", default=False, report=context.report),
+        scale=node.number("scale", default=1.0),
+        interpolate_x=node.flag("interpolate_x", default=False),
     )
     node.report_unread(context.report)
     return animation
@@ -132,7 +132,7 @@ def _tension(node: XmlNode, context: Context) -> float:
 def _waypoint(node: XmlNode, context: Context) -> Waypoint:
     pose = node.find("pose")
     waypoint = Waypoint(
-        time_s=node.number("time", default=0.0, report=context.report),
+        time_s=node.number("time", default=0.0),
         pose=Pose() if pose is None else read_pose(node, context).pose,
     )
     node.report_unread(context.report)

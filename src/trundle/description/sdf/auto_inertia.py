@@ -21,7 +21,7 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     report = context.report
     inertial = node.find("inertial")
     assert inertial is not None
-    overall = inertial.number("density", default=_WATER, report=report)
+    overall = inertial.number("density", default=_WATER)
     bodies: list[tuple[float, Pose, Vector3]] = []
     for collision, child in zip(link.collisions, node.all("collision"), strict=True):
         found = volume_and_moments(collision.geometry)
@@ -29,7 +29,7 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
             report.warn(collision.at, f"collision {collision.name!r}: no automatic inertia for its shape; it weighs 0")
             continue
         volume, per_mass = found
-        mass = volume * child.number("density", default=overall, report=report)
+        mass = volume * child.number("density", default=overall)
         bodies.append((mass, _pose(collision), (per_mass[0] * mass, per_mass[1] * mass, per_mass[2] * mass)))
     total = sum(mass for mass, _, _ in bodies)
     if not total > 0.0:

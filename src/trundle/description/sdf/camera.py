@@ -74,18 +74,18 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
     depth_clip = None if depth is None else depth.find("clip")
     optics = CameraOptics(
         sensor_from_camera=read_pose(node, context).pose,
-        horizontal_fov_rad=node.number("horizontal_fov", default=default.horizontal_fov_rad, report=report),
-        width_px=default.width_px if image is None else image.integer("width", default=320, report=report),
-        height_px=default.height_px if image is None else image.integer("height", default=240, report=report),
+        horizontal_fov_rad=node.number("horizontal_fov", default=default.horizontal_fov_rad),
+        width_px=default.width_px if image is None else image.integer("width", default=320),
+        height_px=default.height_px if image is None else image.integer("height", default=240),
         format=default.format if image is None else image.string("format", default=default.format),
-        near_m=default.near_m if clip is None else clip.number("near", default=default.near_m, report=report),
-        far_m=default.far_m if clip is None else clip.number("far", default=default.far_m, report=report),
+        near_m=default.near_m if clip is None else clip.number("near", default=default.near_m),
+        far_m=default.far_m if clip is None else clip.number("far", default=default.far_m),
         noise=read_noise(node.find("noise"), context),
         distortion=_distortion(node.find("distortion"), context),
         save_path=_save_path(node.find("save"), context),
         panoptic=_one_of(node, "segmentation_type", ("semantic", "instance", "panoptic"), context) != "semantic",
-        visibility_mask=read_bits(node, "visibility_mask", context),
-        triggered=node.flag("triggered", default=False, report=report),
+        visibility_mask=read_bits(node, "visibility_mask"),
+        triggered=node.flag("triggered", default=False),
         trigger_topic=node.string("trigger_topic"),
         info_topic=_child_source(node, "camera_info_topic"),
         optical_frame=_child_source(node, "optical_frame_id"),
@@ -94,8 +94,8 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
     if depth_clip is not None:
         optics = replace(
             optics,
-            depth_near_m=depth_clip.number("near", default=optics.near_m, report=report),
-            depth_far_m=depth_clip.number("far", default=optics.far_m, report=report),
+            depth_near_m=depth_clip.number("near", default=optics.near_m),
+            depth_far_m=depth_clip.number("far", default=optics.far_m),
         )
     node.attribute("name")
     if image is not None:
@@ -118,9 +118,9 @@ def _distortion(node: XmlNode | None, context: Context) -> Distortion:
     if node is None:
         return Distortion()
     report = context.report
-    k1, k2, k3, p1, p2 = (node.number(tag, default=0.0, report=report) for tag in ("k1", "k2", "k3", "p1", "p2"))
+    k1, k2, k3, p1, p2 = (node.number(tag, default=0.0) for tag in ("k1", "k2", "k3", "p1", "p2"))
     center = node.find("center")
-    middle = None if center is None else center.as_numbers(2, report=report)
+    middle = None if center is None else center.as_numbers(2)
     node.report_unread(report)
     if max(map(abs, (k1, k2, k3, p1, p2, *(middle or ())))) > _MAX_BENT:
         report.warn(node.at, f"coefficients and a center beyond {_MAX_BENT:g} are not possible; no distortion is used")
@@ -202,8 +202,7 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
     custom = node.find("custom_function")
     if type_ == "custom" and custom is not None:
         c1, c2, c3, f = (
-            custom.number(tag, default=value, report=report)
-            for tag, value in (("c1", 1.0), ("c2", 1.0), ("c3", 0.0), ("f", 1.0))
+            custom.number(tag, default=value) for tag, value in (("c1", 1.0), ("c2", 1.0), ("c3", 0.0), ("f", 1.0))
         )
         fun = custom.string("fun").lower() or "tan"
         custom.report_unread(report)
@@ -218,7 +217,7 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
         known = ", ".join([*_LENSES, "custom"])
         report.warn(node.at, f"no lens {type_!r}: {known}; stereographic is used")
         (c1, c2, fun), c3, f = _LENSES["stereographic"], 0.0, 1.0
-    face = node.integer("env_texture_size", default=256, report=report)
+    face = node.integer("env_texture_size", default=256)
     if not 16 <= face <= 4096:
         report.warn(node.at, f"env_texture_size {face} is not possible; 256 is used")
         face = 256
@@ -228,8 +227,8 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
         c3=c3,
         f=f,
         fun=fun,
-        scale_to_hfov=node.flag("scale_to_hfov", default=True, report=report),
-        cutoff_rad=node.number("cutoff_angle", default=1.5707, report=report),
+        scale_to_hfov=node.flag("scale_to_hfov", default=True),
+        cutoff_rad=node.number("cutoff_angle", default=1.5707),
         face_px=face,
     )
 
@@ -239,7 +238,7 @@ def _intrinsics(node: XmlNode | None, context: Context) -> PixelIntrinsics | Non
         return None
     report = context.report
     fx, fy, cx, cy, skew = (
-        node.number(tag, default=value, report=report)
+        node.number(tag, default=value)
         for tag, value in (("fx", 277.0), ("fy", 277.0), ("cx", 160.0), ("cy", 120.0), ("s", 0.0))
     )
     node.report_unread(report)
@@ -258,7 +257,7 @@ def _projection(node: XmlNode | None, context: Context) -> Projection | None:
         return None
     report = context.report
     fx, fy, cx, cy, tx, ty = (
-        node.number(tag, default=value, report=report)
+        node.number(tag, default=value)
         for tag, value in (("p_fx", 277.0), ("p_fy", 277.0), ("p_cx", 160.0), ("p_cy", 120.0), ("tx", 0.0), ("ty", 0.0))
     )
     node.report_unread(report)

@@ -28,7 +28,7 @@ def with_plugins(visual: Visual, nodes: list[XmlNode], context: Context) -> Visu
 
 
 def _temperature(node: XmlNode, report: Diagnostics) -> float | None:
-    temperature = node.number("temperature", default=0.0, report=report)
+    temperature = node.number("temperature", default=0.0)
     if 0.0 <= temperature <= _HOTTEST:
         return temperature
     report.warn(node.at, f"a temperature of {temperature:g} K is not possible; it is as warm as the air")
@@ -58,7 +58,7 @@ def _is(node: XmlNode, what: str) -> bool:
 
 
 def _label(node: XmlNode, report: Diagnostics) -> int:
-    label = node.integer("label", default=0, report=report)
+    label = node.integer("label", default=0)
     if 0 <= label <= _LARGEST_LABEL:
         return label
     report.warn(node.at, f"label {label} is not between 0 and {_LARGEST_LABEL}; 0 is used")

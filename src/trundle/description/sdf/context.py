@@ -53,9 +53,9 @@ def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context)
             context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored")
 
 
-def read_bits(node: XmlNode, tag: str, context: Context, *, default: int = EVERY_BIT) -> int:
+def read_bits(node: XmlNode, tag: str, *, default: int = EVERY_BIT) -> int:
     """Return a child's bit mask."""
-    return node.integer(tag, default=default, report=context.report) & EVERY_BIT
+    return node.integer(tag, default=default) & EVERY_BIT
 
 
 class RawPose(Struct, frozen=True):
@@ -83,7 +83,7 @@ def read_pose(node: XmlNode, context: Context) -> RawPose:
 def _numbers(child: XmlNode, context: Context) -> Pose:
     degrees = (child.attribute("degrees") or "").strip().lower() in ("true", "1")
     if child.attribute("rotation_format") == "quat_xyzw":
-        values = child.as_numbers(7, report=context.report, fallback="the identity is used")
+        values = child.as_numbers(7, fallback="the identity is used")
         if values is None:
             return Pose()
         x, y, z, qx, qy, qz, qw = values
@@ -93,8 +93,8 @@ def _numbers(child: XmlNode, context: Context) -> Pose:
             return Pose((x, y, z))
         return Pose((x, y, z), (qw / length, qx / length, qy / length, qz / length))
     if not degrees:
-        return child.as_pose(report=context.report)
-    values = child.as_numbers(6, report=context.report, fallback="the identity is used")
+        return child.as_pose()
+    values = child.as_numbers(6, fallback="the identity is used")
     if values is None:
         return Pose()
     x, y, z, *turns = values

@@ -31,16 +31,16 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
             report.info(other.at, f"physics profile {other.attribute('name')!r} is not the default one; it is not used")
     gravity_home = node if node is not None and node.find("gravity") is not None else world
     if node is None:
-        return PhysicsSettings(gravity=world.vector("gravity", default=default.gravity, report=report))
-    gravity = gravity_home.vector("gravity", default=default.gravity, report=report)
+        return PhysicsSettings(gravity=world.vector("gravity", default=default.gravity))
+    gravity = gravity_home.vector("gravity", default=default.gravity)
     world.find("gravity")
     step = _step(node, context)
     if not 1e-6 <= step <= 1.0:
         report.warn(node.at, f"a step of {step:g} s is not possible; {default.max_step_size_s:g} is used")
         step = default.max_step_size_s
     rate_tag = "update_rate" if context.version < (1, 4) else "real_time_update_rate"
-    rate = node.number(rate_tag, default=default.real_time_update_rate_hz, report=report)
-    factor = node.number("real_time_factor", default=1.0, report=report)
+    rate = node.number(rate_tag, default=default.real_time_update_rate_hz)
+    factor = node.number("real_time_factor", default=1.0)
     warn_ignored(
         node,
         ("max_contacts", "ode", "bullet", "simbody", "dart"),
@@ -64,8 +64,8 @@ def _step(node: XmlNode, context: Context) -> float:
         solver = None if ode is None else ode.find("solver")
         for home in (solver, bullet):
             if home is not None and home.find("dt") is not None:
-                return home.number("dt", default=default, report=context.report)
-    return node.number("max_step_size", default=default, report=context.report)
+                return home.number("dt", default=default)
+    return node.number("max_step_size", default=default)
 
 
 def read_scene(world: XmlNode, context: Context) -> SceneSettings:
@@ -79,10 +79,10 @@ def read_scene(world: XmlNode, context: Context) -> SceneSettings:
     scene = SceneSettings(
         ambient=read_colour(node, "ambient", ambient, context),
         background=read_colour(node, "background", default.background, context),
-        shadows=node.flag("shadows", default=True, report=report),
+        shadows=node.flag("shadows", default=True),
         sky=_has_sky(node, context),
-        grid=node.flag("grid", default=True, report=report),
-        origin_visual=node.flag("origin_visual", default=True, report=report),
+        grid=node.flag("grid", default=True),
+        origin_visual=node.flag("origin_visual", default=True),
         fog=_fog(node, context),
     )
     node.report_unread(report)
@@ -106,9 +106,9 @@ def _fog(scene: XmlNode, context: Context) -> Fog:
     fog = Fog(
         type=node.string("type") or default.type,
         colour=read_colour(node, "color", default.colour, context),
-        start_m=node.number("start", default=default.start_m, report=report),
-        end_m=node.number("end", default=default.end_m, report=report),
-        density=node.number("density", default=default.density, report=report),
+        start_m=node.number("start", default=default.start_m),
+        end_m=node.number("end", default=default.end_m),
+        density=node.number("density", default=default.density),
     )
     node.report_unread(report)
     return fog
@@ -121,10 +121,10 @@ def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoo
         return SphericalCoordinates()
     report, default = context.report, SphericalCoordinates()
     place = SphericalCoordinates(
-        latitude_deg=node.number("latitude_deg", default=0.0, report=report),
-        longitude_deg=node.number("longitude_deg", default=0.0, report=report),
-        elevation=node.number("elevation", default=0.0, report=report),
-        heading_deg=node.number("heading_deg", default=0.0, report=report),
+        latitude_deg=node.number("latitude_deg", default=0.0),
+        longitude_deg=node.number("longitude_deg", default=0.0),
+        elevation=node.number("elevation", default=0.0),
+        heading_deg=node.number("heading_deg", default=0.0),
         surface_model=node.string("surface_model") or default.surface_model,
         world_frame_orientation=node.string("world_frame_orientation") or default.world_frame_orientation,
     )
@@ -144,9 +144,9 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
     if (node.attribute("type") or default_type) != default_type:
         report.warn(node.at, f"no atmosphere type {node.attribute('type')!r}; {default_type} is used")
     air = Atmosphere(
-        temperature=node.number("temperature", default=default.temperature, report=report),
-        pressure=node.number("pressure", default=default.pressure, report=report),
-        temperature_gradient=node.number("temperature_gradient", default=default.temperature_gradient, report=report),
+        temperature=node.number("temperature", default=default.temperature),
+        pressure=node.number("pressure", default=default.pressure),
+        temperature_gradient=node.number("temperature_gradient", default=default.temperature_gradient),
     )
     node.report_unread(report)
     if not _COLDEST <= air.temperature <= _HOTTEST or not 0.0 < air.pressure <= _DENSEST:

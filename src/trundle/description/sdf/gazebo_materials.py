@@ -71,33 +71,10 @@ GAZEBO_MATERIALS: dict[str, Material] = {
 }
 """Name → colours. The *Transparent ones have a green overlay in the scripts by mistake, omitted here."""
 
-TEXTURED: dict[str, _Rgb] = {
-    "Gazebo/Wood": (0.55, 0.35, 0.2),
-    "Gazebo/WoodFloor": (0.55, 0.35, 0.2),
-    "Gazebo/WoodPallet": (0.6, 0.45, 0.28),
-    "Gazebo/Bricks": (0.55, 0.25, 0.2),
-    "Gazebo/CeilingTiled": (0.8, 0.8, 0.78),
-    "Gazebo/PaintedWall": (0.8, 0.8, 0.75),
-    "Gazebo/CloudySky": (0.6, 0.75, 0.9),
-    "Gazebo/GreyGradientSky": (0.7, 0.7, 0.75),
-    "Gazebo/Road": (0.25, 0.25, 0.25),
-    "Gazebo/Residential": (0.25, 0.25, 0.25),
-    "Gazebo/Tertiary": (0.25, 0.25, 0.25),
-    "Gazebo/Pedestrian": (0.45, 0.45, 0.45),
-    "Gazebo/Footway": (0.45, 0.45, 0.45),
-    "Gazebo/Motorway": (0.22, 0.22, 0.22),
-    "Gazebo/Lanes_6": (0.22, 0.22, 0.22),
-    "Gazebo/Trunk": (0.24, 0.24, 0.24),
-    "Gazebo/Lanes_4": (0.24, 0.24, 0.24),
-    "Gazebo/Primary": (0.25, 0.25, 0.25),
-    "Gazebo/Lanes_2": (0.25, 0.25, 0.25),
-    "Gazebo/Secondary": (0.26, 0.26, 0.26),
-    "Gazebo/Lane_1": (0.26, 0.26, 0.26),
-    "Gazebo/Steps": (0.5, 0.5, 0.5),
-    "Gazebo/BuildingFrame": (0.6, 0.6, 0.6),
-    "Gazebo/Runway": (0.3, 0.3, 0.3),
-    "Gazebo/Grass": (0.25, 0.45, 0.2),
+PLAIN: dict[str, _Rgb] = {
     "Gazebo/CoM": (0.9, 0.9, 0.2),
+    "Gazebo/GreyGradientSky": (0.7, 0.7, 0.75),
+    "Gazebo/BuildingFrame": (0.6, 0.6, 0.6),
     "Gazebo/PioneerBody": (1.0, 0.0, 0.0),
     "Gazebo/WindowFrame": (0.5, 0.5, 0.5),
 }

@@ -54,43 +54,42 @@ def read_geometry(owner: XmlNode, context: Context) -> Geometry:
     return geometry
 
 
-def _box(shape: XmlNode, context: Context) -> Box:
-    return Box(shape.vector("size", default=(1.0, 1.0, 1.0), report=context.report))
+def _box(shape: XmlNode, _context: Context) -> Box:
+    return Box(shape.vector("size", default=(1.0, 1.0, 1.0)))
 
 
-def _cylinder(shape: XmlNode, context: Context) -> Cylinder:
-    return Cylinder(*_radius_length(shape, 1.0, context))
+def _cylinder(shape: XmlNode, _context: Context) -> Cylinder:
+    return Cylinder(*_radius_length(shape, 1.0))
 
 
-def _cone(shape: XmlNode, context: Context) -> Cone:
-    return Cone(*_radius_length(shape, 0.5, context))
+def _cone(shape: XmlNode, _context: Context) -> Cone:
+    return Cone(*_radius_length(shape, 0.5))
 
 
-def _capsule(shape: XmlNode, context: Context) -> Capsule:
-    return Capsule(*_radius_length(shape, 0.5, context))
+def _capsule(shape: XmlNode, _context: Context) -> Capsule:
+    return Capsule(*_radius_length(shape, 0.5))
 
 
-def _radius_length(shape: XmlNode, radius: float, context: Context) -> tuple[float, float]:
-    report = context.report
-    return shape.number("radius", default=radius, report=report), shape.number("length", default=1.0, report=report)
+def _radius_length(shape: XmlNode, radius: float) -> tuple[float, float]:
+    return shape.number("radius", default=radius), shape.number("length", default=1.0)
 
 
-def _sphere(shape: XmlNode, context: Context) -> Sphere:
-    return Sphere(shape.number("radius", default=1.0, report=context.report))
+def _sphere(shape: XmlNode, _context: Context) -> Sphere:
+    return Sphere(shape.number("radius", default=1.0))
 
 
-def _ellipsoid(shape: XmlNode, context: Context) -> Ellipsoid:
-    return Ellipsoid(shape.vector("radii", default=(1.0, 1.0, 1.0), report=context.report))
+def _ellipsoid(shape: XmlNode, _context: Context) -> Ellipsoid:
+    return Ellipsoid(shape.vector("radii", default=(1.0, 1.0, 1.0)))
 
 
 def _plane(shape: XmlNode, context: Context) -> Plane:
-    written = shape.vector("normal", default=(0.0, 0.0, 1.0), report=context.report)
+    written = shape.vector("normal", default=(0.0, 0.0, 1.0))
     normal = normalized(written)
     if normal is None:
         context.report.warn(shape.at, "<plane> with a normal of zero length; 0 0 1 is used")
         normal = (0.0, 0.0, 1.0)
     size = shape.find("size")
-    values = None if size is None else size.as_numbers(2, report=context.report, fallback="1 1 is used")
+    values = None if size is None else size.as_numbers(2, fallback="1 1 is used")
     return Plane(normal, (1.0, 1.0) if values is None else (values[0], values[1]))
 
 
@@ -99,10 +98,10 @@ def _mesh(shape: XmlNode, context: Context) -> Geometry:
     if not uri:
         context.report.warn(shape.at, "<mesh> without <uri>; it has no shape")
         return Empty()
-    scale = shape.vector("scale", default=(1.0, 1.0, 1.0), report=context.report)
+    scale = shape.vector("scale", default=(1.0, 1.0, 1.0))
     part = shape.find("submesh")
     name = part.string("name") if part is not None else None
-    center = part.flag("center", default=False, report=context.report) if part is not None else False
+    center = part.flag("center", default=False) if part is not None else False
     path = _path(uri, shape, context, "the mesh is left out")
     if path is not None and is_stand_in(path):
         model = uri.removeprefix("model://").partition("/")[0]
@@ -121,9 +120,9 @@ def _heightmap(shape: XmlNode, context: Context) -> Geometry:
     return Heightmap(
         path=_path(uri, shape, context, "the terrain is left out"),
         uri=uri,
-        size=shape.vector("size", default=(1.0, 1.0, 1.0), report=report),
-        position=shape.vector("pos", default=(0.0, 0.0, 0.0), report=report),
-        sampling=shape.integer("sampling", default=1 if context.version >= (1, 8) else 2, report=report),
+        size=shape.vector("size", default=(1.0, 1.0, 1.0)),
+        position=shape.vector("pos", default=(0.0, 0.0, 0.0)),
+        sampling=shape.integer("sampling", default=1 if context.version >= (1, 8) else 2),
         layers=_layers(shape, context),
     )
 
@@ -136,11 +135,11 @@ def _layers(shape: XmlNode, context: Context) -> tuple[TerrainLayer, ...]:
     for number, node in enumerate(shape.all("texture")):
         blend = blends[number - 1] if 0 < number <= len(blends) else None
         layer = TerrainLayer(
-            size=node.number("size", default=10.0, report=report),
+            size=node.number("size", default=10.0),
             diffuse=_image(node.find("diffuse"), context),
             normal=_image(node.find("normal"), context),
-            from_height=0.0 if blend is None else blend.number("min_height", default=0.0, report=report),
-            fade=0.0 if blend is None else blend.number("fade_dist", default=0.0, report=report),
+            from_height=0.0 if blend is None else blend.number("min_height", default=0.0),
+            fade=0.0 if blend is None else blend.number("fade_dist", default=0.0),
         )
         layers.append(layer)
         node.report_unread(report)
@@ -162,9 +161,9 @@ def _polyline(shapes: list[XmlNode], context: Context) -> Geometry:
     outlines: list[tuple[tuple[float, float], ...]] = []
     heights: list[float] = []
     for shape in shapes:
-        corners = [point.as_numbers(2, report=context.report) for point in shape.all("point")]
+        corners = [point.as_numbers(2) for point in shape.all("point")]
         outlines.append(tuple((corner[0], corner[1]) for corner in corners if corner is not None))
-        heights.append(shape.number("height", default=1.0, report=context.report))
+        heights.append(shape.number("height", default=1.0))
         shape.report_unread(context.report)
     return Polyline(tuple(outlines), heights[0])
 

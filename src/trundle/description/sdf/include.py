@@ -75,7 +75,7 @@ def _with_overrides(part: UnplacedModel, node: XmlNode, context: Context) -> Unp
     model = replace(
         part.model,
         name=name or part.model.name,
-        static=part.model.static if static is None else static.as_flag(default=False, report=context.report),
+        static=part.model.static if static is None else static.as_flag(default=False),
         plugins=(*part.model.plugins, *(read_plugin(tag) for tag in node.all("plugin"))),
     )
     # A pose or placement in the model's own file has no frame here; Gazebo keeps its numbers.

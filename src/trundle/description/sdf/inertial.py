@@ -12,7 +12,7 @@ def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
     if node is None:
         return Inertial()
     report = context.report
-    mass = node.number("mass", default=1.0, report=report)
+    mass = node.number("mass", default=1.0)
     inertia = node.find("inertia")
     pose = read_pose(node, context).pose  # always in the link frame, whatever the file says
     warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)
@@ -25,8 +25,8 @@ def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
         )
         node.report_unread(report)
         return Inertial(mass=mass, link_from_com=pose)
-    ixx, iyy, izz = (inertia.number(tag, default=1.0, report=report) for tag in ("ixx", "iyy", "izz"))
-    ixy, ixz, iyz = (inertia.number(tag, default=0.0, report=report) for tag in ("ixy", "ixz", "iyz"))
+    ixx, iyy, izz = (inertia.number(tag, default=1.0) for tag in ("ixx", "iyy", "izz"))
+    ixy, ixz, iyz = (inertia.number(tag, default=0.0) for tag in ("ixy", "ixz", "iyz"))
     inertia.report_unread(report)
     node.report_unread(report)
     return Inertial(mass=mass, link_from_com=pose, moments=(ixx, iyy, izz), products=(ixy, ixz, iyz))

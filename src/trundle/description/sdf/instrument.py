@@ -38,10 +38,10 @@ def read_instrument(sensor: XmlNode, type_: str, context: Context) -> Instrument
 
 def _logical_camera(node: XmlNode, context: Context) -> LogicalCamera:
     report, default = context.report, LogicalCamera()
-    near = node.number("near", default=default.near_m, report=report)
-    far = node.number("far", default=default.far_m, report=report)
-    ratio = node.number("aspect_ratio", default=default.aspect_ratio, report=report)
-    fov = node.number("horizontal_fov", default=default.horizontal_fov_rad, report=report)
+    near = node.number("near", default=default.near_m)
+    far = node.number("far", default=default.far_m)
+    ratio = node.number("aspect_ratio", default=default.aspect_ratio)
+    fov = node.number("horizontal_fov", default=default.horizontal_fov_rad)
     if not 0.0 <= near < far:
         report.warn(node.at, f"near {near:g}, far {far:g} is not possible; 0 and 1 are used")
         near, far = default.near_m, default.far_m
@@ -55,9 +55,9 @@ def _logical_camera(node: XmlNode, context: Context) -> LogicalCamera:
 def _sonar(node: XmlNode, context: Context) -> Sonar:
     report, default = context.report, Sonar()
     geometry = node.string("geometry").lower() or default.geometry
-    low = node.number("min", default=default.min_m, report=report)
-    high = node.number("max", default=default.max_m, report=report)
-    radius = node.number("radius", default=default.radius, report=report)
+    low = node.number("min", default=default.min_m)
+    high = node.number("max", default=default.max_m)
+    radius = node.number("radius", default=default.radius)
     if geometry not in ("cone", "sphere"):
         report.warn(node.at, f"no sonar geometry {geometry!r}: cone or sphere; cone is used")
         geometry = default.geometry
@@ -70,18 +70,18 @@ def _sonar(node: XmlNode, context: Context) -> Sonar:
 
 def _transceiver(node: XmlNode, context: Context) -> Transceiver:
     report, default = context.report, Transceiver()
-    frequency = node.number("frequency", default=default.frequency_mhz, report=report)
+    frequency = node.number("frequency", default=default.frequency_mhz)
     if not frequency > 0.0:
         report.warn(node.at, f"a frequency of {frequency:g} MHz is not possible; 1 is used, as in Gazebo")
         frequency = 1.0
     return Transceiver(
         essid=node.string("essid") or default.essid,
         frequency_mhz=frequency,
-        lowest_mhz=node.number("min_frequency", default=default.lowest_mhz, report=report),
-        highest_mhz=node.number("max_frequency", default=default.highest_mhz, report=report),
-        gain_dbi=node.number("gain", default=default.gain_dbi, report=report),
-        power_dbm=node.number("power", default=default.power_dbm, report=report),
-        sensitivity_dbm=node.number("sensitivity", default=default.sensitivity_dbm, report=report),
+        lowest_mhz=node.number("min_frequency", default=default.lowest_mhz),
+        highest_mhz=node.number("max_frequency", default=default.highest_mhz),
+        gain_dbi=node.number("gain", default=default.gain_dbi),
+        power_dbm=node.number("power", default=default.power_dbm),
+        sensitivity_dbm=node.number("sensitivity", default=default.sensitivity_dbm),
     )
 
 
@@ -96,7 +96,7 @@ def _magnetometer(node: XmlNode, context: Context) -> Magnetometer:
 
 
 def _air_pressure(node: XmlNode, context: Context) -> AirPressure:
-    height = node.number("reference_altitude", default=0.0, report=context.report)
+    height = node.number("reference_altitude", default=0.0)
     return AirPressure(reference_altitude=height, pressure=_inner(node, "pressure", context))
 
 

@@ -54,8 +54,8 @@ def read_joint(
         child_from_joint=child_from_joint,
         axis=None if type_ in _WITHOUT_AXIS else _read_axis(axis, node, frame, graph.root, context),
         axis2=_read_axis(axis2, node, frame, graph.root, context) if type_ in _TWO_AXES else None,
-        thread_pitch=_thread_pitch(node, context),
-        gearbox_ratio=node.number("gearbox_ratio", default=1.0, report=report),
+        thread_pitch=_thread_pitch(node),
+        gearbox_ratio=node.number("gearbox_ratio", default=1.0),
         gearbox_reference_body=node.string("gearbox_reference_body") or None,
         sensors=tuple(read_sensor(child, name, graph, context) for child in node.all("sensor")),
     )
@@ -66,13 +66,13 @@ def read_joint(
     return joint
 
 
-def _thread_pitch(node: XmlNode, context: Context) -> float:
+def _thread_pitch(node: XmlNode) -> float:
     """Return the thread pitch in Gazebo's convention [rad/m]; SDF 1.10 added metres per turn of a right-hand thread."""
-    per_turn = node.number("screw_thread_pitch", default=0.0, report=context.report)
+    per_turn = node.number("screw_thread_pitch", default=0.0)
     if per_turn:
         node.find("thread_pitch")
         return -math.tau / per_turn
-    return node.number("thread_pitch", default=1.0, report=context.report)
+    return node.number("thread_pitch", default=1.0)
 
 
 def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, context: Context) -> JointAxis:
@@ -85,10 +85,10 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, 
     limit, dynamics = node.find("limit"), node.find("dynamics")
 
     def of(parent: XmlNode | None, tag: str, default: float) -> float:
-        return default if parent is None else _number(parent, tag, default, context)
+        return default if parent is None else _number(parent, tag, default)
 
     def dynamic(tag: str) -> float:
-        return 0.0 if dynamics is None else dynamics.number(tag, default=0.0, report=report)
+        return 0.0 if dynamics is None else dynamics.number(tag, default=0.0)
 
     axis = JointAxis(
         direction=direction,
@@ -102,7 +102,7 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, 
         spring_stiffness=dynamic("spring_stiffness"),
         stop_stiffness=of(limit, "stiffness", 1e8),
         stop_dissipation=of(limit, "dissipation", 1.0),
-        initial_position=node.number("initial_position", default=0.0, report=report),
+        initial_position=node.number("initial_position", default=0.0),
         mimic=_mimic(node, context),
     )
     if axis.initial_position:
@@ -121,9 +121,9 @@ def _mimic(axis: XmlNode, context: Context) -> Mimic | None:
     mimic = Mimic(
         joint=node.required_attribute("joint"),
         axis=1 if node.attribute("axis") == "axis2" else 0,
-        multiplier=node.number("multiplier", default=1.0, report=report),
-        offset=node.number("offset", default=0.0, report=report),
-        reference=node.number("reference", default=0.0, report=report),
+        multiplier=node.number("multiplier", default=1.0),
+        offset=node.number("offset", default=0.0),
+        reference=node.number("reference", default=0.0),
     )
     node.report_unread(report)
     return mimic
@@ -131,7 +131,7 @@ def _mimic(axis: XmlNode, context: Context) -> Mimic | None:
 
 def _unit(node: XmlNode, name: str, context: Context) -> Vector3:
     """Return the axis direction as written, normalised."""
-    unit = normalized(node.vector("xyz", default=(0.0, 0.0, 1.0), report=context.report))
+    unit = normalized(node.vector("xyz", default=(0.0, 0.0, 1.0)))
     if unit is None:
         context.report.warn(node.at, f"joint {name!r}: an axis of zero length; 0 0 1 is used")
     return unit or (0.0, 0.0, 1.0)
@@ -149,7 +149,7 @@ def _expressed_in(node: XmlNode, name: str, frame: FrameOf, root: str, context: 
     if context.version < (1, 7):
         if context.version < (1, 5):
             report.info(node.at, f"SDF {context.version}: the axis of joint {name!r} is read in the model frame")
-        if node.flag("use_parent_model_frame", default=context.version < (1, 5), report=report):
+        if node.flag("use_parent_model_frame", default=context.version < (1, 5)):
             if written not in ("", root):
                 report.warn(node.at, f"joint {name!r}: its axis is read in the model frame, not in {written!r}")
             return root
@@ -165,12 +165,12 @@ def _seen_from(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3
     return pose.transform_vector(direction)
 
 
-def _number(node: XmlNode, tag: str, default: float, context: Context) -> float:
+def _number(node: XmlNode, tag: str, default: float) -> float:
     """Return a number that may be infinite, as limits are in SDF 1.10 and later."""
     child = node.find(tag)
     if child is not None and child.text.lower() in ("inf", "+inf", "-inf", "infinity", "-infinity"):
         return float(child.text)
-    return node.number(tag, default=default, report=context.report)
+    return node.number(tag, default=default)
 
 
 def _limit(value: float) -> float:

@@ -20,11 +20,11 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
     written = node.attribute("type") or "point"
     if written not in _TYPES:
         report.warn(node.at, f"no light type {written!r}; types: {', '.join(_TYPES)}; point is used")
-    direction = normalized(node.vector("direction", default=default.direction, report=report))
+    direction = normalized(node.vector("direction", default=default.direction))
     attenuation, spot = node.find("attenuation"), node.find("spot")
 
     def of(parent: XmlNode | None, tag: str, otherwise: float) -> float:
-        return otherwise if parent is None else parent.number(tag, default=otherwise, report=report)
+        return otherwise if parent is None else parent.number(tag, default=otherwise)
 
     light = Light(
         name=node.attribute("name") or "light",
@@ -34,7 +34,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
         direction=direction or default.direction,
         diffuse=read_colour(node, "diffuse", default.diffuse, context),
         specular=read_colour(node, "specular", default.specular, context),
-        intensity=node.number("intensity", default=1.0, report=report),
+        intensity=node.number("intensity", default=1.0),
         range_m=of(attenuation, "range", default.range_m),
         constant=of(attenuation, "constant", default.constant),
         linear=of(attenuation, "linear", default.linear),
@@ -42,9 +42,9 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
         inner_angle_rad=of(spot, "inner_angle", 0.0),
         outer_angle_rad=of(spot, "outer_angle", 0.0),
         falloff=of(spot, "falloff", 0.0),
-        cast_shadows=node.flag("cast_shadows", default=False, report=report),
+        cast_shadows=node.flag("cast_shadows", default=False),
     )
-    if not node.flag("light_on", default=True, report=report):
+    if not node.flag("light_on", default=True):
         report.info(node.at, f"light {light.name!r} is off")
         light = replace(light, intensity=0.0)
     warn_ignored(node, ("visualize",), "has no effect: lights are not drawn", context)

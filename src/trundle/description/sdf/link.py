@@ -32,12 +32,12 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
             (read_sensor(child, name, graph, context) for child in node.all("sensor")), name, context
         ),
         lights=tuple(read_light(child, name, graph, context) for child in node.all("light")),
-        gravity=node.flag("gravity", default=True, report=report),
-        self_collide=_flag(node, "self_collide", context),
-        enable_wind=_flag(node, "enable_wind", context),
-        kinematic=node.flag("kinematic", default=False, report=report),
-        linear_decay=0.0 if decay is None else decay.number("linear", default=0.0, report=report),
-        angular_decay=0.0 if decay is None else decay.number("angular", default=0.0, report=report),
+        gravity=node.flag("gravity", default=True),
+        self_collide=_flag(node, "self_collide"),
+        enable_wind=_flag(node, "enable_wind"),
+        kinematic=node.flag("kinematic", default=False),
+        linear_decay=0.0 if decay is None else decay.number("linear", default=0.0),
+        angular_decay=0.0 if decay is None else decay.number("angular", default=0.0),
     )
     inertial = node.find("inertial")
     if inertial is not None and (inertial.attribute("auto") or "").lower() in ("true", "1"):
@@ -47,9 +47,9 @@ def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> 
     return link
 
 
-def _flag(node: XmlNode, tag: str, context: Context) -> bool | None:
+def _flag(node: XmlNode, tag: str) -> bool | None:
     child = node.find(tag)
-    return None if child is None else child.as_flag(default=False, report=context.report)
+    return None if child is None else child.as_flag(default=False)
 
 
 def _read_visual(node: XmlNode, link: str, graph: FrameGraph, context: Context) -> Visual:
@@ -68,10 +68,10 @@ def with_appearance(visual: Visual, node: XmlNode, context: Context) -> Visual:
     report = context.report
     visual = replace(
         visual,
-        transparency=min(max(node.number("transparency", default=visual.transparency, report=report), 0.0), 1.0),
-        cast_shadows=node.flag("cast_shadows", default=visual.cast_shadows, report=report),
-        laser_retro=node.number("laser_retro", default=visual.laser_retro, report=report),
-        visibility_flags=read_bits(node, "visibility_flags", context, default=visual.visibility_flags),
+        transparency=min(max(node.number("transparency", default=visual.transparency), 0.0), 1.0),
+        cast_shadows=node.flag("cast_shadows", default=visual.cast_shadows),
+        laser_retro=node.number("laser_retro", default=visual.laser_retro),
+        visibility_flags=read_bits(node, "visibility_flags", default=visual.visibility_flags),
     )
     warn_ignored(node, ("meta",), "is for Gazebo's editor", context)
     visual = with_plugins(visual, node.all("plugin"), context)
@@ -86,7 +86,7 @@ def _read_collision(node: XmlNode, link: str, graph: FrameGraph, context: Contex
         at=node.at,
         link_from_collision=graph.pose_in(link, read_pose(node, context), node.at),
         surface=read_surface(node, context),
-        laser_retro=node.number("laser_retro", default=0.0, report=context.report),
+        laser_retro=node.number("laser_retro", default=0.0),
     )
     warn_ignored(node, ("max_contacts",), "is for ODE; MuJoCo creates as many contacts as needed", context)
     warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)

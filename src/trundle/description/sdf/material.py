@@ -5,11 +5,11 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
-from trundle.model import GREY, Material, Rgba
+from trundle.model import GREY, TEXTURE_COLOURS, Material, Rgba
 from trundle.xmlnode import XmlNode
 
 from .context import Context, warn_ignored
-from .gazebo_materials import GAZEBO_MATERIALS, TEXTURED
+from .gazebo_materials import GAZEBO_MATERIALS, PLAIN
 
 _WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
 """Default tint of a texture."""
@@ -36,6 +36,7 @@ def read_material(visual: XmlNode, context: Context) -> Material:
         emissive=read_colour(node, "emissive", base.emissive, context),
         texture=base.texture,
         texture_scale=base.texture_scale,
+        named_texture=base.named_texture if image is None else None,
     )
     warn_ignored(node, ("lighting", "shader", "render_order", "double_sided", "shininess"), "is not drawn", context)
     node.report_unread(context.report)
@@ -73,8 +74,11 @@ def named_material(name: str, node: XmlNode, context: Context) -> Material:
     scripted = find_material(name, node, packages=context.packages, report=context.report)
     if scripted is not None:
         return scripted
-    if name in TEXTURED:
-        r, g, b = TEXTURED[name]
+    if name in TEXTURE_COLOURS:
+        context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; Trundle draws its own")
+        return Material(ambient=_WHITE, diffuse=_WHITE, named_texture=name)
+    if name in PLAIN:
+        r, g, b = PLAIN[name]
         context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; a plain colour is used")
         return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0))
     context.report.warn(node.at, f"no material {name!r}; grey is used")

@@ -35,7 +35,7 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
 
 
 def _number(node: XmlNode, tag: str, context: Context) -> float:
-    value = node.number(tag, default=0.0, report=context.report)
+    value = node.number(tag, default=0.0)
     if abs(value) <= _LOUDEST:
         return value
     context.report.warn(node.at, f"noise with a {tag} of {value:g} is not possible; 0 is used")
@@ -43,7 +43,7 @@ def _number(node: XmlNode, tag: str, context: Context) -> float:
 
 
 def _precision(node: XmlNode, context: Context) -> float:
-    precision = node.number("precision", default=0.0, report=context.report)
+    precision = node.number("precision", default=0.0)
     if precision == 0.0 or 1.0 / _LOUDEST <= precision <= _LOUDEST:
         return precision
     context.report.warn(node.at, f"a precision of {precision:g} is not possible; values are not rounded")

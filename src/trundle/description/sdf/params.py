@@ -80,7 +80,7 @@ def _add(parent: XmlNode, what: XmlNode) -> None:
 
 def _modify(found: XmlNode, change: XmlNode, report: Diagnostics) -> None:
     """Overwrite existing values."""
-    found.merge_values(change, report)
+    found.merge_values(change)
     found.drop_attributes(*_OWN)
     for part in change.children:
         inner = _child(found, part.tag, part.attribute("name"))

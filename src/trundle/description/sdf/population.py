@@ -61,20 +61,20 @@ class _Region:
         report = context.report
         box, cylinder, how = node.find("box"), node.find("cylinder"), node.find("distribution")
         one = (1.0, 1.0, 1.0)
-        self.size = None if box is None else box.vector("size", default=one, report=report)
+        self.size = None if box is None else box.vector("size", default=one)
         self.round = None
         if cylinder is not None and box is None:
-            numbers = (cylinder.number(tag, default=1.0, report=report) for tag in ("radius", "length"))
+            numbers = (cylinder.number(tag, default=1.0) for tag in ("radius", "length"))
             self.round = (next(numbers), next(numbers))
         elif cylinder is not None:
             report.warn(cylinder.at, "<cylinder> in <population> beside <box>; it is ignored")
-        self.count = node.integer("model_count", default=1, report=report)
+        self.count = node.integer("model_count", default=1)
         self.kind, self.rows, self.columns, self.step = "random", 1, 1, (0.5, 0.5, 0.0)
         if how is not None:
             self.kind = how.string("type") or self.kind
-            self.rows = how.integer("rows", default=1, report=report)
-            self.columns = how.integer("cols", default=1, report=report)
-            self.step = how.vector("step", default=self.step, report=report)
+            self.rows = how.integer("rows", default=1)
+            self.columns = how.integer("cols", default=1)
+            self.step = how.vector("step", default=self.step)
         for each in (box, cylinder, how):
             if each is not None:
                 each.report_unread(report)

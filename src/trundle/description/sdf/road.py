@@ -16,10 +16,10 @@ def read_road(node: XmlNode, context: Context) -> Road | None:
     name = node.required_attribute("name")
     points: list[Vector3] = []
     for child in node.all("point"):
-        values = child.as_numbers(3, report=report, fallback="the point is left out")
+        values = child.as_numbers(3, fallback="the point is left out")
         if values is not None:
             points.append((values[0], values[1], values[2]))
-    width = node.number("width", default=1.0, report=report)
+    width = node.number("width", default=1.0)
     has_material = node.find("material") is not None
     material = read_material(node, context) if has_material else named_material(_DEFAULT, node, context)
     node.report_unread(report)

@@ -23,8 +23,8 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         at=node.at,
         link_from_sensor=graph.pose_in(owner, read_pose(node, context), node.at),
         update_rate_hz=_rate(node, context),
-        always_on=node.flag("always_on", default=False, report=report),
-        visualize=node.flag("visualize", default=False, report=report),
+        always_on=node.flag("always_on", default=False),
+        visualize=node.flag("visualize", default=False),
         topic=_topic(node, type_),
         cameras=read_cameras(node, type_, context) if type_ in CAMERA_TYPES else (),
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
@@ -61,7 +61,7 @@ def _topic(node: XmlNode, type_: str) -> str:
 
 
 def _rate(node: XmlNode, context: Context) -> float:
-    rate = node.number("update_rate", default=0.0, report=context.report)
+    rate = node.number("update_rate", default=0.0)
     if rate >= 0.0:
         return rate
     context.report.warn(node.at, f"an update_rate of {rate:g} Hz is not possible; 0 (every step) is used")

@@ -38,8 +38,8 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
         return RangeScan()
     scan, limits = node.find("scan"), node.find("range")
     horizontal, vertical = (_axis(scan, tag, context) for tag in ("horizontal", "vertical"))
-    low = 0.0 if limits is None else max(0.0, limits.number("min", default=0.0, report=report))
-    high = 0.0 if limits is None else limits.number("max", default=0.0, report=report)
+    low = 0.0 if limits is None else max(0.0, limits.number("min", default=0.0))
+    high = 0.0 if limits is None else limits.number("max", default=0.0)
     if not high > low:
         report.warn(node.at, f"range min {low:g}, max {high:g} is empty; the sensor measures nothing")
     if horizontal.values * vertical.values > _MAX_RAYS:
@@ -51,7 +51,7 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
         min_m=low,
         max_m=high,
         noise=read_noise(node.find("noise"), context),
-        visibility_mask=read_bits(node, "visibility_mask", context),
+        visibility_mask=read_bits(node, "visibility_mask"),
     )
     if limits is not None:
         warn_ignored(limits, ("resolution",), "has no effect, as in Gazebo", context)
@@ -70,15 +70,15 @@ def _axis(scan: XmlNode | None, tag: str, context: Context) -> ScanAxis:
     axis = ScanAxis(
         samples=_samples(node, 640 if tag == "horizontal" else 1, context),
         resolution=_resolution(node, context),
-        min_angle=node.number("min_angle", default=0.0, report=report),
-        max_angle=node.number("max_angle", default=0.0, report=report),
+        min_angle=node.number("min_angle", default=0.0),
+        max_angle=node.number("max_angle", default=0.0),
     )
     node.report_unread(report)
     return axis
 
 
 def _samples(node: XmlNode, default: int, context: Context) -> int:
-    samples = node.integer("samples", default=default, report=context.report)
+    samples = node.integer("samples", default=default)
     if samples > 0:
         return samples
     context.report.warn(node.at, f"{samples} samples is not possible; 1 is used")
@@ -86,7 +86,7 @@ def _samples(node: XmlNode, default: int, context: Context) -> int:
 
 
 def _resolution(node: XmlNode, context: Context) -> float:
-    resolution = node.number("resolution", default=1.0, report=context.report)
+    resolution = node.number("resolution", default=1.0)
     if resolution > 0.0:
         return resolution
     context.report.warn(node.at, f"a resolution of {resolution:g} values per sample is not possible; 1 is used")
@@ -120,9 +120,9 @@ def _reference(node: XmlNode | None, context: Context) -> OrientationReference |
     custom, gravity = node.find("custom_rpy"), node.find("grav_dir_x")
     reference = OrientationReference(
         localization=localization,
-        custom_rpy=node.vector("custom_rpy", default=default.custom_rpy, report=report),
+        custom_rpy=node.vector("custom_rpy", default=default.custom_rpy),
         parent_frame=_parent(custom, context),
-        gravity_x=node.vector("grav_dir_x", default=default.gravity_x, report=report),
+        gravity_x=node.vector("grav_dir_x", default=default.gravity_x),
         gravity_parent_frame=_parent(gravity, context),
     )
     node.report_unread(report)

@@ -94,7 +94,7 @@ def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, cont
     has_pose = state.find("pose") is not None
     nested = {inner.attribute("name"): inner for inner in _states(state, "model")}
     links = {link.attribute("name"): link for link in _states(state, "link")}
-    scale = state.vector("scale", default=(1.0, 1.0, 1.0), report=report)
+    scale = state.vector("scale", default=(1.0, 1.0, 1.0))
     warn_ignored(state, ("joint", "joint_state"), "has no effect, as in Gazebo: the poses of links apply", context)
     state.report_unread(report)
     for name, each in links.items():

@@ -36,22 +36,22 @@ def read_surface(collision: XmlNode, context: Context) -> Surface:
     torsional_ode = _find(torsional, "ode")
 
     def number(parent: XmlNode | None, tag: str, otherwise: float) -> float:
-        return otherwise if parent is None else parent.number(tag, default=otherwise, report=report)
+        return otherwise if parent is None else parent.number(tag, default=otherwise)
 
     def integer(tag: str, otherwise: int) -> int:
-        return otherwise if contact is None else contact.integer(tag, default=otherwise, report=report)
+        return otherwise if contact is None else contact.integer(tag, default=otherwise)
 
     surface = Surface(
         mu=number(ode, "mu", default.mu),
         mu2=number(ode, "mu2", default.mu2),
-        fdir1=default.fdir1 if ode is None else ode.vector("fdir1", default=default.fdir1, report=report),
+        fdir1=default.fdir1 if ode is None else ode.vector("fdir1", default=default.fdir1),
         slip1=number(ode, "slip1", default.slip1),
         slip2=number(ode, "slip2", default.slip2),
         torsional_coefficient=number(torsional, "coefficient", default.torsional_coefficient),
         torsional_slip=number(torsional_ode, "slip", default.torsional_slip),
         patch_radius=number(torsional, "patch_radius", default.patch_radius),
         surface_radius=number(torsional, "surface_radius", default.surface_radius),
-        use_patch_radius=torsional is None or torsional.flag("use_patch_radius", default=True, report=report),
+        use_patch_radius=torsional is None or torsional.flag("use_patch_radius", default=True),
         kp=number(contact_ode, "kp", default.kp),
         kd=number(contact_ode, "kd", default.kd),
         min_depth=number(contact_ode, "min_depth", default.min_depth),
@@ -60,8 +60,7 @@ def read_surface(collision: XmlNode, context: Context) -> Surface:
         bounce_threshold=number(bounce, "threshold", default.bounce_threshold),
         collide_bitmask=integer("collide_bitmask", default.collide_bitmask),
         category_bitmask=integer("category_bitmask", 0xFFFF) if _find(contact, "category_bitmask") else None,
-        collide_without_contact=contact is not None
-        and contact.flag("collide_without_contact", default=False, report=report),
+        collide_without_contact=contact is not None and contact.flag("collide_without_contact", default=False),
     )
     for each in (node, friction, ode, torsional, torsional_ode, contact, contact_ode, bounce):
         if each is not None:

@@ -87,8 +87,8 @@ def read_world(node: XmlNode, context: Context) -> World:
         scene=read_scene(node, context),
         spherical_coordinates=read_spherical_coordinates(node, context),
         atmosphere=read_atmosphere(node, context),
-        magnetic_field=node.vector("magnetic_field", default=default.magnetic_field, report=report),
-        wind=default.wind if wind is None else wind.vector("linear_velocity", default=default.wind, report=report),
+        magnetic_field=node.vector("magnetic_field", default=default.magnetic_field),
+        wind=default.wind if wind is None else wind.vector("linear_velocity", default=default.wind),
     )
     warn_ignored(node, ("gui", "audio"), "is for Gazebo's own window", context)
     node.report_unread(report)

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
     from ..sdf.unplaced_model import UnplacedModel
 
+_SLIPS = ("slip1", "slip2")
+"""Parameters of a <surface> that sdformat's parser_urdf.cc does not read from <gazebo> (9.7 to 9.9 copy them into the
+link, where nothing reads them).
+"""
 _TUNING = frozenset(
     {
         "stopCfm",
@@ -92,7 +96,7 @@ class GazeboTags:
 
     def surface(self, link: str) -> Surface:
         """Return mu1, mu2, fdir1, kp, kd, minDepth, maxVel, or instead a <collision> block's <surface>."""
-        default, report = Surface(), self._context.report
+        default = Surface()
         blocks = [block for block in self._all(link, "collision") if block.find("surface") is not None]
         if blocks:
             from ..sdf.surface import read_surface
@@ -100,7 +104,7 @@ class GazeboTags:
             return read_surface(blocks[-1], self._context)
 
         fdir1 = self._last(link, "fdir1")
-        direction = None if fdir1 is None else fdir1.as_numbers(3, report=report)
+        direction = None if fdir1 is None else fdir1.as_numbers(3)
         return Surface(
             mu=self.number(link, "mu1", default.mu),
             mu2=self.number(link, "mu2", default.mu2),
@@ -114,16 +118,16 @@ class GazeboTags:
     def number(self, reference: str, tag: str, default: float) -> float:
         """Return a number, or the default if no block has it."""
         node = self._last(reference, tag)
-        return default if node is None else node.as_number(default=default, report=self._context.report)
+        return default if node is None else node.as_number(default=default)
 
     def lumped_damping(self, lump: Lump) -> tuple[float, float]:
         """Return linear and angular damping: the last <dampingFactor> for both, or SDF's own <velocity_decay>."""
-        report, linear, angular = self._context.report, 0.0, 0.0
+        linear = angular = 0.0
         for name, _ in lump.parts:
             linear, angular = (self.number(name, "dampingFactor", value) for value in (linear, angular))
             if (node := self._last(name, "velocity_decay")) is not None:
-                linear = node.number("linear", default=linear, report=report)
-                angular = node.number("angular", default=angular, report=report)
+                linear = node.number("linear", default=linear)
+                angular = node.number("angular", default=angular)
         return linear, angular
 
     def sensors(self, reference: str) -> "tuple[Sensor, ...]":
@@ -243,13 +247,16 @@ class GazeboTags:
             if (reference, tag) in self._read and (reference in known or not reference):
                 continue
             whom = f"{reference!r}" if reference else "the robot"
-            why = "is not supported"
+            why, then = "is not supported", "it is ignored"
+            if tag in _SLIPS:
+                why = "is ignored, as in Gazebo"
+                then = f"<collision><surface><friction><ode><{tag}> is not"
             if reference in lumped:
                 why = "is for a fixed joint that is lumped (<preserveFixedJoint>1</preserveFixedJoint> keeps it)"
             elif reference and reference not in known:
                 why = "names no known link or joint"
             for node in nodes:
-                self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> {why}; it is ignored")
+                self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> {why}; {then}")
 
     def _all(self, reference: str, tag: str) -> list[XmlNode]:
         self._read.add((reference, tag))

@@ -126,7 +126,7 @@ class _Lowering:
         joints = (*joints, *self.tags.joints(graph))
         self.tags.name_tuning()
         for plugin in plugins:
-            follow_lumps(plugin.node, self.lumps.values(), self.report)
+            follow_lumps(plugin.node, self.lumps.values())
         static, self_collide, wind = (
             self.tags.flag("", name) or False for name in ("static", "self_collide", "enable_wind")
         )

@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from trundle.diagnostics import Diagnostics
 from trundle.model import Inertial
 from trundle.robot import Robot, RobotInertial, RobotShape
 from trundle.spatial import ZERO, Pose, Quaternion, conjugate
@@ -52,7 +51,7 @@ def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
     return lumps
 
 
-def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump], report: Diagnostics) -> None:
+def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump]) -> None:
     """Replace lumped links in a plugin's <bodyName> and <frameName> by their lump, with an offset.
 
     As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link; other names,
@@ -65,7 +64,7 @@ def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump], report: Diagnostics) ->
             continue
         name, pose = places[found.text]
         if tag == "bodyName":
-            offsets = [plugin.vector(offset, default=ZERO, report=report) for offset in ("xyzOffset", "rpyOffset")]
+            offsets = [plugin.vector(offset, default=ZERO) for offset in ("xyzOffset", "rpyOffset")]
             moved = pose @ Pose.from_rpy(*offsets[0], *offsets[1])
             plugin.write("xyzOffset", " ".join(f"{value:.12g}" for value in moved.position))
             plugin.write("rpyOffset", " ".join(f"{value:.12g}" for value in moved.rpy))

@@ -24,12 +24,14 @@ from trundle.model import (
     Surface,
     Visual,
     model_from_joint,
+    with_plain_colour,
 )
 from trundle.spatial import Pose
 
 from .files import UriOf
 from .sdf.environment import add_light
 from .sdf.sensor import add_sensor
+from .sdf.shapes import add_surface
 from .tag import Tag, format_value
 
 _UNLIMITED = 1e16
@@ -133,7 +135,7 @@ class _Writer:
             shape = self._add_shape(tag, "visual", visual, frame_from_link @ visual.link_from_visual)
             if shape is not None and visual.material is not GREY:
                 material = shape.add("material", name=f"{link.name}_{visual.name}")
-                r, g, b, a = visual.material.diffuse
+                r, g, b, a = with_plain_colour(visual.material).diffuse
                 material.add("color", rgba=format_value((r, g, b, a * (1.0 - visual.transparency))))
                 if visual.material.texture is not None:
                     material.add("texture", filename=self.uri_of(visual.material.texture, ""))
@@ -213,9 +215,7 @@ class _Writer:
         surfaces = {collision.surface for collision in link.collisions}
         if len(surfaces) > 1:
             self.report.warn(link.at, f"link {link.name!r}: a URDF has one surface per link; the first one is written")
-        surface, default = link.collisions[0].surface if link.collisions else Surface(), Surface()
-        for tag, name in _SURFACE:
-            extra.add_unless(tag, getattr(surface, name), default=getattr(default, name))
+        _add_surface(extra, link.collisions[0].surface if link.collisions else Surface())
         extra.add_unless("turnGravityOff", not link.gravity, default=False)
         extra.add_unless("selfCollide", link.self_collide, default=None)
         plugins = dict.fromkeys(plugin for visual in link.visuals for plugin in visual.plugins)
@@ -229,6 +229,17 @@ class _Writer:
             add_light(extra, replace(light, world_from_light=frame_from_link @ light.world_from_light))
         if extra.children:
             root.children.append(extra)
+
+
+def _add_surface(extra: Tag, surface: Surface) -> None:
+    """Append friction and compliance; as SDF if the surface has more than URDF's tags express."""
+    default = Surface()
+    of_urdf = {name: getattr(surface, name) for _, name in _SURFACE}
+    if surface != replace(default, **of_urdf):
+        add_surface(extra.add("collision"), surface)
+        return
+    for tag, name in _SURFACE:
+        extra.add_unless(tag, of_urdf[name], default=getattr(default, name))
 
 
 def _add_origin(home: Tag, pose: Pose) -> None:

@@ -95,9 +95,9 @@ class Compiler:
         collisions = {shape.name: shape.collision for shape in self.shapes}
         compiled = self.compile_spec()
         choose_jacobian(compiled)
-        set_compliance(compiled, pair_params)
+        factors = set_compliance(compiled, pair_params)
         world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
-        fill_tables(compiled, pair_params, self.shapes, world.link_bodies.tolist(), self.world)
+        fill_tables(compiled, pair_params, self.shapes, world.link_bodies.tolist(), self.world, factors)
         enable_ccd(compiled, self.shapes)
         return replace(world, initial_qpos=initial_positions(compiled, self.tree, self.joints.axes, self.report))
 

@@ -29,6 +29,10 @@ _HOLD = 2000.0
 """Damping of friction in soft contacts [1/h]: resting bodies creep as little as on a hard floor."""
 _STIFFEST = 0.05
 """Stiffness over mass [1/h²] at which a step no longer resolves a spring, which is then a hard contact."""
+_LEAST_IMPLICIT = 0.01
+"""Smallest implicit part of a spring's stiffness."""
+_HARD = 1e11
+"""Stiffness [N/m] that no file means as soft; SDF's default is 1e12."""
 _STIFFEST_HELD = 1.0
 """The limit [1/h²] for pairs with a min_depth: up to it the contact yields as far as its stiffness allows."""
 
@@ -39,23 +43,38 @@ def is_soft(stiffness: float, inverse_mass: float, h: float, *, min_depth: float
     return 0.0 < stiffness * inverse_mass * h * h < stiffest
 
 
+def has_compliance(params: ContactParams, h: float) -> bool:
+    """True if a pair has a min_depth, or a spring stiffer than `_spring` can express."""
+    return params.min_depth > 0.0 or params.kd < h * params.kp < h * _HARD
+
+
 def pair_name(a: str, b: str) -> str:
     """Return MuJoCo's name for a contact pair of two shapes."""
     return f"{a} {b}"
 
 
-def set_compliance(model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], ContactParams]) -> None:
+def set_compliance(
+    model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], ContactParams]
+) -> dict[tuple[int, int], float]:
     """Set each pair's compliance from its kp and kd, or, for hard surfaces, from the compliance of its tree's contact
     points.
+
+    Returns:
+        Pair of geoms → factor from its stiffness in the model to kp, where that is above 1; `cpp/contact_offset.cc`
+        multiplies the depth by it.
     """
     softness = _tree_softness(model)
+    factors: dict[tuple[int, int], float] = {}
     for (a, b), params in pair_params.items():
-        bodies = [int(model.geom_bodyid[model.geom(name).id]) for name in (a, b)]
+        geoms = int(model.geom(a).id), int(model.geom(b).id)
+        bodies = [int(model.geom_bodyid[geom]) for geom in geoms]
         inverse_mass = float(sum(model.body_invweight0[body, 0] for body in bodies))
         pair = model.pair(pair_name(a, b)).id
         h = model.opt.timestep
         if is_soft(params.kp * params.points, inverse_mass, h, min_depth=params.min_depth):
-            model.pair_solref[pair] = _spring(params, inverse_mass, h)
+            implicit = _implicit_stiffness(params, inverse_mass, h)
+            factors[geoms] = params.kp / implicit
+            model.pair_solref[pair] = _spring(params, implicit, inverse_mass, h)
             model.pair_solimp[pair, :2] = _SOFT
             model.pair_solreffriction[pair] = (-1.0, -_SOFT * _HOLD / h)
         else:
@@ -63,16 +82,29 @@ def set_compliance(model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], 
             if len(trees) == 1 and trees[0] in softness:
                 share = softness[trees[0]] / params.points
                 model.pair_solimp[pair, :2] = min(1 - share / inverse_mass, _HARDEST)
+    return factors
 
 
-def _spring(params: ContactParams, inverse_mass: float, h: float) -> tuple[float, float]:
-    """Return the solref by which a constraint of impedance d and inverse mass A exerts kp · depth + kd · speed.
+def _implicit_stiffness(params: ContactParams, inverse_mass: float, h: float) -> float:
+    """Return the part of kp [N/m] that acts on the depth at the end of a step, and so damps by h times itself.
+
+    More than kd / h would damp more than kd does. The rest acts on the depth at the start of the step, which alone is
+    stable up to `_STIFFEST`. A pair with a min_depth, which holds and does not swing, has no such rest.
+    """
+    explicit = _STIFFEST / (inverse_mass * params.points * h * h)
+    if params.min_depth > 0.0:
+        return params.kp
+    return min(params.kp, max(params.kd / h, params.kp - explicit, _LEAST_IMPLICIT * params.kp))
+
+
+def _spring(params: ContactParams, implicit: float, inverse_mass: float, h: float) -> tuple[float, float]:
+    """Return the solref by which a constraint of impedance d and inverse mass A exerts implicit · depth + kd · speed.
 
     Its force is (K d · depth + B · speed) / R with R = A (1 − d) / d, K = −solref₀ / d² and B = −solref₁ / d. MuJoCo
-    uses the depth at the end of the step, so the spring itself damps by h · kp.
+    uses the depth at the end of the step, so the spring itself damps by h times its stiffness.
     """
     reach = inverse_mass * (1 - _SOFT) * params.points
-    return -params.kp * reach, -max(params.kd - h * params.kp, 0.0) * reach
+    return -implicit * reach, -max(params.kd - h * implicit, 0.0) * reach
 
 
 def _tree_softness(model: mujoco.MjModel) -> dict[int, float]:

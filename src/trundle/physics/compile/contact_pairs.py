@@ -16,7 +16,7 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import Model
 
 from .compliance import is_soft, pair_name
-from .contact_params import ContactParams, bitmasks_match, combine_surfaces, friction_of, is_plain
+from .contact_params import ContactParams, bitmasks_match, combine_surfaces, friction_of, frictions_of, is_plain
 from .kinematic_tree import KinematicTree
 from .shape_entry import CollidesWith, ShapeEntry
 from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solref
@@ -171,7 +171,7 @@ def _set_geom_contact(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -
     mu, geom = friction_of(shape.surface), shape.geom
     geom.priority = ranks[mu]
     geom.friction = [mu, 0.005, 0.0001]
-    geom.condim = 3 if mu > 0 else 1
+    geom.condim = 3 if any(frictions_of(shape.surface)) else 1
     geom.solref = contact_solref(h)
     geom.solimp = SOLIMP
 

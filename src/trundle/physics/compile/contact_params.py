@@ -70,13 +70,13 @@ def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: 
         b_stands: True if the second is fixed.
         points: see `ContactParams`.
     """
-    mu, mu2 = min(_friction(a.mu), _friction(b.mu)), min(_friction(a.mu2), _friction(b.mu2))
+    mu, mu2 = _both(min(_friction(a.mu), _friction(b.mu)), min(_friction(a.mu2), _friction(b.mu2)))
     first = 0 if a.fdir1 != ZERO or b_stands else 1
     kp = 1 / (1 / max(a.kp, 1e-3) + 1 / max(b.kp, 1e-3))
     torsion, patch = _torsion(a, b, kp)
     return ContactParams(
-        mu=max(mu, _LEAST * mu2),
-        mu2=max(mu2, _LEAST * mu),
+        mu=mu,
+        mu2=mu2,
         fdir1=(a, b)[first].fdir1,
         fdir1_shape=first,
         slip=(
@@ -111,6 +111,11 @@ def _friction(mu: float) -> float:
     return INFINITE_FRICTION if mu < 0 else min(mu, INFINITE_FRICTION)
 
 
+def _both(mu: float, mu2: float) -> tuple[float, float]:
+    """Return two coefficients, neither of them zero unless both are."""
+    return max(mu, _LEAST * mu2), max(mu2, _LEAST * mu)
+
+
 def _bounded(slip: float) -> float:
     return max(0.0, min(slip, _MAX_SLIP))
 
@@ -129,5 +134,10 @@ def _torsion(a: Surface, b: Surface, kp: float) -> tuple[float, float]:
 
 
 def friction_of(surface: Surface) -> float:
-    """Return a surface's friction coefficient."""
+    """Return a surface's friction coefficient along its first friction direction."""
     return _friction(surface.mu)
+
+
+def frictions_of(surface: Surface) -> tuple[float, float]:
+    """Return a surface's friction coefficients along its first friction direction and across it."""
+    return _both(_friction(surface.mu), _friction(surface.mu2))

@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from trundle.model import Link, World
 from trundle.spatial import ZERO
 
-from .contact_params import ContactParams
+from .compliance import has_compliance
+from .contact_params import ContactParams, frictions_of
 from .shape_entry import ShapeEntry
 
 _WIDTHS = {
-    "laws": 9,
+    "laws": 10,
     "restitution": 3,
     "friction": 10,
     "damping": 3,
@@ -26,14 +27,15 @@ _WIDTHS = {
     "motors": 4,
     "chains": 1,
     "springs": 4,
-    "dead_zones": 2,
-    "geoms": 1,
+    "compliance": 3,
+    "geoms": 3,
 }
 """Columns of each table.
 
 "laws" is a single row: magic number; on (1), off (0) or friction only (-1); flag of moving surfaces; equality whose
 parameters the motors use; used rows of "chains" and of "springs"; number of contact groups with slip or load-dependent
-friction; address of the stepping data; speed at which `tunnelling` applies.
+friction; address of the stepping data; speed at which `tunnelling` applies; 1 if shapes
+without pairs have two frictions.
 """
 _GROUP_WIDTH = 5
 """Numbers of a contact group in userdata: load, force in the world frame, torque."""
@@ -42,9 +44,15 @@ _SLOWEST = 3.0
 """Speed in steps of free fall below which a contact rests and does not bounce."""
 _SLOW = 0.25
 """Largest (ω h)² of a spring that is integrated by the midpoint rule, unstable from 4 on; MuJoCo damps stiffer ones."""
+_STOP_MARGIN = 20.0
+"""Speed [rad/s or m/s] up to which joints are stopped at a limit, not beyond; a limit's constraint costs time within
+this speed times the step.
+"""
 _EQUALITY = "trundle::motor"
 _MOTOR_SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """Stiffest impedance that MuJoCo allows."""
+FREEDOMS = {mujoco.mjtJoint.mjJNT_FREE: 6, mujoco.mjtJoint.mjJNT_BALL: 3}
+"""Degrees of freedom of the joint types that have not one."""
 _Table: TypeAlias = NDArray[np.float64]
 _Pair: TypeAlias = tuple[int, int, ContactParams]
 Touches: TypeAlias = Mapping[tuple[str, str], ContactParams]
@@ -61,16 +69,17 @@ def reserve_tables(spec: mujoco.MjSpec, pair_params: Touches, shapes: Sequence[S
         "motors": len(spec.actuators),
         "chains": len(spec.bodies),
         "springs": len(spec.joints),
-        "dead_zones": sum(params.min_depth > 0 for params in pair_params.values()),
+        "compliance": sum(has_compliance(params, spec.option.timestep) for params in pair_params.values()),
         "geoms": len(spec.geoms),
     }
     for name, width in _WIDTHS.items():
         # MuJoCo takes no empty numeric; less than a row counts as none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
-    # userdata: the target speed of each motor, then the sums of each contact group.
+    # userdata: the target speed of each motor, a flag of each degree of freedom, the sums of each contact group.
+    freedoms = sum(FREEDOMS.get(joint.type, 1) for joint in spec.joints)
     groups = len(spec.bodies) + len(set(_groups(pair_params, shapes).values()))
-    spec.nuserdata = len(spec.actuators) + _GROUP_WIDTH * groups
+    spec.nuserdata = len(spec.actuators) + freedoms + _GROUP_WIDTH * groups
     _reserve_motors(spec)
     # Sensor that makes MuJoCo call mjcb_sensor; see `set_needstage`.
     stage = mujoco.mjtStage.mjSTAGE_POS
@@ -97,7 +106,12 @@ def find_table(model: mujoco.MjModel, name: str) -> _Table:
 
 
 def fill_tables(
-    model: mujoco.MjModel, pair_params: Touches, shapes: Sequence[ShapeEntry], bodies: Sequence[int], world: World
+    model: mujoco.MjModel,
+    pair_params: Touches,
+    shapes: Sequence[ShapeEntry],
+    bodies: Sequence[int],
+    world: World,
+    factors: Mapping[tuple[int, int], float],
 ) -> None:
     """Write the tables of a compiled model.
 
@@ -107,12 +121,13 @@ def fill_tables(
         shapes: all shapes.
         bodies: body id of each link, in the order of the world's links.
         world: without nested models.
+        factors: of `set_compliance`.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
     named = _groups(pair_params, shapes)
     groups = {_key(model, int(model.geom(a).id), int(model.geom(b).id)): n for (a, b), n in named.items()}
     count = len(set(groups.values()))
-    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, count, 0.0, 0.0
+    find_table(model, "laws")[0] = _MAGIC, 1.0, 0.0, equality, 0.0, 0.0, count, 0.0, 0.0, 0.0
     pairs = [(int(model.geom(a).id), int(model.geom(b).id), params) for (a, b), params in pair_params.items()]
     pairs.sort(key=lambda pair: _key(model, pair[0], pair[1]))
     _write(model, "restitution", _restitution(model, pairs))
@@ -123,12 +138,35 @@ def fill_tables(
         joint = model.actuator_trnid[motor, 0]
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     _center(model)
+    model.jnt_margin[model.jnt_limited > 0] = _STOP_MARGIN * model.opt.timestep
     _write(
-        model, "dead_zones", ((_key(model, a, b), params.min_depth) for a, b, params in pairs if params.min_depth > 0)
+        model,
+        "compliance",
+        (
+            (_key(model, a, b), params.min_depth, factors.get((a, b), 1.0))
+            for a, b, params in pairs
+            if has_compliance(params, model.opt.timestep)
+        ),
     )
-    geoms = find_table(model, "geoms")
-    for shape in shapes:  # fixed shapes may belong to the world body
-        geoms[model.geom(shape.name).id] = model.body(shape.link).id
+    _write_geoms(model, shapes)
+
+
+def _write_geoms(model: mujoco.MjModel, shapes: Sequence[ShapeEntry]) -> None:
+    """Write each geom's body, as fixed shapes may belong to the world, and the friction of those without pairs."""
+    geoms, head = find_table(model, "geoms"), find_table(model, "laws")[0]
+    for shape in shapes:
+        geom = int(model.geom(shape.name).id)
+        is_searched = model.geom_contype[geom] or model.geom_conaffinity[geom]
+        frictions = frictions_of(shape.surface) if is_searched else (0.0, 0.0)
+        geoms[geom] = model.body(shape.link).id, *frictions
+        head[9] = max(head[9], float(frictions[0] != frictions[1]))
+
+
+def midpoint_flags(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
+    """Return (nv,) 1 for each degree of freedom whose velocity is a midpoint's, as a writable view; see
+    `cpp/midpoint.h`.
+    """
+    return data.userdata[model.nu : model.nu + model.nv]
 
 
 def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
@@ -165,6 +203,7 @@ def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
 def disable_laws(model: mujoco.MjModel) -> None:
     """Disable the laws in a copy of a model."""
     find_table(model, "laws")[0, 1] = 0.0
+    model.jnt_margin[:] = 0.0
 
 
 def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:

@@ -4,7 +4,7 @@ No Python runs per step: `step(n)` is one call, and the state is read on demand.
 """
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -122,6 +122,8 @@ class Engine:
             some = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
             self._sleep_policy.step(some)
             self.motors.write_efforts()
+            if self._sleep_policy.is_on:
+                self.motors.write_sleeping_efforts(lambda: self._scratch.efforts(self._state()))
             self._steps += some
             count -= some
             if self._steps % DECISION_PERIOD == 0 and not self._laws.prevents_sleep and not self._is_unstable():
@@ -236,8 +238,28 @@ class Engine:
             self._sleep_policy.is_on,
             self._sleep_policy.has_state_only,
             self.writer.was_teleported,
-            MotorCommands.from_model(self._model),
+            self.motors.save(),
         )
+
+    def checkpoint(self) -> Callable[[], None]:
+        """Save the complete state and what was written to the model; return a function that restores both exactly."""
+        state, model = self.save(), self._model
+        tables, flags = model.numeric_data.copy(), (model.opt.enableflags, model.opt.disableflags)
+        surfaces, stages = model.flg_surfacevel, model.sensor_needstage.copy()
+
+        def restore() -> None:
+            model.numeric_data[:] = tables
+            model.opt.enableflags, model.opt.disableflags = flags
+            model.flg_surfacevel = surfaces
+            model.sensor_needstage[:] = stages
+            self.restore(state)
+
+        return restore
+
+    @property
+    def checkpoint_bytes(self) -> int:
+        """Size of a checkpoint, about."""
+        return int(self._data.nbuffer + self._data.maxuse_arena)
 
     def restore(self, state: EngineState) -> None:
         """Restore a saved state exactly.
@@ -252,6 +274,5 @@ class Engine:
         self._steps, self._sleep_policy.has_state_only = state.steps, state.has_state_only
         self.writer.was_teleported = state.was_teleported
         self.motors.always_enabled = self._laws.is_active
-        state.motors.apply(self._model)
-        self.motors.invalidate()
+        self.motors.restore(state.motors)
         self.reader.invalidate()

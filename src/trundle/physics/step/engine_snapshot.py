@@ -11,10 +11,11 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from .. import _contact_laws
 from ..compile.compiled_world import CompiledWorld
 from ..compile.law_tables import follow_friction
 from .contact import Contacts, contacts_of
-from .motors import MotorCommands
+from .motors import copy_commands
 from .separation import find_deep, separate
 from .state_reader import StateReader
 
@@ -102,10 +103,21 @@ class ScratchEngine:
             arms = data.subtree_com[model.body_rootid[bodies]] - data.xpos[bodies]
             return np.concatenate([forces, torques + np.cross(arms, forces)], axis=1)
 
+    def efforts(self, state: _Array) -> _Array:
+        """Return (nv,) efforts of motors in a state, sleeping ones too [N·m or N].
+
+        Args:
+            state: mjSTATE_INTEGRATION.
+        """
+        with self._lock:
+            model, data = self._solve(state)
+            _contact_laws.report_efforts(model._address, data._address)
+            return data.qfrc_actuator.copy()
+
     def _solve(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
         model, data, reader = self._engine
         follow_friction(model, self._compiled.model)
-        MotorCommands.from_model(self._compiled.model).apply(model)
+        copy_commands(self._compiled.model, model)
         model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
         mujoco.mj_forward(model, data)

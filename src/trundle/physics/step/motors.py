@@ -28,20 +28,17 @@ _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
 class MotorCommands(Struct, frozen=True, eq=False):
-    """Effort limits and rates of a model's motors; their targets are in the data."""
+    """Effort limits and rates of a model's motors, whose targets are in the data, and the last commands."""
 
     max_efforts: NDArray[np.float64]
     rates: NDArray[np.float64]
+    last: dict[int, tuple[float, ...]]
 
-    @classmethod
-    def from_model(cls, model: mujoco.MjModel) -> "MotorCommands":
-        """Read the commands of a model."""
-        return cls(model.tendon_frictionloss.copy(), find_table(model, "motors")[:, 1].copy())
 
-    def apply(self, model: mujoco.MjModel) -> None:
-        """Write the commands to a model."""
-        model.tendon_frictionloss[:] = self.max_efforts
-        find_table(model, "motors")[:, 1] = self.rates
+def copy_commands(source: mujoco.MjModel, target: mujoco.MjModel) -> None:
+    """Give the motors of a model the commands of another one of the same world, but for the targets."""
+    target.tendon_frictionloss[:] = source.tendon_frictionloss
+    find_table(target, "motors")[:, 1] = find_table(source, "motors")[:, 1]
 
 
 class Motors:
@@ -65,6 +62,9 @@ class Motors:
         self._max_velocities: list[float] = compiled.axis_velocity.tolist()
         self._commands: dict[int, tuple[float, ...]] = {}
         self._rates = find_table(compiled.model, "motors")[:, 1]
+        self._motor_dofs = find_table(compiled.model, "motors")[:, 3].astype(np.intp)
+        self._sleeping_efforts: tuple[bytes, NDArray[np.float64]] = (b"", np.empty(0))
+        """Degrees of freedom and positions of sleeping motors, and the efforts (nv,) of all."""
         self._always_enabled = False
         self._update_actuation_flag()
 
@@ -132,6 +132,21 @@ class Motors:
         if not self._model.opt.disableflags & _NO_MOTORS:
             _contact_laws.report_efforts(self._model._address, self._data._address)
 
+    def write_sleeping_efforts(self, evaluate: Callable[[], NDArray[np.float64]]) -> None:
+        """Write the efforts of motors whose trees sleep, which MuJoCo's step leaves out.
+
+        Args:
+            evaluate: returns the efforts (nv,) of the current state with all trees awake.
+        """
+        dofs = self._motor_dofs[self._model.tendon_frictionloss > 0.0]
+        dofs = dofs[self._data.tree_asleep[self._model.dof_treeid[dofs]] >= 0]
+        if not dofs.size:
+            return
+        key = dofs.tobytes() + self._data.qpos[self._model.jnt_qposadr[self._model.dof_jntid[dofs]]].tobytes()
+        if key != self._sleeping_efforts[0]:
+            self._sleeping_efforts = key, evaluate()
+        self._data.qfrc_actuator[dofs] = self._sleeping_efforts[1][dofs]
+
     @property
     def always_enabled(self) -> bool:
         """True if actuation stays enabled without active motors, because the contact laws depend on it."""
@@ -146,6 +161,17 @@ class Motors:
     def invalidate(self) -> None:
         """Forget the last commands after another writer changed the arrays."""
         self._commands.clear()
+        self._update_actuation_flag()
+
+    def save(self) -> MotorCommands:
+        """Save the commands."""
+        return MotorCommands(self._model.tendon_frictionloss.copy(), self._rates.copy(), dict(self._commands))
+
+    def restore(self, saved: MotorCommands) -> None:
+        """Restore saved commands."""
+        self._model.tendon_frictionloss[:] = saved.max_efforts
+        self._rates[:] = saved.rates
+        self._commands = dict(saved.last)
         self._update_actuation_flag()
 
     def switch_off(self) -> None:

@@ -73,16 +73,16 @@ def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
     masses = np.where(fixed, 0.0, model.body_subtreemass[model.body_rootid[bodies]]).max(axis=1)
     stiffnesses = -contacts.solref[:, 0] / np.maximum(model.body_invweight0[bodies, 0].sum(axis=1), 1e-12)
     weights = _HEAVY * masses * float(np.linalg.norm(model.opt.gravity))
-    held = _min_depths(model)
+    held = _held_pairs(model)
     geoms = np.sort(contacts.geom, axis=1).tolist()
-    pressed = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses, 1e-12), 0.0)
-    return pressed + np.array([held.get((a, b), 0.0) for a, b in geoms])
+    depths, factors = np.array([held.get((a, b), (0.0, 1.0)) for a, b in geoms]).reshape(-1, 2).T
+    return depths + np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses * factors, 1e-12), 0.0)
 
 
-def _min_depths(model: mujoco.MjModel) -> dict[tuple[int, int], float]:
-    """Return the min_depth of pairs of geoms that have one [m]."""
-    rows = find_table(model, "dead_zones").tolist()
-    return {(int(key) // model.ngeom, int(key) % model.ngeom): depth for key, depth in rows}
+def _held_pairs(model: mujoco.MjModel) -> dict[tuple[int, int], tuple[float, float]]:
+    """Return min_depth [m] and factor of stiffness of the pairs of geoms that have them."""
+    rows = find_table(model, "compliance").tolist()
+    return {(int(key) // model.ngeom, int(key) % model.ngeom): (depth, factor) for key, depth, factor in rows}
 
 
 def _without_forces(model: mujoco.MjModel, deep: set[tuple[int, int]]) -> mujoco.MjModel:
@@ -95,7 +95,7 @@ def _without_forces(model: mujoco.MjModel, deep: set[tuple[int, int]]) -> mujoco
     still.pair_dim[:] = still.geom_condim[:] = 1
     eager = (_EAGER[0] * model.opt.timestep, _EAGER[1])
     still.geom_solref[:] = eager
-    held = _min_depths(model)
+    held = {pair for pair, (depth, _) in _held_pairs(model).items() if depth > 0.0}
     for i, geoms in enumerate(zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)):
         pair = (min(geoms), max(geoms))
         gives = model.pair_solref[i, 0] < 0.0 or pair in held

@@ -10,6 +10,7 @@ from trundle.diagnostics import UsageError
 from trundle.spatial import Pose, Twist
 
 from ..compile.compiled_world import CompiledWorld
+from ..compile.law_tables import midpoint_flags
 
 
 class StateWriter:
@@ -31,6 +32,7 @@ class StateWriter:
         self._data = data
         self._wake = wake
         self._changed = changed
+        self._midpoint_flags = midpoint_flags(compiled.model, data)
         self._balls = frozenset(compiled.ball_joints)
         self.was_teleported = True
         """True if anything was teleported, and may penetrate something."""
@@ -69,7 +71,9 @@ class StateWriter:
             velocities: (axes,)
         """
         for axis, velocity in zip(axes, velocities, strict=True):
-            self._data.qvel[self._compiled.axis_dof[axis]] = velocity * self._compiled.axis_sign[axis]
+            dof = self._compiled.axis_dof[axis]
+            self._data.qvel[dof] = velocity * self._compiled.axis_sign[axis]
+            self._midpoint_flags[dof] = 0.0
         self._changed()
 
     def set_tree_pose(self, link: int, pose: Pose) -> None:

@@ -22,7 +22,8 @@ class DrivenJoint:
 def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[DrivenJoint]:
     """Read every joint that a transmission drives, in file order; warn of invalid ones and leave them out.
 
-    Rules of transmission_interface's TransmissionParser; an interface in the <actuator> counts, as before Indigo.
+    Rules of transmission_interface's TransmissionParser and gazebo_ros_control's DefaultRobotHWSim; an interface in
+    the <actuator> counts, as before Indigo.
 
     Args:
         urdf: the robot as XML.
@@ -54,7 +55,7 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
 
 
 def _fault(transmission: XmlNode) -> str | None:
-    """Fault for which TransmissionParser drops a transmission with all its joints; None: valid."""
+    """Fault for which the original drops a transmission with all its joints; None: valid."""
     if not transmission.attribute("name"):
         return "has no name"
     if not transmission.string("type"):
@@ -65,6 +66,10 @@ def _fault(transmission: XmlNode) -> str | None:
             return f"has a <{tag}> without a name"
         if not any(names):
             return f"has no <{tag}>"
+    joints = [joint for joint in transmission.all("joint") if joint.attribute("name")]
+    count = sum(1 for joint in joints if _interfaces(joint)) or len(joints)
+    if count > 1:
+        return f"has {count} joints, but gazebo_ros_control drives one joint per transmission"
     return None
 
 

@@ -22,12 +22,12 @@ class DrawForce(VisualPlugin):
 
     A relative name is below /visual, as the foot contacts; the default is /default_force_draw. As in
     Gazebo the line is in the visual's axes and scaled with it (a unit sphere's line is 0.05 m/N long, that of one of
-    0.02 m diameter 0.001 m/N), and only viewers show it, not cameras (GZ_VISIBILITY_GUI). It subscribes once a viewer
+    0.02 m diameter 0.001 m/N), and only the page shows it, not cameras (GZ_VISIBILITY_GUI). It subscribes once a page
     shows lines.
     """
 
     period_ns = 20_000_000
-    """About the frame period of a viewer [ns]."""
+    """About the frame period of the page [ns]."""
 
     def __init__(
         self, sim: Simulation, model: ModelHandle, link: LinkHandle, visual: Visual, node: Node | None, tag: PluginTag

@@ -13,3 +13,6 @@ from .play import PlayerOptions as PlayerOptions
 from .record import Recorder as Recorder
 from .record import RecorderOptions as RecorderOptions
 from .step_recorder import StepRecorder as StepRecorder
+from .summary import BagSummary as BagSummary
+from .summary import byte_text as byte_text
+from .summary import median_rates as median_rates

@@ -83,6 +83,10 @@ class BagReader(Protocol):
         """
         ...
 
+    def stamps_ns(self) -> dict[str, list[int]]:
+        """Topic → times of its messages [ns], ascending."""
+        ...
+
     def close(self) -> None:
         """Close the file."""
         ...

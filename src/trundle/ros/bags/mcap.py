@@ -69,6 +69,13 @@ class McapReader:
                 if wanted is None or wanted(connection):
                     yield BagMessage(connection, message.log_time, message.data)
 
+    def stamps_ns(self) -> dict[str, list[int]]:
+        """See `BagReader`."""
+        stamps: dict[str, list[int]] = {}
+        for message in self.messages():
+            stamps.setdefault(message.connection.topic, []).append(message.stamp_ns)
+        return stamps
+
     def close(self) -> None:
         """Close the file."""
         self._file.close()

@@ -208,7 +208,7 @@ class Recorder:
                 latching=message.latching,
             )
         with self._wake:
-            self._queue.append(BagMessage(connection, stamp_ns, message.data))
+            self._queue.append(BagMessage(connection, stamp_ns, bytes(message.data)))
             self._queued_bytes += len(message.data)
             while 0 < self._options.buffer_bytes < self._queued_bytes:
                 self._queued_bytes -= len(self._queue.popleft().data)

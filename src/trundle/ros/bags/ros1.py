@@ -46,6 +46,14 @@ class Ros1Reader:
             for connection, stamp_ns, data in self._reader.messages(chosen, start_ns, stop):
                 yield BagMessage(self._by_id[connection.id], stamp_ns, data)
 
+    def stamps_ns(self) -> dict[str, list[int]]:
+        """See `BagReader`; read from the index."""
+        stamps: dict[str, list[int]] = {}
+        for connection in self._reader.connections:
+            entries = self._reader.indexes.get(connection.id, [])
+            stamps.setdefault(connection.topic, []).extend(entry.time for entry in entries)
+        return {topic: sorted(times) for topic, times in stamps.items()}
+
     def close(self) -> None:
         """Close the file."""
         self._reader.close()

@@ -42,6 +42,13 @@ class RosrecordReader:
         last = self.end_ns if end_ns is None else end_ns
         return _read(self.path, (entry for entry in self._entries if first <= entry[0] <= last and entry[1] in chosen))
 
+    def stamps_ns(self) -> dict[str, list[int]]:
+        """See `BagReader`."""
+        stamps: dict[str, list[int]] = {}
+        for stamp, connection, *_ in self._entries:
+            stamps.setdefault(connection.topic, []).append(stamp)
+        return stamps
+
     def close(self) -> None:
         """No-op: the file is open only while messages are read."""
 

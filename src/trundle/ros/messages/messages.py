@@ -38,7 +38,8 @@ class RawMessage:
     type: str
     md5sum: str
     definition: str
-    data: bytes
+    data: bytes | memoryview
+    """Read-only; long messages are received in place and not copied."""
     caller: str = ""
     """Node that published it."""
     latching: bool = False
@@ -249,16 +250,18 @@ class Messages:
         key = f"{package}/msg/{name}" if not name.startswith("msg/") else type_name
         if key in self._store.types:
             return key
-        with self._lock:
-            for load in (self._definitions.load_package, self._definitions.load_from_path):
+        for load in (self._definitions.load_package, self._definitions.load_from_path):
+            if load == self._definitions.load_from_path:
+                _ = self._definitions.on_path  # a search that takes long: other threads have the lock meanwhile
+            with self._lock:
                 load(package)
                 if key not in self._store.types and ros_name(key) in self._definitions.messages:
                     self._registry.add(ros_name(key))
                 service = ros_name(key).removesuffix("Request").removesuffix("Response")
                 if service != ros_name(key) and service in self._definitions.services and service not in self._services:
                     self.service(service)
-                if key in self._store.types:
-                    return key
+            if key in self._store.types:
+                return key
         if key not in self._store.types:
             if why := self._definitions.unreadable.get(f"{ros_name(key)}.msg"):
                 raise MessageError(why)

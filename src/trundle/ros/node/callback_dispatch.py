@@ -2,16 +2,18 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from .loop import GraphLoop
 
 _Result = TypeVar("_Result")
+Callback: TypeAlias = Callable[[], Callable[[], object] | None]
+"""Calls back for a message or request; returns what does so again, if the message or request came from outside."""
+Deliver: TypeAlias = Callable[[Callback], None]
+"""Schedules a callback outside the loop."""
 
 
-async def run_on_callback_thread(
-    deliver: Callable[[Callable[[], None]], None] | None, loop: GraphLoop, work: Callable[[], _Result]
-) -> _Result:
+async def run_on_callback_thread(deliver: Deliver | None, loop: GraphLoop, work: Callable[[], _Result]) -> _Result:
     """Call `work` on the callback thread and return or raise its result; without `deliver`, call it directly.
 
     Args:
@@ -31,12 +33,13 @@ async def run_on_callback_thread(
         else:
             future.set_exception(error)
 
-    def do() -> None:
+    def do() -> Callable[[], object]:
         try:
             result, error = work(), None
         except Exception as failure:  # re-raised in the awaiting coroutine
             result, error = None, failure
         loop.call_soon(lambda: settle(result, error))
+        return work
 
     deliver(do)
     return await future

@@ -26,9 +26,12 @@ class EndpointRecorder(threading.local):
 
     @contextmanager
     def record(self) -> Generator[list[Endpoint]]:
-        """Record the endpoints this thread creates in the context."""
-        self._ends = ends = list[Endpoint]()
+        """Record the endpoints this thread creates in the context; an outer context records them, too."""
+        outer, self._ends = self._ends, list[Endpoint]()
+        ends = self._ends
         try:
             yield ends
         finally:
-            self._ends = None
+            self._ends = outer
+            if outer is not None:
+                outer += ends

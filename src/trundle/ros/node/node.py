@@ -15,6 +15,7 @@ from ..distro import NOETIC
 from ..messages.messages import ANY_TYPE, Message, Messages
 from ..messages.typed_message import TypedMessage
 from ..transport.network import master_uri_from_env, server_address
+from .callback_dispatch import Deliver
 from .clock import Clock, WallClock
 from .endpoints import NodeEndpoints
 from .local_graph import LocalNode
@@ -50,9 +51,11 @@ class Node:
         remappings: Mapping[str, str] | None = None,
         params: Mapping[str, object] | None = None,
         clock: Clock | None = None,
-        deliver: Callable[[Callable[[], None]], None] | None = None,
+        deliver: Deliver | None = None,
         rosout: bool = True,
         host: str | None = None,
+        ports: tuple[int, int] = (0, 0),
+        log: NodeLog | None = None,
     ) -> None:
         """Create and start a node; returns at once.
 
@@ -68,6 +71,8 @@ class Node:
                 thread; must not block. By default, callbacks run on the loop.
             rosout: True: publish /rosout and advertise the logger services.
             host: address to bind; loopback by default.
+            ports: of the slave API and of TCPROS; 0: any free one.
+            log: takes the node's messages; stderr and /rosout by default.
         """
         self.name = canonical_name("/" + join_names(namespace, name).lstrip("/"))
         self.loop = loop
@@ -83,13 +88,15 @@ class Node:
         self._remappings = {
             resolve_name(a, self.name): resolve_name(b, self.name) for a, b in self.written_remappings.items()
         }
-        self.log = NodeLog(self.name, lambda: self.clock)
+        self.log = log or NodeLog(self.name, lambda: self.clock)
         self.master = MasterClient(self.master_uri, self.name, loop.work)
         self._registrations = RegistrationQueue(loop, log=self.log)
         self.params = ParamClient(self, params or {})
         self.endpoints = NodeEndpoints(self, self._registrations)
         self._address = server_address(host)
-        self._slave = Slave(self, self.endpoints, self.params, self._address, on_shutdown=self.request_shutdown)
+        self._slave = Slave(
+            self, self.endpoints, self.params, self._address, on_shutdown=self.request_shutdown, ports=ports
+        )
         self._wants_rosout = rosout
         self._listening = asyncio.Event()
         self._on_shutdown: list[Callable[[str], None]] = []

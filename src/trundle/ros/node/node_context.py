@@ -1,9 +1,10 @@
 """Interface of a node for its parts: publishers, subscriptions, services, parameters and servers."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Protocol
 
 from ..messages.messages import Message, Messages
+from .callback_dispatch import Deliver
 from .loop import GraphLoop
 from .master_client import MasterClient
 from .node_log import NodeLog
@@ -53,7 +54,7 @@ class NodeContext(Protocol):
         ...
 
     @property
-    def deliver(self) -> Callable[[Callable[[], None]], None] | None:
+    def deliver(self) -> Deliver | None:
         """Schedules callbacks outside the loop; None: they run on the loop."""
         ...
 

@@ -3,6 +3,7 @@
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from ..errors import MessageError
@@ -90,7 +91,7 @@ class Publisher:
         """True if a subscriber needs every message; else periodic messages may be skipped."""
         return self._wanted > 0 and self._subscriber_links.need_every_message
 
-    def publish(self, message: TypedMessage | Mapping[str, object] | bytes) -> None:
+    def publish(self, message: TypedMessage | Mapping[str, object] | bytes | memoryview) -> None:
         """Publish a message; thread-safe, never blocks. The message must not be changed afterwards.
 
         Sets a header's `seq`. Slow subscribers lose the oldest messages.
@@ -114,6 +115,10 @@ class Publisher:
         self._lost += len(self._outbox) == self._queue_size
         self._outbox.append(message)
         self._flush_soon()
+
+    def checkpoint(self) -> Callable[[], None]:
+        """Return a function that numbers the messages as from now on."""
+        return partial(setattr, self, "_sequence", self._sequence)
 
     def unregister(self) -> None:
         """Stop publishing; thread-safe."""
@@ -147,16 +152,7 @@ class Publisher:
             return
         if header.get("tcp_nodelay", "0").strip() == "1":
             link.set_nodelay()
-        link.send_header(
-            {
-                "callerid": self._node.name,
-                "topic": self.topic,
-                "type": self.type,
-                "md5sum": self.md5sum,
-                "latching": "1" if self.latch else "0",
-                "message_definition": self.definition,
-            }
-        )
+        link.send_header(self.header_fields())
         with self._turn:
             self._subscriber_links.remote[link] = peer
             self._update_subscribers()
@@ -164,6 +160,17 @@ class Publisher:
                 if (framed := self._framed(message)) is not None:
                     link.out.send([framed], self._queue_size)
         self._count()
+
+    def header_fields(self) -> dict[str, str]:
+        """Fields of the connection header that subscribers get."""
+        return {
+            "callerid": self._node.name,
+            "topic": self.topic,
+            "type": self.type,
+            "md5sum": self.md5sum,
+            "latching": "1" if self.latch else "0",
+            "message_definition": self.definition,
+        }
 
     def resume(self) -> None:
         """Continue after all subscribers were congested."""

@@ -32,16 +32,41 @@ async def call_service(
     kind = node.messages.service(type_name)
     if request is None or isinstance(request, Mapping):
         request = node.new(kind.request, request and dict(request))
-    try:
-        uri = await node.master.call("lookupService", name)
-    except MasterError:
-        raise ServiceError(f"no node provides the service {name}") from None
+    uri = await _look_up(node, name)
     try:
         with node.loop.work.pending():
             async with asyncio.timeout(timeout_s):
                 return await _exchange(node.messages, node.name, uri, name, kind, request)
     except TimeoutError:
         raise ServiceError(f"{name} did not answer within {timeout_s:g} s") from None
+
+
+async def call_service_bytes(
+    node: NodeContext, name: str, kind: ServiceType, request: bytes, *, timeout_s: float
+) -> bytes:
+    """Call a service by its global name with a serialized request, and return the serialized response.
+
+    Raises:
+        ServiceError: the service is not available, fails or times out.
+    """
+    uri = await _look_up(node, name)
+    try:
+        async with asyncio.timeout(timeout_s):
+            return await _exchange_bytes(node.name, uri, name, kind, request)
+    except TimeoutError:
+        raise ServiceError(f"{name} did not answer within {timeout_s:g} s") from None
+
+
+async def _look_up(node: NodeContext, name: str) -> str:
+    """Return the rosrpc URI of a service.
+
+    Raises:
+        ServiceError: no node provides it.
+    """
+    try:
+        return str(await node.master.call("lookupService", name))
+    except MasterError:
+        raise ServiceError(f"no node provides the service {name}") from None
 
 
 async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None) -> None:
@@ -83,7 +108,19 @@ async def _exchange(
     Raises:
         ServiceError: the provider refuses, fails or disconnects.
     """
-    body = messages.serialize(request)
+    data = await _exchange_bytes(caller, uri, name, kind, messages.serialize(request))
+    try:
+        return messages.deserialize(data, kind.response)
+    except MessageError as error:
+        raise ServiceError(f"{name} sent an invalid response: {error}") from None
+
+
+async def _exchange_bytes(caller: str, uri: str, name: str, kind: ServiceType, body: bytes) -> bytes:
+    """Send a serialized request to a provider as the node `caller`, and return the serialized response.
+
+    Raises:
+        ServiceError: the provider refuses, fails or disconnects.
+    """
     try:
         async with _connection(uri) as (reader, writer):
             header = {"callerid": caller, "service": name, "type": kind.type, "md5sum": kind.md5sum}
@@ -98,10 +135,7 @@ async def _exchange(
         raise ServiceError(f"{name} at {uri} cannot be called: {error or type(error).__name__}") from None
     if not well:
         raise ServiceError(f"service [{name}] responded with an error: {data.decode('utf-8', 'replace')}")
-    try:
-        return messages.deserialize(data, kind.response)
-    except MessageError as error:
-        raise ServiceError(f"{name} sent an invalid response: {error}") from None
+    return data
 
 
 @contextlib.asynccontextmanager

@@ -37,8 +37,10 @@ class Slave:
         address: ServerAddress,
         *,
         on_shutdown: Callable[[str], None],
+        ports: tuple[int, int] = (0, 0),
     ) -> None:
-        """`on_shutdown` is called with the reason of a shutdown request."""
+        """`on_shutdown` is called with the reason of a shutdown request; `ports` are of slave API and TCPROS."""
+        self._ports = ports
         self._node = node
         self._endpoints = endpoints
         self._params = params
@@ -54,11 +56,11 @@ class Slave:
         self.tcp_port = 0
 
     async def start(self) -> None:
-        """Listen on two free ports and on a Unix socket."""
-        await self._rpc.start(self._address.bind, 0)
+        """Listen on two ports and on a Unix socket."""
+        await self._rpc.start(self._address.bind, self._ports[0])
         self.uri = f"http://{self._address.at(self._rpc.port)}/"
         loop = asyncio.get_running_loop()
-        server = await loop.create_server(self._inbound, self._address.bind, 0, backlog=_BACKLOG)
+        server = await loop.create_server(self._inbound, self._address.bind, self._ports[1], backlog=_BACKLOG)
         self._servers.append(server)
         self.tcp_port = server.sockets[0].getsockname()[1]
         if (found := listen_unix()) is not None:

@@ -33,7 +33,7 @@ class MessageReceiver(Protocol):
         """True if it takes serialized messages."""
         ...
 
-    def receive(self, message: Message) -> None:
+    def receive(self, message: Message, *, from_outside: bool = False) -> None:
         """Receive a message."""
         ...
 
@@ -105,7 +105,7 @@ class SubscriberLink(FrameProtocol):
         if self._subscription.is_raw:
             self._subscription.receive_data(received, self.header or {})
         else:
-            self._subscription.receive(received)
+            self._subscription.receive(received, from_outside=True)
 
     def closed(self, reason: str, /) -> None:
         if self._shared_ring is not None:

@@ -5,6 +5,7 @@ import contextlib
 import inspect
 from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
+from functools import partial
 from typing import Any
 
 from ..errors import MessageError, RosError, WireError
@@ -58,7 +59,8 @@ class Subscription:
         self._tcp_nodelay = tcp_nodelay
         self._deliver = None if on_loop else node.deliver
         self._is_called_at_once = self._deliver is None and not self._is_async
-        self._queue: deque[Message] = deque()
+        self._queue: deque[tuple[Message, bool]] = deque()
+        """Messages, and if they came from outside this process."""
         self._queue_size = queue_size
         self._worker: asyncio.Task[None] | None = None
         self._tasks: dict[str, asyncio.Task[None]] = {}
@@ -102,8 +104,8 @@ class Subscription:
             self._worker.cancel()
         self._queue.clear()
 
-    def receive(self, message: Message) -> None:
-        """Receive a message: call back directly, or queue it for the callback thread."""
+    def receive(self, message: Message, *, from_outside: bool = False) -> None:
+        """Receive a message of this process or from outside: call back, or queue it for the callback thread."""
         self.received += 1
         if self._is_called_at_once:
             try:
@@ -113,7 +115,7 @@ class Subscription:
             return
         # `deliver` was called once per queued message; one that takes a dropped message's place needs no new call.
         replaced = self._queue_size is not None and len(self._queue) >= self._queue_size and self._drop_oldest()
-        self._queue.append(message)
+        self._queue.append((message, from_outside))
         if self._is_async:
             if self._worker is None or self._worker.done():
                 self._worker = asyncio.get_running_loop().create_task(self._call_in_turn())
@@ -125,7 +127,8 @@ class Subscription:
         definition = publisher.definition if self.is_raw else ""
         try:
             header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
-            self.receive_data(data, {**header, "message_definition": definition, "latching": str(int(publisher.latch))})
+            header |= {"message_definition": definition, "latching": str(int(publisher.latch))}
+            self.receive_data(data, header, from_outside=False)
         except MessageError as error:
             self._node.log.error(f"a message on {self.topic} is dropped: {error}")
 
@@ -143,24 +146,25 @@ class Subscription:
         links = [link for link in self._links.values() if isinstance(link, FrameProtocol)]
         return [self.topic, [[id(link) % 2**31, link.bytes_received, -1, self.dropped, True] for link in links]]
 
-    def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
+    def receive_data(self, data: bytes | memoryview, header: Mapping[str, str], *, from_outside: bool = True) -> None:
         """Receive a serialized message with its publisher's connection header.
 
         Raises:
             MessageError: the bytes are not a message of this type.
         """
         if not self.is_raw:
-            self.receive((self._codec or self._make_codec()).read(data))
+            self.receive((self._codec or self._make_codec()).read(data), from_outside=from_outside)
             return
         self.receive(
             RawMessage(
                 type=header.get("type", ANY_TYPE),
                 md5sum=header.get("md5sum", ANY_TYPE),
                 definition=header.get("message_definition", ""),
-                data=bytes(data),
+                data=data,
                 caller=header.get("callerid", ""),
                 latching=header.get("latching") == "1",
-            )
+            ),
+            from_outside=from_outside,
         )
 
     def _make_codec(self) -> Codec:
@@ -268,14 +272,18 @@ class Subscription:
         self.dropped += 1
         return True
 
-    def _call_next(self) -> None:
-        """Call back for the next queued message; runs on the callback thread."""
-        with contextlib.suppress(IndexError):  # dropped meanwhile
-            self._call(self._queue.popleft())
+    def _call_next(self) -> Callable[[], None] | None:
+        """Call back for the next message, on the callback thread; return what repeats it if it is from outside."""
+        try:
+            message, from_outside = self._queue.popleft()
+        except IndexError:  # dropped meanwhile
+            return None
+        self._call(message)
+        return partial(self._call, message) if from_outside else None
 
     async def _call_in_turn(self) -> None:
         while self._queue:
-            message = self._queue.popleft()
+            message, _ = self._queue.popleft()
             try:
                 result = self._callback(message)
                 if result is not None:

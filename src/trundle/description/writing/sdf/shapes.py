@@ -51,7 +51,7 @@ def add_collision(link: Tag, collision: Collision, uri_of: UriOf) -> None:
     tag.add_pose(collision.link_from_collision)
     add_geometry(tag, collision.geometry, uri_of)
     tag.add_unless("laser_retro", collision.laser_retro, default=0.0)
-    _add_surface(tag.add_optional("surface"), collision.surface)
+    add_surface(tag, collision.surface)
 
 
 def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
@@ -108,14 +108,19 @@ def add_geometry(home: Tag, geometry: Geometry, uri_of: UriOf) -> None:
 def add_material(home: Tag, material: Material, uri_of: UriOf) -> None:
     """Append <material>."""
     tag = home.add("material")
+    if material.named_texture is not None:
+        script = tag.add("script")
+        script.add("uri", "file://media/materials/scripts/gazebo.material")
+        script.add("name", material.named_texture)
     for name in ("ambient", "diffuse", "specular", "emissive"):
         tag.add(name, getattr(material, name))
     if material.texture is not None:
         tag.add("pbr").add("metal").add("albedo_map", uri_of(material.texture, ""))
 
 
-def _add_surface(tag: Tag, surface: Surface) -> None:
-    default = Surface()
+def add_surface(home: Tag, surface: Surface) -> None:
+    """Append <surface>, unless it is the default."""
+    tag, default = home.add_optional("surface"), Surface()
     friction = tag.add_optional("friction")
     ode = friction.add_optional("ode")
     for name in ("mu", "mu2", "fdir1", "slip1", "slip2"):

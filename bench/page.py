@@ -1,0 +1,203 @@
+"""The page's server: CPU of relaying clouds of a million points to a client, and of moving robots.
+
+The peer of the relay is a process that copies the same bytes from one socket to another. Times are of the servers' CPU.
+"""
+
+import io
+import multiprocessing
+import os
+import socket
+import statistics
+import struct
+import threading
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from multiprocessing.connection import Connection
+from urllib.parse import urlsplit
+
+import numpy as np
+
+from bench.table import Row
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page_address import PageAddress
+from trundle.ros import Core, GraphLoop
+
+_POINTS, _POINT_BYTES = 1_000_000, (16, 32)
+_RATE_HZ, _MESSAGES, _PAIRS = 5.0, 15, 3
+_ROBOTS, _LINKS, _POSES_HZ, _POSES_S = 50, 12, 30.0, 10.0
+_KEY = "AAAAAAAAAAAAAAAAAAAAAA=="
+
+
+def run() -> list[Row]:
+    """Alternate server and relay, so that both see the machine at its fast and slow moments."""
+    if not os.path.exists("/proc/self/stat"):
+        return []  # the CPU of other processes is not known here
+    rows = [_relay_row(size * _POINTS) for size in _POINT_BYTES]
+    return [*rows, Row("50 robots at 30 Hz, page's server", _poses_share(), "% of core", "", None)]
+
+
+def _relay_row(size: int) -> Row:
+    pairs = [(_page_cpu(size), _relay_cpu(size)) for _ in range(_PAIRS)]
+    ratio = statistics.median(own / peer for own, peer in pairs)
+    own = 1e3 * statistics.median(own for own, _ in pairs)
+    return Row(f"cloud of {size // 10**6} MB, page's server", own, "ms CPU", "a socket relay", ratio)
+
+
+def _page_cpu(size: int) -> float:
+    """CPU of the page's server for one cloud [s]."""
+    with GraphLoop() as loop:
+        core = Core(loop, port=0)
+        loop.run(core.start())
+        with process(_publish_clouds, core.uri, size) as publisher:
+            address = GraphAddress(master_uri=core.uri)
+            with PageServer.start(Session(title="b", kind="graph"), at=PageAddress(port=0), graph=address) as page:
+                received = subscribe(page.url, "/cloud", size)
+                publisher.send("go")
+                cpu_s = _cpu_per_message(page.process_id, received)
+        loop.run(core.stop())
+    return cpu_s
+
+
+def _relay_cpu(size: int) -> float:
+    """CPU of a plain relay for one cloud [s]."""
+    with (
+        socket.create_server(("127.0.0.1", 0)) as inward,
+        socket.create_server(("127.0.0.1", 0)) as outward,
+        process(_relay, inward.getsockname()[1], outward.getsockname()[1]) as relay,
+    ):
+        source, sink = inward.accept()[0], outward.accept()[0]
+        with source, sink:
+            threading.Thread(target=_feed, args=(source, size), daemon=True).start()
+            return _cpu_per_message(relay.recv(), lambda count: _discard(sink, count * size))
+
+
+def _cpu_per_message(process_id: int, receive: Callable[[int], None]) -> float:
+    """CPU of a process while messages arrive, the first few not counted."""
+    receive(3)
+    before = cpu_s(process_id)
+    receive(_MESSAGES)
+    return (cpu_s(process_id) - before) / _MESSAGES
+
+
+def _poses_share() -> float:
+    """CPU of the page's server while bodies move, in percent of a core."""
+    rows = np.random.default_rng(0).normal(size=(_ROBOTS * _LINKS, 7))
+    with PageServer.start(Session(title="b", kind="simulation"), at=PageAddress(port=0)) as page:
+        page.set_world({"generation": 1, "files": []}, {})
+        receive = subscribe(page.url, "trundle/poses", 100)
+        reader = threading.Thread(target=receive, args=(round(_POSES_HZ * _POSES_S),))
+        reader.start()
+        started, before = time.monotonic(), cpu_s(page.process_id)
+        for number in range(round(_POSES_HZ * _POSES_S)):
+            page.put_poses(number, rows + number)
+            time.sleep(max(0.0, started + number / _POSES_HZ - time.monotonic()))
+        share = (cpu_s(page.process_id) - before) / (time.monotonic() - started)
+    reader.join()
+    return 100.0 * share
+
+
+def subscribe(url: str, topic: str, least: int) -> Callable[[int], None]:
+    """Subscribe to a topic; return a function that reads a number of longer messages than `least`."""
+    host, port = str(urlsplit(url).hostname), int(urlsplit(url).port or 0)
+    sock = socket.create_connection((host, port))
+    sock.sendall(
+        f"GET / HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"Sec-WebSocket-Key: {_KEY}\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: trundle.v1\r\n\r\n".encode()
+    )
+    stream = sock.makefile("rb")
+    while stream.readline().strip():
+        pass
+    wanted = f'"topic":"{topic}"'.encode()
+    while wanted not in (text := _read_message(stream)):
+        pass
+    number = int(text[: text.index(wanted)].rpartition(b'"id":')[2].partition(b",")[0])
+    body = b'{"op":"subscribe","subscriptions":[{"id":1,"channelId":%d}]}' % number
+    sock.sendall(struct.pack("!BBI", 0x81, 0x80 | len(body), 0) + body)  # masked with zeros
+
+    def receive(count: int) -> None:
+        while count and (size := _skip_message(stream)):
+            count -= size > least
+
+    return receive
+
+
+def _read_message(stream: io.BufferedReader) -> bytes:
+    return stream.read(_read_size(stream))
+
+
+def _skip_message(stream: io.BufferedReader) -> int:
+    """Read a message and return its length; 0 at the stream's end."""
+    size = left = _read_size(stream)
+    while left and (part := stream.read1(min(left, 1 << 20))):
+        left -= len(part)
+    return size
+
+
+def _read_size(stream: io.BufferedReader) -> int:
+    short = stream.read(2)[-1:]
+    if not short or short[0] < 126:
+        return short[0] if short else 0
+    return int.from_bytes(stream.read(2 if short[0] == 126 else 8), "big")
+
+
+def _discard(sock: socket.socket, count: int) -> None:
+    buffer = bytearray(1 << 20)
+    while count:
+        count -= sock.recv_into(buffer, min(count, len(buffer)))
+
+
+def _feed(sock: socket.socket, size: int) -> None:
+    """Send messages at their rate."""
+    message = bytes(size)
+    for _ in range(_MESSAGES + 3):
+        started = time.monotonic()
+        sock.sendall(message)
+        time.sleep(max(0.0, started + 1 / _RATE_HZ - time.monotonic()))
+
+
+def _relay(pipe: Connection, inward: int, outward: int) -> None:
+    """Copy bytes from one socket to another."""
+    source, sink = (socket.create_connection(("127.0.0.1", port)) for port in (inward, outward))
+    pipe.send(os.getpid())
+    buffer = memoryview(bytearray(1 << 20))
+    while count := source.recv_into(buffer):
+        sink.sendall(buffer[:count])
+
+
+def _publish_clouds(pipe: Connection, master_uri: str, size: int) -> None:
+    """Publish clouds at their rate, from "go" on."""
+    from trundle.ros import Node
+
+    with GraphLoop() as loop:
+        node = Node("clouds", loop=loop, master_uri=master_uri)
+        publisher = node.advertise("/cloud", "sensor_msgs/PointCloud2", queue_size=1)
+        cloud = node.new("sensor_msgs/PointCloud2", {"width": _POINTS, "height": 1, "data": np.zeros(size, np.uint8)})
+        pipe.recv()
+        while not publisher.has_subscribers:
+            time.sleep(0.01)
+        while True:
+            started = time.monotonic()
+            publisher.publish(cloud)
+            time.sleep(max(0.0, started + 1 / _RATE_HZ - time.monotonic()))
+
+
+@contextmanager
+def process(target: Callable[..., None], *arguments: object) -> Generator[Connection]:
+    """Run a function in a process of its own, and yield the pipe to it."""
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    running = context.Process(target=target, args=(theirs, *arguments), daemon=True)
+    running.start()
+    try:
+        yield ours
+    finally:
+        running.kill()
+        running.join()
+
+
+def cpu_s(process_id: int) -> float:
+    """CPU of all threads of a process [s]."""
+    with open(f"/proc/{process_id}/stat", encoding="ascii") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

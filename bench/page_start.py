@@ -1,0 +1,52 @@
+"""The page in headless Chromium: time from its URL, which `trundle run` prints, until the world is drawn."""
+
+import importlib.util
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from bench.table import Row
+
+_CHROMIUM = Path("/usr/bin/chromium")
+_SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+_RUNS = 3
+_PATIENCE_MS = 120_000
+_DRAWN = "document.querySelector('canvas') && !document.querySelector('.scene-note')"
+
+
+def run() -> list[Row]:
+    """Time a few starts in one browser that is running already."""
+    if not _CHROMIUM.exists() or importlib.util.find_spec("playwright") is None:
+        return []  # Debian's browser is what the figure is of
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=str(_CHROMIUM), args=list(_SOFTWARE_GL))
+        seconds = [_usable_s(browser) for _ in range(_RUNS)]
+        browser.close()
+    return [Row("RP2W at home: page usable after its URL", statistics.median(seconds), "s", "", None)]
+
+
+def _usable_s(browser: Any) -> float:
+    """Time from the printed URL until a person can use the page [s]."""
+    words = ("-m", "trundle", "run", "rp2w_at_home.world", "--no-ros", "--port", "0")
+    with subprocess.Popen(
+        [sys.executable, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+    ) as running:
+        assert running.stderr is not None
+        url = next(found[1] for line in running.stderr if (found := re.search(r"see it at (\S+)", line)))
+        started = time.monotonic()
+        page = browser.new_page(viewport={"width": 1440, "height": 900})
+        page.goto(url, wait_until="commit")
+        page.get_by_role("button", name="Pause").first.wait_for(timeout=_PATIENCE_MS)
+        page.wait_for_function(_DRAWN, timeout=_PATIENCE_MS)
+        taken_s = time.monotonic() - started
+        page.close()
+        running.send_signal(signal.SIGINT)
+        running.communicate()
+    return taken_s

@@ -1,0 +1,29 @@
+#include "joint_stop.h"
+
+namespace trundle {
+
+namespace {
+
+constexpr double kBeyond =
+    1e-9;  // [rad or m] by which a limit is passed, so that its own constraint holds from then on
+
+}  // namespace
+
+void approach_stops(const mjModel* m, mjData* d) {
+  const double h = m->opt.timestep;
+  for (int row = d->ne + d->nf; row < d->ne + d->nf + d->nl; ++row) {
+    if (d->efc_type[row] != mjCNSTR_LIMIT_JOINT || !(d->efc_margin[row] > 0)) continue;
+    d->efc_margin[row] = 0;
+    double& distance = d->efc_pos[row];
+    if (distance < 0) continue;
+    const int joint = d->efc_id[row];
+    const double *solref = m->jnt_solref + 2 * joint, impedance = m->jnt_solimp[5 * joint + 1];
+    // A row of stiffness k and damping b has the reference acceleration -(b v + k position) / (1 + h b + h² k); wanted
+    // is that which leads just beyond the limit.
+    const double k = -solref[0] / impedance, b = -solref[1] / impedance;
+    const double acceleration = -((distance + kBeyond) / h + d->efc_vel[row]) / h;
+    distance = -(acceleration * (1 + h * b + h * h * k) + b * d->efc_vel[row]) / k;
+  }
+}
+
+}  // namespace trundle
