@@ -84,14 +84,19 @@ def test_a_held_slider_steers_and_a_released_one_stops(graph: Graph, node: Node,
     heard: list[tuple[float, float]] = []
     node.subscribe("/cmd_vel", "geometry_msgs/Twist", lambda m: heard.append((m.linear.x, m.angular.z)))
     user.open("Steering")
-    box = user.page.get_by_role("slider", name="Forward, v").bounding_box()
+    user.sees("Hold a slider to drive; let go to stop.")  # the topic is known
+    slider = user.page.get_by_role("slider", name="Forward, v")
+    slider.hover()  # which waits until the panel stands still
+    box = slider.bounding_box()
     middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     user.page.mouse.move(*middle)
     user.page.mouse.down()
     user.page.mouse.move(middle[0] + box["width"] / 4, middle[1])
-    graph.until(lambda: len(heard) >= 5)
-    assert all(0.15 < linear < 0.35 for linear, _ in heard[-3:])  # half of the disc's limit, which is the sliders', too
-    user.page.mouse.up()
+    try:
+        graph.until(lambda: len(heard) >= 5)
+        assert all(0.15 < linear < 0.35 for linear, _ in heard[-3:])  # half of the disc's limit, the sliders', too
+    finally:
+        user.page.mouse.up()
     graph.until(lambda: heard[-1] == (0.0, 0.0))
     user.page.wait_for_timeout(400)
     assert [velocity for velocity in heard if velocity == (0.0, 0.0)] == [(0.0, 0.0)]

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -98,6 +99,19 @@ def test_every_md5_sum_is_the_original_one(messages: Messages, tmp_path: Path) -
             wrong.append(name)
     assert wrong == []
     assert [name for name in lacking if "LookupTransform" not in name] == []
+
+
+def test_threads_may_ask_for_the_same_sum_at_once() -> None:
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(8) as pool:
+            for _ in range(20):
+                fresh = Messages()
+                sums = set(pool.map(fresh.md5, ["nav_msgs/Odometry"] * 8))
+                assert sums == {"cd5e73d190d741a2f92e81eda573aca7"}
+    finally:
+        sys.setswitchinterval(interval)
 
 
 def _filled(messages: Messages, kind: str, depth: int = 1) -> Any:

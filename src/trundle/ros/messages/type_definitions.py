@@ -33,7 +33,6 @@ class TypeDefinitions:
         self._store = store
         self._installed = installed
         self._md5s: dict[str, str] = {}
-        self._in_progress: set[str] = set()
         self._definitions: dict[str, str] = {}
 
     def fields(self, key: str) -> dict[str, str]:
@@ -76,19 +75,11 @@ class TypeDefinitions:
         Raises:
             MessageError: the type contains itself.
         """
-        if key not in self._md5s:
-            if key in self._in_progress:
-                raise MessageError(f"the definition of {ros_name(key)} is invalid: it contains itself")
-            self._in_progress.add(key)
-            try:
-                self._md5s[key] = _md5sum(self._canonical(key))
-            finally:
-                self._in_progress.remove(key)
-        return self._md5s[key]
+        return self._md5(key, ())
 
     def service_md5(self, request: str, response: str) -> str:
         """md5 sum of a service, from its request and response types."""
-        return _md5sum(self._canonical(request) + self._canonical(response))
+        return _md5sum(self._canonical(request, ()) + self._canonical(response, ()))
 
     def field_types(self, key: str) -> Iterator[str]:
         """Message types of a type's fields."""
@@ -108,12 +99,20 @@ class TypeDefinitions:
                 waiting = [*self.field_types(name), *waiting]
         return list(found)
 
-    def _canonical(self, key: str) -> str:
+    def _md5(self, key: str, within: tuple[str, ...]) -> str:
+        """Md5 sum of a type met within others; several threads may ask at once."""
+        if key in within:
+            raise MessageError(f"the definition of {ros_name(key)} is invalid: it contains itself")
+        if key not in self._md5s:
+            self._md5s[key] = _md5sum(self._canonical(key, (*within, key)))
+        return self._md5s[key]
+
+    def _canonical(self, key: str, within: tuple[str, ...]) -> str:
         """Canonical text for the md5 sum: constants, then fields, with types replaced by their md5 sums."""
         lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(key).items()]
         for name, desc in fields_of(self._store, key):
             reference = referenced_type(desc)
-            lines.append(f"{_type_text(desc) if reference is None else self.md5(reference)} {name}")
+            lines.append(f"{_type_text(desc) if reference is None else self._md5(reference, within)} {name}")
         return "\n".join(lines)
 
 
