@@ -57,6 +57,7 @@ def test_what_is_not_there_is_said(capsys: pytest.CaptureFixture[str], arguments
     assert said.startswith(error)
 
 
+@pytest.mark.slow
 @pytest.mark.real_ros
 def test_every_line_is_rosmsgs(capsys: pytest.CaptureFixture[str], original: Any, tmp_path: Path) -> None:
     """The originals read definitions from packages, written here from Trundle's definitions."""

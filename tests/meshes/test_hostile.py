@@ -49,6 +49,7 @@ def test_numbers_that_are_none(tmp_path: Path, value: float) -> None:
     assert "not finite" in refused(path)
 
 
+@pytest.mark.slow
 def test_collada_nodes_that_multiply(tmp_path: Path) -> None:
     """Ten levels of ten instances each would be ten thousand million quads."""
     path = collada(tmp_path / "a.dae")

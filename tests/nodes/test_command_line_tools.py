@@ -40,6 +40,7 @@ def test_what_was_recorded_is_played(stage, tmp_path: Path) -> None:
     assert publishers["/repeated"] == services["/play/pause_playback"] == ["/play"]
 
 
+@pytest.mark.slow
 def test_frames_are_drawn_where_view_frames_is_run(stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     stage.start("tf2_ros/static_transform_publisher", "1 2 3 0 0 0 base camera", name="still")

@@ -98,6 +98,7 @@ def test_without_a_manifest_a_file_reads_its_folder_and_packages(tmp_path: Path,
         resolve("../others/secret.stl", start, home)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="drives have letters there")
 def test_the_root_of_a_disk_is_no_package_either(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError, match=REFUSED):

@@ -89,6 +89,7 @@ def test_what_is_printed_is_line_for_line_what_roslaunch_prints(
         assert ours == real.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.real_ros
 def test_the_summary_is_that_of_roslaunch(trundle: Launch, package: Path, env: dict[str, str]) -> None:
     if not Path(REAL_ROSLAUNCH).exists():
@@ -390,9 +391,9 @@ def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/></launch>'
     )
-    done = launch("p", "main.launch", "--headless", "--duration", "600", "--speed", "max")
+    done = launch("p", "main.launch", "--headless", "--duration", "300", "--speed", "max")
 
-    assert done.returncode == 0  # within the patience of a test, a minute
+    assert done.returncode == 0  # within the patience of a test, which is a minute
 
 
 @pytest.mark.slow
@@ -482,6 +483,7 @@ def test_what_a_stand_in_says_goes_where_the_launch_file_wants_it(
     assert "publishing x to mute" in (tmp_path / "logs/latest/mute-2-stdout.log").read_text()
 
 
+@pytest.mark.slow
 def test_a_time_that_nobody_tells_is_said_to_be_missing(start, until, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><param name="/use_sim_time" value="true"/><node pkg="p" type="talk" name="n"/></launch>'

@@ -8,6 +8,7 @@ from tests.physics_page import PAGE
 _ROW = re.compile(r"\| [^|]+ \| `(?P<topic>/[^`]+)` \| .* \| (?P<figure>-?[\d.]+) ± (?P<tolerance>[\d.]+) \|")
 
 
+@pytest.mark.slow
 def test_a_topic_has_what_its_row_says(trundle, start, master, until) -> None:
     rows = [found for line in PAGE.read_text().splitlines() if (found := _ROW.fullmatch(line))]
     start("run", "physics/sensors.world", "--headless")

@@ -314,6 +314,7 @@ def test_a_key_that_is_not_there_is_said_and_the_next_bag_follows(graph: Any, ba
     assert (code, out, error) == (0, "---\n", 'Error getting key "topics[9]"\n' * 2)
 
 
+@pytest.mark.slow
 @pytest.mark.real_ros
 def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> None:
     keys = ("end", "topics", "types", "topics[0]", "topics[-1].type", "nope")

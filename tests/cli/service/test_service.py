@@ -82,6 +82,7 @@ def test_what_cannot_be_called_is_said(graph: Any, server: Any) -> None:
                           "Service arguments are: [x y theta name]\n")  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.real_ros
 def test_every_line_is_rosservices(graph: Any, server: Any, original: Any) -> None:
     for arguments in (
