@@ -79,14 +79,15 @@ bench: $(READY)  ## figures, as ratios against a peer in the same run
 load: $(READY)  ## ten minutes (SECONDS=60: one) of 200 topics at 100 Hz to 50 nodes
 	$(BIN)/python -m bench.load $(SECONDS)
 
-dist: dist/.built  ## sdist and wheel, checked, in dist/
+dist: dist/.built  ## sdist and wheels, checked, in dist/
 
 # The wheel is built from the sdist, so that nothing is missing there.
-dist/.built: $(READY) LICENSE README.md $(shell find src examples -type f -not -name '*.pyc')
+dist/.built: $(READY) LICENSE README.md $(shell find src examples packaging -type f -not -name '*.pyc')
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt build twine
 	rm -rf dist
 	mkdir -p build
-	$(BIN)/python -m build --outdir dist . >build/dist.log 2>&1 || (tail -n 30 build/dist.log; exit 1)
+	{ $(BIN)/python -m build --outdir dist . && $(BIN)/python -m build --wheel --outdir dist packaging/trundle-rospy; } \
+	  >build/dist.log 2>&1 || (tail -n 30 build/dist.log; exit 1)
 	$(BIN)/python -m twine check --strict dist/*.tar.gz dist/*.whl
 	@touch $@
 

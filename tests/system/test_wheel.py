@@ -20,6 +20,7 @@ from trundle import __version__
 
 SEEDS = ROOT.parent / "shared/seeds"
 WHEELS = sorted((ROOT / "dist").glob("trundle-*.whl"))
+ROSPY = sorted((ROOT / "dist").glob("trundle_rospy-*.whl"))
 CLIENT = "src/trundle/page/client/"
 """The built client, which is no file of the repository."""
 TIMEOUT_S = 300.0
@@ -34,11 +35,15 @@ Run = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture(scope="module")
 def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the commands of an environment with the wheel; its dependencies are the test's, its trundle is not."""
-    folder = tmp_path_factory.mktemp("installed") / "venv"
+    """Folder of the commands of an environment with the wheel."""
+    return _installed(tmp_path_factory.mktemp("installed") / "venv", WHEELS[-1])
+
+
+def _installed(folder: Path, *wheels: Path) -> Path:
+    """Install wheels in a new environment, whose dependencies are the test's; its trundle is not. Return its bin."""
     subprocess.run([sys.executable, "-m", "venv", folder], check=True, timeout=TIMEOUT_S)
     python = next(folder.glob("bin/python")) if os.name == "posix" else folder / "Scripts/python.exe"
-    install = [python, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", WHEELS[-1]]
+    install = [python, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", *wheels]
     subprocess.run(install, check=True, timeout=TIMEOUT_S)
     packages = next(folder.rglob("trundle-*.dist-info")).parent
     # Plain paths of a .pth file come after the environment's own packages, and their .pth files are not read.
@@ -121,6 +126,26 @@ for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
     done = run("python", "-W", "ignore", "-c", code)
 
     assert done.returncode == 0, done.stderr
+
+
+def test_rospy_comes_to_any_python_by_a_wheel_of_its_own(tmp_path: Path) -> None:
+    python = _installed(tmp_path / "venv", WHEELS[-1], ROSPY[-1]) / "python"
+    code = "import rospy, tf, std_msgs.msg; print(rospy.__file__, std_msgs.msg.String('a'))"
+    done = subprocess.run(
+        [python, "-c", code],
+        cwd=tmp_path,
+        env={"HOME": str(tmp_path), "PATH": os.defpath},
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT_S,
+        check=False,
+    )
+
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(str(tmp_path))
+    assert done.stdout.endswith('data: "a"\n')
+    packages = next((tmp_path / "venv").rglob("trundle-*.dist-info")).parent
+    assert not {"rospy", "tf", "std_msgs"} & {entry.name for entry in packages.iterdir()}
 
 
 def test_the_gazebo_tutorial_runs(run: Run) -> None:
