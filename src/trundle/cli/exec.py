@@ -38,6 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("--prefix", default="", metavar="COMMAND", help="command to run it with: 'gdb -ex run --args'")
     parser.add_argument("--debug", action="store_true", help="print where the program is searched and what runs")
+    parser.add_argument("--show-translation", action="store_true", help="print how a Python 2 program is translated")
     parser.add_argument("--list", action=_List, help="the stock nodes that run without ROS")
     parser.add_argument("package")
     parser.add_argument("executable", help="a program anywhere in the package, or a stock node")
@@ -73,6 +74,8 @@ def main(args: argparse.Namespace) -> int:
         case Executable(path):
             if folder is not None and "/" not in args.executable:
                 path = _chosen(path, same_named_programs(folder, path))
+            if args.show_translation:
+                return _show_translation(path)
             command = [*shlex.split(args.prefix), *interpreter(path, os.environ), str(path), *args.arguments]
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
@@ -84,10 +87,20 @@ def main(args: argparse.Namespace) -> int:
             except OSError as error:
                 raise UsageError(f"{command[0]} cannot be run: {error.strerror}") from None
         case BuiltinReplacement() as stand_in:
+            if args.show_translation:
+                raise UsageError(f"{args.package}/{args.executable} is a stand-in; there is nothing to translate")
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
             command = stand_in.command
             return _stand_in(args, stand_in) if command is None else args.run_command(command, args.arguments)
+
+
+def _show_translation(program: Path) -> int:
+    """Print what is changed in a Python 2 program."""
+    from trundle.rospy.python2.cache import changes
+
+    print(changes(program) or f"{program} is no Python 2: it runs as it is")
+    return 0
 
 
 def _chosen(first: Path, programs: list[Path]) -> Path:

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from trundle.files import open_file
+from trundle.rospy.environment import RUN_PYTHON2
+from trundle.rospy.python2.cache import is_python2_file
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
 _IMPORTS_ROS = re.compile(
@@ -16,7 +18,9 @@ _IMPORTS_ROS = re.compile(
 )
 _WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\b))", re.MULTILINE)
 """Modules of a ROS installation or a built workspace."""
-_ASKS = re.compile(rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python3?|\S*/python)\s*$", re.MULTILINE)
+_ASKS = re.compile(
+    rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python(?:2(?:\.\d)?|3)?|\S*/python(?:2(?:\.\d)?)?)\s*$", re.MULTILINE
+)
 """Shebangs that do not name one specific Python."""
 _FIRST_LINE = re.compile(rb"#!\s*(?:/usr/bin/env\s+)?(\S+)")
 _NOT_FOUND = re.compile(
@@ -41,7 +45,10 @@ def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
     written = _FIRST_LINE.match(beginning)
     if written is None or not _IMPORTS_ROSPY.search(beginning):
         return False
-    python = shutil.which(next(iter(interpreter(program, env)), os.fsdecode(written[1])), path=env.get("PATH"))
+    command = interpreter(program, env)
+    if len(command) > 1:
+        return False  # translated, and run with ours
+    python = shutil.which(next(iter(command), os.fsdecode(written[1])), path=env.get("PATH"))
     if python is None or not Path(python).name.startswith("python"):
         return False
     ask = f"import importlib.util as u, sys; sys.exit({_NO_ROSPY} if u.find_spec('rospy') is None else 0)"
@@ -70,14 +77,18 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     """Return the interpreter command for a program; [] if its shebang suffices.
 
     A script with a generic Python shebang gets Debian's if it imports rospy and only that one has it, as in Trundle's
-    virtual environment. Without an installed rospy, and where there is no `python`, it gets this process's Python.
+    virtual environment. Without an installed rospy, and where there is no `python`, it gets this process's Python. A
+    Python 2 program is translated, and run by this process's Python, unless a ROS of its own is on PYTHONPATH.
     """
     beginning = _beginning(program)
     asked = _ASKS.match(beginning)
     if asked is None:
         return []
+    has_rospy = any(map(_has_rospy, _python_path(env)))
+    if not has_rospy and not asked[1].endswith(b"3") and is_python2_file(program):
+        return [sys.executable, str(RUN_PYTHON2)]
     found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
-    if _IMPORTS_ROS.search(beginning) and not any(map(_has_rospy, _python_path(env))):
+    if _IMPORTS_ROS.search(beginning) and not has_rospy:
         if found is not None and _brings_rospy(Path(found)):
             return []
         return [_DEBIAN_PYTHON if _has_rospy(_DEBIAN_MODULES) else sys.executable]

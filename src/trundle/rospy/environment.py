@@ -8,6 +8,10 @@ SITE = Path(__file__).parent / "site"
 """Folder whose `sitecustomize.py` appends the finder."""
 
 
+RUN_PYTHON2 = Path(__file__).parent / "python2/run.py"
+"""Script that translates and runs a Python 2 script."""
+
+
 def with_finder(env: Mapping[str, str], package_folders: Iterable[Path] = ()) -> dict[str, str]:
     """Copy of an environment whose Python processes can import ROS' packages, and find the given ones.
 

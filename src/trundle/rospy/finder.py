@@ -119,7 +119,11 @@ def _find_own(name: str) -> ModuleSpec | None:
     path = find_module(name)
     if path is None:
         return _message_package(name, None) if _defines_own(name) or _has_cfg(name) else None
-    found = PathFinder.find_spec(name, [str(path.parent)]) if path.stem == name else _package_at(name, str(path))
+    from .python2.loader import with_translation
+
+    found = with_translation(
+        PathFinder.find_spec(name, [str(path.parent)]) if path.stem == name else _package_at(name, str(path))
+    )
     return found if found is None or found.origin is not None else _message_package(name, found)
 
 

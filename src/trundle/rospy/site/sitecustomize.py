@@ -9,10 +9,12 @@ from importlib.machinery import PathFinder
 
 try:
     from trundle.rospy.finder import install
+    from trundle.rospy.python2.loader import install as install_translation
 except ImportError:  # another Python, without Trundle
     pass
 else:
     install()
+    install_translation()
 
 _here = os.path.dirname(os.path.abspath(__file__))
 _hidden = PathFinder.find_spec("sitecustomize", [path for path in sys.path if os.path.abspath(path) != _here])

@@ -1,0 +1,102 @@
+"""Translates Python 2 source to Python 3, in memory."""
+
+import ast
+import difflib
+import logging
+import re
+import warnings
+from functools import cache
+from types import CodeType
+from typing import Any
+
+from .meaning import keep_meaning
+
+_FIXERS = """apply dict except exec funcattrs getcwdu has_key import imports imports2 itertools
+    itertools_imports metaclass methodattrs ne next nonzero numliterals paren print raise renames repr sys_exc throw
+    tuple_params urllib xreadlines"""
+_DIVISION = re.compile(r"^from\s+__future__\s+import\s.*\bdivision\b", re.MULTILINE)
+_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
+
+
+def translate(source: str, filename: str) -> str:
+    """Translate Python 2 to Python 3, with the helpers of `names`.
+
+    Raises:
+        SyntaxError: it is neither.
+    """
+    text = source.replace("\r\n", "\n").replace("\r", "\n")
+    if "\t" in text:
+        text = _INDENT.sub(lambda found: found[0].expandtabs(8), text)  # which Python 2 lets mix with spaces
+    text = text if text.endswith("\n") else text + "\n"
+    tree = _parsed(text, filename)
+    return keep_meaning(str(tree), true_division=bool(_DIVISION.search(text)))
+
+
+def compile_translated(source: str, filename: str) -> CodeType:
+    """Compile Python 2 source; its code has the line numbers of `source`."""
+    text = translate(source, filename)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SyntaxWarning)
+        warnings.simplefilter("ignore", DeprecationWarning)
+        tree = ast.parse(text, filename)
+        _renumber(tree, _line_numbers(source, text))
+        return compile(tree, filename, "exec", dont_inherit=True)
+
+
+def show_changes(source: str, filename: str) -> str:
+    """Unified diff of what the translation changes."""
+    new = translate(source, filename)
+    names = filename, f"{filename} (translated)"
+    return "\n".join(difflib.unified_diff(source.splitlines(), new.splitlines(), *names, lineterm=""))
+
+
+def _parsed(text: str, filename: str) -> "Any":
+    from fissix.pgen2.parse import ParseError
+    from fissix.pgen2.tokenize import TokenError
+
+    failed: Exception | None = None
+    for print_function in (False, True):
+        try:
+            return _tool(print_function).refactor_string(text, filename)
+        except (ParseError, TokenError, IndentationError) as error:
+            failed = failed or error
+    try:
+        compile(text, filename, "exec", dont_inherit=True)
+    except SyntaxError as error:
+        raise error from None
+    raise SyntaxError(f"{filename}: neither Python 2 nor Python 3: {failed}")
+
+
+@cache
+def _tool(print_function: bool) -> "Any":
+    logging.getLogger("fissix").setLevel(logging.CRITICAL)
+    logging.getLogger("RefactoringTool").setLevel(logging.CRITICAL)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        from fissix.refactor import RefactoringTool
+
+        return RefactoringTool(
+            [f"fissix.fixes.fix_{name}" for name in _FIXERS.split()], {"print_function": print_function}
+        )
+
+
+def _line_numbers(source: str, text: str) -> list[int]:
+    """Line of `source` for every line of `text`, from 1."""
+    old, new = source.splitlines(), text.splitlines()
+    if len(old) == len(new):
+        return list(range(len(new) + 2))
+    found = [0] * (len(new) + 2)
+    for _, start, end, first, last in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+        for line in range(first, last):
+            found[line + 1] = min(start + (line - first), max(end - 1, start)) + 1
+    found[-1] = len(old)
+    return found
+
+
+def _renumber(tree: ast.AST, lines: list[int]) -> None:
+    """Number nodes by lines; columns are of the translated text, and left out."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.expr | ast.stmt | ast.excepthandler | ast.arg | ast.keyword | ast.alias):
+            node.lineno = lines[node.lineno]
+            node.end_lineno = max(node.lineno, lines[node.end_lineno or 1])
+            node.col_offset = node.end_col_offset = -1
