@@ -11,9 +11,10 @@ from trundle.packages import cmake_programs, program_folders
 from trundle.ros import Node
 
 from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
+from .container import package_in_container, source_in_container
 from .host import BuiltinNode, NodeHost
 from .python_interpreter import can_run
-from .unsupported_nodes import ALTERNATIVES
+from .unsupported_nodes import ALTERNATIVES, OVER_THE_WIRE
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
 _SOURCES_NAMED = 2
@@ -89,23 +90,27 @@ def find_node(
     if plain is not None:
         return MissingNode(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
+    if way_out.endswith(OVER_THE_WIRE):
+        way_out = f"{way_out}: {package_in_container(package, type_name, env)}"
     if folder is not None:
         why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
-        return MissingNode(f"{why}{_to_compile(folder, type_name)}{way_out}")
+        return MissingNode(f"{why}{_to_compile(folder, package, type_name, env)}{way_out}")
     known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
 
 
-def _to_compile(folder: Path, name: str) -> str:
+def _to_compile(folder: Path, package: str, name: str, env: Mapping[str, str]) -> str:
     """Hint to append for a missing program that its package's CMakeLists.txt builds."""
     program = next((each for each in cmake_programs(folder) if each.name == name), None)
     if program is None:
         return ""
     sources = ", ".join(program.sources[:_SOURCES_NAMED]) + (", …" if len(program.sources) > _SOURCES_NAMED else "")
     target = f" (target {program.target!r})" if program.target != name else ""
+    line = source_in_container(folder, package, name, env)
     where = f"{program.file}:{program.line}"
-    return f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
+    built = f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
+    return f"{built}, here or in a container: {line}"
 
 
 def missing_nodelet(name: str) -> str:
