@@ -1,23 +1,30 @@
 """A person at the dock's panels, in a real browser on a real graph."""
 
+import time
+from collections.abc import Callable
 from typing import Any
+
+from tests.graphs import PATIENCE_S
 
 from trundle.page import PageServer
 
 PATIENCE_MS = 60_000
+_STILL_MS = 300
+"""What does not change for this long stands still."""
 
 
 class PanelUser:
     """Open panels, and look at what they show."""
 
     def __init__(self, browser: Any, server: PageServer, *, size: tuple[int, int] = (1440, 900)) -> None:
-        """Open the page."""
+        """Open the page, and wait until it is connected."""
         self.page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         self.page.set_default_timeout(PATIENCE_MS)
         self.faults: list[str] = []
         self.page.on("pageerror", self._note)
         self.page.goto(server.url)
         self.page.wait_for_selector(".dv-tab")
+        self.page.get_by_label("Connected").first.wait_for()
 
     def open(self, title: str) -> None:
         """Bring a panel to the front, by its tab or by the dock's menu."""
@@ -42,6 +49,23 @@ class PanelUser:
     def sees(self, text: str, *, within: str = ".dockhost") -> None:
         """Wait until a text stands in the dock."""
         self.page.locator(within).get_by_text(text).first.wait_for()
+
+    def until(self, condition: Callable[[], object], *, what: str = "") -> None:
+        """Wait until something is seen."""
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < end, f"waited in vain {what}"
+            self.page.wait_for_timeout(50)
+
+    def until_still(self, sample: Callable[[], object]) -> None:
+        """Wait until a value, which is compared with `==`, stands still."""
+
+        def is_still() -> bool:
+            before = sample()
+            self.page.wait_for_timeout(_STILL_MS)
+            return sample() == before
+
+        self.until(is_still, what="for something to stand still")
 
     def close(self) -> None:
         self.page.close()

@@ -2,14 +2,11 @@
 
 import io
 import json
-import time
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
-from tests.graphs import PATIENCE_S
 from tests.page.panel_user import PanelUser
 
 from trundle.page import PageServer
@@ -72,16 +69,18 @@ class SceneUser(PanelUser):
         clip = {"x": left, "y": top, "width": 5 * PX_PER_M, "height": 3 * PX_PER_M}
         return np.asarray(Image.open(io.BytesIO(self.page.screenshot(clip=clip))).convert("RGB"))
 
+    @property
+    def is_something_drawn(self) -> bool:
+        return bool((self.picture().max(axis=-1) > 40).sum() > 20)
+
+    def sees_at(self, point: Point) -> bool:
+        """Tell if anything but black is drawn within 5 cm of a point of the ground."""
+        row, column = round((1.5 - point[1]) * PX_PER_M), round((point[0] + 2.5) * PX_PER_M)
+        return bool(self.picture()[row - 5 : row + 6, column - 5 : column + 6].any())
+
     def area(self, colour: Colour) -> float:
         """Area of the ground that has a colour [m²]."""
         return float((np.abs(self.picture().astype(int) - colour) < 12).all(axis=-1).sum() / PX_PER_M**2)
-
-    def until(self, condition: Callable[[], object], *, what: str = "") -> None:
-        """Wait until something is seen."""
-        end = time.monotonic() + PATIENCE_S
-        while not condition():
-            assert time.monotonic() < end, f"waited in vain {what}"
-            self.page.wait_for_timeout(50)
 
     def until_area(self, colour: Colour, area: float, *, within: float = 0.1) -> None:
         """Wait until this much of the ground [m²] has a colour, within a share of it."""

@@ -3,6 +3,7 @@
 import os
 import signal
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -68,8 +69,9 @@ def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
 
 
 def _push(user: PanelUser, x: float, y: float) -> None:
-    """Push the left stick."""
+    """Push the left stick, and wait until the page has read it."""
     user.page.evaluate(f"window.pad.axes = [{x}, {y}, 0, 0]")
+    user.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot, user: PanelUser) -> None:
@@ -84,7 +86,6 @@ def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot
     assert robot.velocities == []
 
     _push(user, 0, 0)
-    user.page.wait_for_timeout(100)
     _push(user, 0.5, -1)
     graph.until(lambda: robot.velocities.count((0.8, -0.5)) >= 3)
     _push(user, 0, 0)
@@ -93,9 +94,9 @@ def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot
     graph.until(lambda: robot.velocities[-1] == (0.8, 0.0))
     user.page.evaluate('window.tell("gamepaddisconnected"); window.pad = null')
     graph.until(lambda: robot.velocities[-1] == STANDS)
-    user.page.wait_for_timeout(400)
+    user.until_still(lambda: len(robot.heard))
 
-    assert robot.velocities.count(STANDS) == 2
+    assert (STANDS, STANDS) not in pairwise(robot.velocities)  # one stop goes out at a time
 
 
 def test_a_lost_connection_is_said_stops_the_robot_and_comes_back(

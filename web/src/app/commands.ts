@@ -32,10 +32,13 @@ export function keysOf(event: Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "
   return `${event.ctrlKey || event.metaKey ? "Ctrl " : ""}${event.altKey ? "Alt " : ""}${shift}${name}`;
 }
 
+const MOVES_A_SLIDER = /^(Arrow|Page|Home|End)/;
+
 /** True where keys belong to what has the focus: a field, a list, a menu, a control that takes the key. */
 export function takesKeys(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return true;
+  if (target instanceof HTMLInputElement && target.type === "range") return MOVES_A_SLIDER.test(key);
   if (target instanceof HTMLInputElement) return target.type !== "checkbox" || key === " ";
   if (target.closest('[role="menu"], [role="dialog"]') !== null) return true;
   return (key === " " || key === "Enter") && target.closest("button, a, [role=treeitem], [role=tab]") !== null;

@@ -23,6 +23,13 @@ describe("keys", () => {
     expect(takesKeys(document.body, " ")).toBe(false);
   });
 
+  it("are a slider's only where they move it", () => {
+    const slider = Object.assign(document.createElement("input"), { type: "range" });
+    expect(takesKeys(slider, "w")).toBe(false);
+    expect(takesKeys(slider, "ArrowLeft")).toBe(true);
+    expect(takesKeys(slider, "End")).toBe(true);
+  });
+
   it("run the command that can run, until it is removed", () => {
     const commands = new CommandList();
     let ran = 0;

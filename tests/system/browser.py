@@ -1,0 +1,59 @@
+"""A command that runs, and its page in a browser."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from typing import Any
+
+PATIENCE_S = 120.0
+
+
+@contextmanager
+def running_page(*words: str, environment: dict[str, str]) -> Generator[str]:
+    """Run a command until its page answers; yields the page's address, then presses Ctrl-C."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "trundle", *words],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, **environment},
+        start_new_session=True,
+    )
+    assert process.stderr is not None
+    said = ""
+    try:
+        for line in process.stderr:
+            said += line
+            if found := re.search(r"see it at (http://\S+)", line):
+                yield found[1]
+                os.killpg(process.pid, signal.SIGINT)
+                _, rest = process.communicate(timeout=PATIENCE_S)
+                assert "Traceback" not in said + rest
+                assert process.returncode == 130
+                return
+        raise AssertionError(f"no page: {said}")
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+
+
+@contextmanager
+def opened(chromium: Any, url: str, *, width: int = 1200) -> Generator[Any]:
+    page = chromium.new_page(viewport={"width": width, "height": 900})
+    page.set_default_timeout(PATIENCE_S * 1000)
+    page.goto(url)
+    yield page
+    page.close()
+
+
+def until(page: Any, reached: Callable[[], object], what: str) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not reached():
+        assert time.monotonic() < deadline, what
+        page.wait_for_timeout(200)
