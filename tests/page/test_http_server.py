@@ -39,7 +39,7 @@ def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
     assert session == {
         "title": "test", "kind": "simulation", "version": trundle.__version__, "robot": "cart", "rviz": None,
         "fixed_frame": None, "panels": [], "plots": [], "images": [], "drive_topic": None, "sliders": [],
-        "joystick": False, "foxglove": page.foxglove_url, "namespace": "/", "remappings": {},
+        "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
     }  # fmt: skip
     page.set_session(Session(title="other", kind="graph"))
     with ProtocolClient(page.url) as client:

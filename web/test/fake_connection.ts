@@ -50,6 +50,13 @@ export class FakeConnection implements Connection {
     this.topics.value = new Map(this.topics.peek()).set(name, { name, type, encoding: "ros1" });
   }
 
+  /** A node subscribes to a topic that others publish or not. */
+  listen(name: string, type: string, node = "/base"): void {
+    const { types, subscribers, ...others } = this.graph.peek();
+    const nodes = [...(subscribers.get(name) ?? []), node];
+    this.graph.value = { ...others, types: new Map(types).set(name, type), subscribers: new Map(subscribers).set(name, nodes) };
+  }
+
   /** A message arrives. */
   receive(topic: string, message: unknown, options: { readonly bytes?: number; readonly time?: bigint } = {}): void {
     this.#counts.set(topic, (this.#counts.get(topic) ?? 0) + 1);

@@ -34,6 +34,7 @@ export const SESSION: Session = {
   sliders: [],
   joystick: false,
   foxglove: "ws://localhost:8080/",
+  node: "/trundle_page_1",
 };
 
 export class FakeWorld implements SimulatedWorld {

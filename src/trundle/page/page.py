@@ -126,7 +126,9 @@ class Page:
     def session_json(self) -> bytes:
         """Return what `/session.json` says."""
         fields = msgspec.to_builtins(self._session)
-        return msgspec.json.encode(fields | {"version": version("trundle"), "foxglove": self.foxglove_url})
+        node = None if self._graph is None else self._graph.node_name
+        more = {"version": version("trundle"), "foxglove": self.foxglove_url, "node": node}
+        return msgspec.json.encode(fields | more)
 
     def world_files(self) -> Mapping[str, bytes]:
         """Return the files of the simulated world by URL."""

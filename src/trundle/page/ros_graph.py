@@ -83,6 +83,11 @@ class RosGraph:
 
     # -- the node and its master
 
+    @property
+    def node_name(self) -> str:
+        """Name of the page's node on the graph."""
+        return self._node.name
+
     async def run(self) -> None:
         """Follow the graph while there are clients."""
         while True:

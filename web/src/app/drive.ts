@@ -23,17 +23,18 @@ export class Drive {
   private known: readonly string[] = [];
   private timer: ReturnType<typeof setInterval> | undefined;
 
-  /** Topics of the graph that can be driven, the session's first. */
+  /** Topics of velocities that a node listens to, the session's first. */
   readonly topics = computed<readonly string[]>(() => {
     const { connection, session } = this.page;
     const { types, subscribers } = connection.graph.value;
     const published = [...connection.topics.value.values()].map(({ name, type }) => [name, type] as const);
     const typed = [...published, ...types].flatMap(([name, type]) => (TWISTS.includes(type) ? [name] : []));
     const named = [...subscribers.keys()].filter((name) => BY_NAME.test(name));
+    const isHeard = (name: string): boolean => (subscribers.get(name) ?? []).some((node) => node !== session.node);
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
     const isUntold = published.length + types.size + subscribers.size === 0; // as after a lost connection
     if (isUntold || connection.state.value.kind !== "connected") return this.known;
-    this.known = [...new Set([...typed, ...named])].sort((a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1));
+    this.known = [...new Set([...typed, ...named].filter(isHeard))].sort((a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1));
     return this.known;
   });
   /** The topic that is driven; null: there is none. */

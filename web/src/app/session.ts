@@ -22,6 +22,8 @@ export interface Session {
   readonly sliders: readonly { readonly name: string; readonly lower: number; readonly upper: number; readonly position: number }[];
   readonly joystick: boolean;
   readonly foxglove: string;
+  /** The page's node on the graph. */
+  readonly node: string | null;
 }
 
 /** The session as it is now. A page of another kind is another page: `onOther` is called. */

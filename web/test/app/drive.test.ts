@@ -8,7 +8,7 @@ describe("driving", () => {
   let stop: () => void;
   const setUp = () => {
     const { drive, connection } = fakePage();
-    connection.advertise("/cmd_vel", "geometry_msgs/Twist");
+    connection.listen("/cmd_vel", "geometry_msgs/Twist");
     stop = listenToDriveKeys(drive);
     return { drive, connection };
   };
@@ -83,13 +83,18 @@ describe("driving", () => {
   it("offers nothing where nothing listens to velocities, and the session's topic first where it does", () => {
     const { drive, connection } = fakePage({ drive_topic: "/robot/cmd_vel" });
     expect([drive.topics.value, drive.topic.value]).toEqual([[], null]);
-    connection.graph.value = { ...connection.graph.value, types: new Map([["/a/move", "geometry_msgs/TwistStamped"], ["/robot/cmd_vel", "geometry_msgs/Twist"], ["/scan", "sensor_msgs/LaserScan"]]) };
+    connection.advertise("/told", "geometry_msgs/TwistStamped");
+    connection.listen("/told", "geometry_msgs/TwistStamped", "/trundle_page_1");
+    connection.listen("/scan", "sensor_msgs/LaserScan");
+    expect(drive.topic.value).toBeNull();
+    connection.listen("/a/move", "geometry_msgs/TwistStamped");
+    connection.listen("/robot/cmd_vel", "geometry_msgs/Twist");
     expect([drive.topics.value, drive.topic.value]).toEqual([["/robot/cmd_vel", "/a/move"], "/robot/cmd_vel"]);
   });
 
   it("drives only one topic, which can be chosen", () => {
     const { drive, connection } = setUp();
-    connection.advertise("/turtle1/cmd_vel", "geometry_msgs/Twist");
+    connection.listen("/turtle1/cmd_vel", "geometry_msgs/Twist");
     drive.hold("disc", 1, 0);
     drive.choose("/turtle1/cmd_vel");
     expect(connection.released).toEqual(["/cmd_vel"]);

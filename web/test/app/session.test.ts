@@ -16,7 +16,7 @@ describe("a session that changes", () => {
   it("adds curves once, and names another topic to drive", () => {
     const page = fakePage({ kind: "graph", plots: ["/a/x"] });
     const plots = new PlotsState(page);
-    page.connection.advertise("/base/cmd_vel", "geometry_msgs/Twist");
+    page.connection.listen("/base/cmd_vel", "geometry_msgs/Twist");
     changeSession(page, { plots: ["/a/x", "/b/y"], drive_topic: "/base/cmd_vel" });
     changeSession(page, { title: "another" });
     expect(plots.curves.map((curve) => curve.path)).toEqual(["/a/x", "/b/y"]);

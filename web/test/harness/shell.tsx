@@ -30,15 +30,15 @@ function showGraph(page: FakePage): void {
     offer("/imu/data", "sensor_msgs/Imu", "rviz/Imu"),
   ];
   page.connection.advertise("/scan", "sensor_msgs/LaserScan");
-  page.connection.advertise("/cmd_vel", "geometry_msgs/Twist");
   for (let index = 0; index < 20; index += 1) page.connection.receive("/scan", {});
   page.connection.graph.value = { types: new Map(), publishers: new Map([["/scan", ["/laser", "/amcl"]]]), subscribers: new Map(), services: new Map() };
+  page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
   page.connection.time = 221_060_000_000n;
 }
 
 function showSimulation(page: FakePage): void {
   page.world.manifest.value = MANIFEST;
-  page.connection.advertise("/cmd_vel", "geometry_msgs/Twist");
+  page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
   page.world.joints.value = [0.42, -0.21, 5.17, 4.59, 4.07].map((value) => ({ position: value, velocity: value, effort: 0 }));
   page.selection.value = { kind: "link", model: "rp2w", link: "chassis" };
   page.world.hidden.value = new Set(["ground_plane"]);
