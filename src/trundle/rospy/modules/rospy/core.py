@@ -12,7 +12,7 @@ from types import FrameType
 from typing import Any
 
 from .exceptions import ROSException
-from .impl.validators import ParameterInvalid
+from .impl.validators import Check, ParameterInvalid
 from .log import (
     logdebug,
     logdebug_once,
@@ -42,17 +42,18 @@ from .log import (
     rospyinfo,
     rospywarn,
 )  # fmt: skip
-from .names import get_caller_id, get_mappings, get_name, get_namespace, remap_name, resolve_name
+from .names import get_caller_id, get_mappings, get_name, get_namespace, remap_name, resolve_name, valid_name
 
 __all__ = [
-    "ParameterInvalid", "add_client_shutdown_hook", "add_preshutdown_hook", "add_shutdown_hook", "configure_logging",
-    "get_caller_id", "get_name", "get_namespace", "get_node_uri", "get_ros_root", "is_initialized", "is_shutdown",
-    "is_shutdown_requested", "logdebug", "logdebug_once", "logdebug_throttle", "logdebug_throttle_identical", "logerr",
-    "logerr_once", "logerr_throttle", "logerr_throttle_identical", "logerror", "logfatal", "logfatal_once",
-    "logfatal_throttle", "logfatal_throttle_identical", "loginfo", "loginfo_once", "loginfo_throttle",
-    "loginfo_throttle_identical", "logout", "logwarn", "logwarn_once", "logwarn_throttle",
-    "logwarn_throttle_identical", "parse_rosrpc_uri", "register_signals", "remap_name", "resolve_name", "rospydebug",
-    "rospyerr", "rospyinfo", "rospywarn", "set_initialized", "set_node_uri", "signal_shutdown", "xmlrpcapi",
+    "ParameterInvalid", "add_client_shutdown_hook", "add_preshutdown_hook", "add_shutdown_hook",
+    "configure_logging", "get_caller_id", "get_name", "get_namespace", "get_node_uri", "get_ros_root",
+    "is_initialized", "is_shutdown", "is_shutdown_requested", "is_topic", "logdebug", "logdebug_once",
+    "logdebug_throttle", "logdebug_throttle_identical", "logerr", "logerr_once", "logerr_throttle",
+    "logerr_throttle_identical", "logerror", "logfatal", "logfatal_once", "logfatal_throttle",
+    "logfatal_throttle_identical", "loginfo", "loginfo_once", "loginfo_throttle", "loginfo_throttle_identical",
+    "logout", "logwarn", "logwarn_once", "logwarn_throttle", "logwarn_throttle_identical", "parse_rosrpc_uri",
+    "register_signals", "remap_name", "resolve_name", "rospydebug", "rospyerr", "rospyinfo", "rospywarn",
+    "set_initialized", "set_node_uri", "signal_shutdown", "xmlrpcapi",
 ]  # fmt: skip
 
 ROSRPC = "rosrpc://"
@@ -235,6 +236,19 @@ def _ros_atexit() -> None:
 
 
 atexit.register(_ros_atexit)
+
+
+def is_topic(param_name: str) -> Check:
+    """Check that a parameter is a topic's name, and resolve it."""
+    resolved = valid_name(param_name)
+
+    def check(value: Any, caller_id: str) -> str:
+        name = resolved(value, caller_id)
+        if value == "/":
+            raise ParameterInvalid(f"ERROR: parameter [{param_name}] cannot be the global namespace")
+        return name
+
+    return check
 
 
 def xmlrpcapi(uri: str | None, cache: bool = True) -> Any:

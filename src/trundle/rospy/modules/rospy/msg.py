@@ -91,7 +91,11 @@ def deserialize_messages(
     Raises:
         genpy.DeserializationError: bytes that are not a message of the class.
     """
-    data = b.getvalue()[: b.tell()]
+    try:
+        end = b.tell()
+    except AttributeError as error:
+        raise genpy.DeserializationError(f"cannot deserialize: {error}") from None
+    data = b.getvalue()[:end]
     at, found = start, []
     while len(data) - at >= 4 and (max_msgs is None or len(found) < max_msgs):
         size = int.from_bytes(data[at : at + 4], "little")

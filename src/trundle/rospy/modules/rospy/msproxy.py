@@ -51,7 +51,7 @@ class MasterProxy:
         """Set a parameter."""
         name = names.resolve_name(key)
         self.target.setParam(core.get_caller_id(), name, val)
-        paramserver.cache.update(name, val)
+        paramserver.update(name, val)
 
     def __delitem__(self, key: str) -> None:
         """Delete a parameter.

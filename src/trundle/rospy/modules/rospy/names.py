@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import rosgraph.names
 from rosgraph.names import (
@@ -19,12 +20,13 @@ from rosgraph.names import (
 )
 
 from .exceptions import ROSException, ROSInitException
+from .impl.validators import Check, ParameterInvalid, checked_text
 
 __all__ = [
     "ANYTYPE", "REMAP", "SEP", "SERVICE_ANYTYPE", "TOPIC_ANYTYPE", "canonicalize_name", "get_caller_id",
-    "get_mappings", "get_name", "get_namespace", "get_resolved_mappings", "get_ros_namespace", "initialize_mappings",
-    "is_global", "is_private", "load_mappings", "make_global_ns", "namespace", "ns_join", "reload_mappings",
-    "remap_name", "resolve_name", "resolve_name_without_node_name", "scoped_name",
+    "get_mappings", "get_name", "get_namespace", "get_resolved_mappings", "get_ros_namespace", "global_name",
+    "initialize_mappings", "is_global", "is_private", "load_mappings", "make_global_ns", "namespace", "ns_join",
+    "reload_mappings", "remap_name", "resolve_name", "resolve_name_without_node_name", "scoped_name", "valid_name",
 ]  # fmt: skip
 
 TOPIC_ANYTYPE = SERVICE_ANYTYPE = ANYTYPE
@@ -134,3 +136,27 @@ def _set_caller_id(caller_id: str) -> None:  # pyright: ignore[reportUnusedFunct
     global _caller_id, _caller_namespace
     _caller_id = caller_id
     _caller_namespace = namespace(caller_id)
+
+
+def valid_name(param_name: str, resolve: bool = True) -> Check:
+    """Check that a parameter is a name, resolved by the caller's unless `resolve` is false."""
+
+    def check(value: Any, caller_id: str) -> str:
+        name = checked_text(param_name, value)
+        if ":" in name or " " in name:
+            raise ParameterInvalid(f"ERROR: parameter [{param_name}] contains illegal chars")
+        return rosgraph.names.resolve_name(name, caller_id) if resolve else name
+
+    return check
+
+
+def global_name(param_name: str) -> Check:
+    """Check that a parameter is a global name."""
+
+    def check(value: Any, caller_id: str) -> str:
+        del caller_id
+        if not is_global(checked_text(param_name, value)):
+            raise ParameterInvalid(f"ERROR: parameter [{param_name}] must be a globally referenced name")
+        return value
+
+    return check

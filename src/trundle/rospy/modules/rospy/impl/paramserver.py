@@ -1,5 +1,6 @@
 """Parameters of which the master sends changes."""
 
+import contextlib
 import threading
 from typing import Any
 
@@ -14,7 +15,7 @@ class ParamServerCache:
         self._values: dict[str, Any] = {}
 
     def get(self, key: str) -> Any:
-        """Value of a watched parameter, or of a part of one.
+        """Value of a watched parameter.
 
         Raises:
             KeyError: it is not watched, or not set.
@@ -33,13 +34,27 @@ class ParamServerCache:
             self._values[key] = value
 
     def update(self, key: str, value: Any) -> None:
-        """Set a watched parameter, or a part of one."""
+        """Set a watched parameter, or a part of one.
+
+        Raises:
+            KeyError: it is not watched.
+        """
         with self._lock:
-            for watched in self._values:
-                if key == watched:
-                    self._values[watched] = value
-                elif key.startswith(f"{watched.rstrip('/')}/"):
-                    self._values[watched] = _with_part(self._values[watched], key[len(watched) :], value)
+            over = [watched for watched in self._values if f"{key}/".startswith(f"{watched.rstrip('/')}/")]
+            if not over:
+                raise KeyError(key)
+            for watched in over:
+                rest = key[len(watched) :]
+                self._values[watched] = _with_part(self._values[watched], rest, value) if rest else value
+
+    def delete(self, key: str) -> None:
+        """Forget a parameter.
+
+        Raises:
+            KeyError: it is not watched.
+        """
+        with self._lock:
+            del self._values[key]
 
 
 cache = ParamServerCache()
@@ -55,10 +70,16 @@ def watch(name: str) -> Any:
     node = graph.node
     if node is None:
         raise KeyError(name)
-    value = graph.run(lambda: node.params.watch(name, lambda key, new: cache.update(key, new)))
+    value = graph.run(lambda: node.params.watch(name, update))
     if not core.is_shutdown():
         cache.set(name, value)
     return value
+
+
+def update(key: str, value: Any) -> None:
+    """Set a parameter, or a part of one, if it is watched."""
+    with contextlib.suppress(KeyError):
+        cache.update(key, value)
 
 
 def _with_part(tree: Any, path: str, value: Any) -> Any:
