@@ -41,8 +41,9 @@ from .actor_bones import ActorBones
 from .body_numbers import BodyNumbers
 from .controls import Recorder, SimulationControls, reason_of
 from .lines import plugin_lines
-from .manifest import camera_topic, find_robot, single_axes, world_manifest
+from .manifest import camera_topic, single_axes, world_manifest
 from .pictures import WorldPictures
+from .titles import page_names
 from .world_builder import WorldBuilder
 
 _WARNING = "simulation"
@@ -123,11 +124,11 @@ class SimulationPage:
         Raises:
             UsageError: the port is taken.
         """
-        robot = find_robot(simulation.world)
+        title, robot = page_names(simulation.world)
         session = Session(
-            title=simulation.world.name,
+            title=title,
             kind="simulation",
-            robot=None if robot is None else robot.name,
+            robot=robot,
             fixed_frame=WORLD_FRAME,
             drive_topic=drive_topic,
         )
@@ -165,9 +166,8 @@ class SimulationPage:
         self._server.set_node(node)
         self._set_simulation(simulation, sensors, recorder, timeline)
         if self._session is not None:
-            robot = find_robot(simulation.world)
-            name = None if robot is None else robot.name
-            self._session = replace(self._session, title=simulation.world.name, robot=name)
+            title, robot = page_names(simulation.world)
+            self._session = replace(self._session, title=title, robot=robot)
             self._server.set_session(self._session)
 
     def _set_simulation(
