@@ -1,4 +1,4 @@
-"""What a simulation's page is called."""
+"""Names of a simulation's page."""
 
 from pathlib import Path
 

@@ -43,7 +43,7 @@ def is_python2_file(path: str | os.PathLike[str]) -> bool:
 
 
 def translated_code(path: str | os.PathLike[str]) -> CodeType:
-    """Code of a Python 2 file, with its name and lines; the first of a process is said.
+    """Code of a Python 2 file, with its name and lines; the first of a process is named on standard error.
 
     Raises:
         SyntaxError: it is neither Python 2 nor Python 3.

@@ -1,4 +1,4 @@
-"""What has another meaning in Python 3 and the same syntax: `/`, exceptions that are strings, `__div__`."""
+"""Meanings that Python 2 gives to syntax of both: `/`, exceptions that are strings, `__div__`."""
 
 import re
 from functools import cache

@@ -173,4 +173,4 @@ def _join(words: Iterable[str], separator: str = " ") -> str:
 
 
 def _nothing(*_: object) -> None:
-    """What has no counterpart and needs none."""
+    """Do nothing: what was here has no counterpart and needs none."""
