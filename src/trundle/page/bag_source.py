@@ -110,8 +110,8 @@ class BagSource:
             case _:
                 pass
 
-    def poll(self, now_s: float, time_ns: int) -> None:
-        """Play, and read what is to be sent."""
+    def poll(self, now_s: float, time_ns: int) -> bool:
+        """Play, and read what is to be sent; it goes out when it is read."""
         del time_ns
         elapsed_s = 0.0 if self._polled_s is None else now_s - self._polled_s
         self._polled_s = now_s
@@ -119,6 +119,7 @@ class BagSource:
         self._state.send(now_s)
         if self._reading is None or self._reading.done():
             self._reading = asyncio.get_running_loop().create_task(self._show())
+        return False
 
     async def _show(self) -> None:
         """Send the messages up to now; after a jump, and to new clients, what holds now."""

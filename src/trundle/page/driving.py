@@ -81,14 +81,15 @@ class Driving:
         for client, topic in list(self._drivers):
             self._end(client, topic)
 
-    def poll(self, now_s: float, time_ns: int) -> None:
-        """Stop robots whose clients are silent."""
+    def poll(self, now_s: float, time_ns: int) -> bool:
+        """Stop robots whose clients are silent; nothing new comes from here."""
         del time_ns
         if self._drivers and now_s - self._reported_s > _REPORT_S:
             self._report_driven()
         for (client, topic), last_s in list(self._drivers.items()):
             if now_s - last_s > SILENCE_S:
                 self._end(client, topic)
+        return False
 
     def _add_topic(self, node: Node, topic: str, type_name: str) -> Publisher:
         """Advertise a topic.

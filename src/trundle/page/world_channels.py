@@ -70,16 +70,16 @@ class BoxChannel(Channel):
         super().unsubscribe(client)
         self._behind.discard(client)
 
-    def poll(self, now_s: float, time_ns: int) -> None:
-        """Send what came, if it is due.
+    def poll(self, now_s: float, time_ns: int) -> bool:
+        """Send what came, if it is due; return True if something came.
 
         Args:
             now_s: monotonic time [s].
             time_ns: time of the message [ns].
         """
         if not self.clients:
-            return
-        self.receive()
+            return False
+        is_new = self.receive() is not None
         if self._read is not None and now_s >= self._due_s and self.is_current(self._read):
             self._due_s = max(self._due_s, now_s - self._period_s) + self._period_s
             change, self._read = self.encode_change(self._read), None
@@ -94,6 +94,7 @@ class BoxChannel(Channel):
             for client in ready:
                 client.send_message(self, time_ns, whole)
             self._behind -= ready
+        return is_new
 
     def receive(self) -> bytes | None:
         """Read the mailbox; return a new message."""
@@ -163,9 +164,9 @@ class StateChannel(BoxChannel):
         self.time_ns: int | None = None
         """Simulated time [ns]."""
 
-    def poll(self, now_s: float, time_ns: int) -> None:
-        self.receive()  # the time counts for other channels too
-        super().poll(now_s, time_ns)
+    def poll(self, now_s: float, time_ns: int) -> bool:
+        is_new = self.receive() is not None  # the time counts for other channels too
+        return super().poll(now_s, time_ns) or is_new
 
     def receive(self) -> bytes | None:
         message = super().receive()
