@@ -4,8 +4,7 @@ A GLB may embed the bytes; otherwise they are files of their own, named by their
 """
 
 import json
-from collections.abc import Callable, Hashable
-from typing import Any
+from collections.abc import Callable, Hashable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,21 +27,21 @@ class Document:
             embed: put meshes and images into `glb`; False: into `files`.
         """
         self._embed = embed
-        self._lists: dict[str, list[dict[str, Any]]] = {}
+        self._lists: dict[str, list[Mapping[str, object]]] = {}
         self._indices: dict[tuple[str, Hashable], int] = {}
-        self._lights: list[dict[str, Any]] = []
+        self._lights: list[Mapping[str, object]] = []
         self._binary = bytearray()
         self._extensions: set[str] = set()
         self.files: dict[str, bytes] = {}
         """Name → content of each file beside the document."""
 
-    def add(self, kind: str, item: dict[str, Any]) -> int:
+    def add(self, kind: str, item: Mapping[str, object]) -> int:
         """Append to a list of the document, such as `nodes`; return the index."""
         items = self._lists.setdefault(kind, [])
         items.append(item)
         return len(items) - 1
 
-    def shared(self, kind: str, key: Hashable, make: Callable[[], dict[str, Any]]) -> int:
+    def shared(self, kind: str, key: Hashable, make: Callable[[], Mapping[str, object]]) -> int:
         """Return the index of the item of a list that has this key; add it if there is none."""
         if (kind, key) not in self._indices:
             self._indices[kind, key] = self.add(kind, make())
@@ -52,7 +51,7 @@ class Document:
         """Name an extension as used."""
         self._extensions.add(extension)
 
-    def add_light(self, light: dict[str, Any]) -> int:
+    def add_light(self, light: Mapping[str, object]) -> int:
         """Append a light of KHR_lights_punctual; return the index."""
         self.use("KHR_lights_punctual")
         self._lights.append(light)
@@ -61,7 +60,7 @@ class Document:
     def mesh(self, triangles: PackedTriangles, material: int) -> int:
         """Return the index of a mesh; meshes of the same triangles share their accessors."""
 
-        def make() -> dict[str, Any]:
+        def make() -> dict[str, object]:
             first = self._indices.get(("triangles", triangles.name))
             if first is None:
                 first = self._indices["triangles", triangles.name] = self._add_arrays(triangles)
@@ -108,7 +107,7 @@ class Document:
         sampler = self.shared("samplers", "", lambda: {"magFilter": _LINEAR, "minFilter": _MIPMAPPED})
         return self.shared("textures", source, lambda: {"sampler": sampler, "source": source})
 
-    def _image(self, name: str, image: EncodedImage) -> dict[str, Any]:
+    def _image(self, name: str, image: EncodedImage) -> dict[str, object]:
         if not self._embed:
             self.files[name + image.suffix] = image.data
             return {"uri": name + image.suffix}
@@ -122,7 +121,7 @@ class Document:
 
     def glb(self, root: int) -> bytes:
         """Return the document as a binary glTF; `root` is its one root node."""
-        tree: dict[str, Any] = {"asset": {"version": "2.0", "generator": "Trundle"}, "scene": 0}
+        tree: dict[str, object] = {"asset": {"version": "2.0", "generator": "Trundle"}, "scene": 0}
         tree |= {"scenes": [{"nodes": [root]}], **self._lists}
         if self._binary:
             tree["buffers"] = [{"byteLength": len(self._binary)}]

@@ -1,7 +1,6 @@
 """Lights: SDF's as `extras.sdf`, and their approximation by KHR_lights_punctual."""
 
 import math
-from typing import Any
 
 from trundle.render import SceneLight
 from trundle.spatial import Quaternion, multiply, rotation_from_z
@@ -12,9 +11,9 @@ _MATCHED_M = 2.0
 """Distance at which a point light is as bright as SDF's attenuation says [m]."""
 
 
-def punctual_light(light: SceneLight) -> dict[str, Any]:
+def punctual_light(light: SceneLight) -> dict[str, object]:
     """Return a light of KHR_lights_punctual; it shines along −z of its node."""
-    found: dict[str, Any] = {
+    found: dict[str, object] = {
         "type": light.kind,
         "color": [linear_from_srgb(min(max(value, 0.0), 1.0)) for value in light.diffuse[:3]],
         "intensity": math.pi * _attenuation(light),  # π lx on a white surface reflects 1
@@ -44,8 +43,8 @@ def _attenuation(light: SceneLight) -> float:
     return _MATCHED_M**2 / dimming if dimming > 0.0 else _MATCHED_M**2
 
 
-def _sdf(light: SceneLight) -> dict[str, Any]:
-    sdf: dict[str, Any] = {
+def _sdf(light: SceneLight) -> dict[str, object]:
+    sdf: dict[str, object] = {
         "diffuse": light.diffuse,
         "specular": light.specular,
         "attenuation": light.attenuation,

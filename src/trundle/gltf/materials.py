@@ -1,7 +1,5 @@
 """Materials: Phong's as `extras.sdf`, and their approximation by glTF's metallic-roughness model."""
 
-from typing import Any
-
 from trundle.model import Rgba
 from trundle.render import Shape
 
@@ -11,7 +9,7 @@ def linear_from_srgb(value: float) -> float:
     return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
 
 
-def material_from_shape(shape: Shape, texture: int | None) -> dict[str, Any]:
+def material_from_shape(shape: Shape, texture: int | None) -> dict[str, object]:
     """Return the glTF material of a shape.
 
     Args:
@@ -19,7 +17,7 @@ def material_from_shape(shape: Shape, texture: int | None) -> dict[str, Any]:
         texture: index of its texture in the document.
     """
     *_, opacity = shape.rgba
-    surface: dict[str, Any] = {
+    surface: dict[str, object] = {
         "baseColorFactor": [*_linear(shape.rgba), opacity],
         "metallicFactor": 0.0,
         # A Phong exponent n is as wide as a Beckmann lobe of α² = 2 / (n + 2), and glTF's roughness is √α
@@ -28,7 +26,7 @@ def material_from_shape(shape: Shape, texture: int | None) -> dict[str, Any]:
     }
     if texture is not None:
         surface["baseColorTexture"] = {"index": texture} | _transform(shape.texture_scale)
-    material: dict[str, Any] = {
+    material: dict[str, object] = {
         "pbrMetallicRoughness": surface,
         "extras": {
             "sdf": {
@@ -52,7 +50,7 @@ def _linear(colour: Rgba) -> list[float]:
     return [linear_from_srgb(min(max(value, 0.0), 1.0)) for value in colour[:3]]
 
 
-def _transform(scale: tuple[float, float]) -> dict[str, Any]:
+def _transform(scale: tuple[float, float]) -> dict[str, object]:
     """Return the texture transform of a scale about the image's centre."""
     if scale == (1.0, 1.0):
         return {}

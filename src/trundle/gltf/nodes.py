@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,11 +58,11 @@ def add_scene(document: Document, scene: Scene, poses: NDArray[np.float64], bodi
     children += below.get(None, [])
     for body, name in enumerate(scene.bodies):
         pose = pose_from_row(poses[body])
-        node: dict[str, Any] = {"name": name, "extras": {"body": bodies[body]}} | transform_fields(pose)
+        node: dict[str, object] = {"name": name, "extras": {"body": bodies[body]}} | transform_fields(pose)
         if body in below:
             node["children"] = below[body]
         children.append(document.add("nodes", node))
-    root: dict[str, Any] = {"name": "world", "rotation": _Y_FROM_Z_UP}
+    root: dict[str, object] = {"name": "world", "rotation": _Y_FROM_Z_UP}
     if children:
         root["children"] = children
     return document.add("nodes", root)
@@ -86,22 +85,22 @@ def _add_skins(
     return shapes, bones
 
 
-def _skin_node(document: Document, shape: Shape, triangles: PackedTriangles, skin: int) -> dict[str, Any]:
+def _skin_node(document: Document, shape: Shape, triangles: PackedTriangles, skin: int) -> dict[str, object]:
     """Return the node of a mesh that bones deform; its own transform does not count."""
     mesh = document.mesh(triangles, _material(document, shape, has_uv=triangles.has_uv))
     return {"name": shape.name, "mesh": mesh, "skin": skin, "extras": {"visual": shape.name}}
 
 
-def _visual_node(document: Document, shape: Shape) -> dict[str, Any]:
+def _visual_node(document: Document, shape: Shape) -> dict[str, object]:
     if isinstance(shape.geometry, Mesh):
         triangles, pose, scale = packed_mesh(shape.geometry), Pose(), UNSCALED
     else:
         triangles, pose, scale = scaled_solid(shape.geometry)
     mesh = document.mesh(triangles, _material(document, shape, has_uv=triangles.has_uv))
-    extras: dict[str, Any] = {"visual": shape.name}
+    extras: dict[str, object] = {"visual": shape.name}
     if not shape.casts_shadow or isinstance(shape.geometry, Plane):  # floors, as in our renderer
         extras["casts_shadow"] = False
-    node: dict[str, Any] = {"name": shape.name, "mesh": mesh, "extras": extras}
+    node: dict[str, object] = {"name": shape.name, "mesh": mesh, "extras": extras}
     return node | transform_fields(shape.body_from_shape @ pose, scale)
 
 
@@ -114,7 +113,7 @@ def _material(document: Document, shape: Shape, *, has_uv: bool) -> int:
     return document.shared("materials", key, lambda: material_from_shape(shape, texture))
 
 
-def _light_node(document: Document, light: SceneLight) -> dict[str, Any]:
+def _light_node(document: Document, light: SceneLight) -> dict[str, object]:
     number = document.add_light(punctual_light(light))
     pose = Pose(light.position, light_rotation(light))
     return {

@@ -29,7 +29,7 @@ class PackedArray(Struct, frozen=True, kw_only=True):
     """[bytes]"""
     target: int
     """Buffer target of OpenGL."""
-    accessor: dict[str, Any]
+    accessor: dict[str, object]
     """Type, count and bounds."""
 
 
@@ -89,8 +89,8 @@ def content_name(data: bytes | bytearray) -> str:
     return hashlib.blake2b(data, digest_size=16).hexdigest()
 
 
-def _accessor(array: NDArray[Any], *, bounded: bool) -> dict[str, Any]:
-    accessor: dict[str, Any] = {
+def _accessor(array: NDArray[Any], *, bounded: bool) -> dict[str, object]:
+    accessor: dict[str, object] = {
         "componentType": {"f": FLOAT, "H": _USHORT, "I": _UINT}[array.dtype.char],
         "count": len(array),
         "type": _TYPES[array.shape[1]],

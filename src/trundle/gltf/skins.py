@@ -1,7 +1,6 @@
 """Skins of actors: nodes of their bones, and the meshes that these deform."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +36,7 @@ def add_bones(
     puppet = skin.animated
     nodes: list[int] = []
     for name, row, body in zip(puppet.bones, puppet.bone_poses(AnimationState()), bodies, strict=True):
-        node: dict[str, Any] = {"name": f"{skin.actor}::{name}", "extras": {"body": body}}
+        node: dict[str, object] = {"name": f"{skin.actor}::{name}", "extras": {"body": body}}
         nodes.append(document.add("nodes", node | transform_fields(world_from_body @ pose_from_row(row))))
     matrices = document.matrices(puppet.bone_from_skin)
     return nodes, document.add("skins", {"joints": nodes, "inverseBindMatrices": matrices})

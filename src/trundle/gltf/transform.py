@@ -1,16 +1,15 @@
 """Transform of a node."""
 
 import math
-from typing import Any
 
 from trundle.spatial import Pose, Vector3
 
 UNSCALED = (1.0, 1.0, 1.0)
 
 
-def transform_fields(pose: Pose, scale: Vector3 = UNSCALED) -> dict[str, Any]:
+def transform_fields(pose: Pose, scale: Vector3 = UNSCALED) -> dict[str, object]:
     """Return the transform of a node, without the parts that change nothing."""
-    found: dict[str, Any] = {}
+    found: dict[str, object] = {}
     if any(pose.position):
         found["translation"] = list(pose.position)
     w, x, y, z = pose.quaternion

@@ -5,17 +5,17 @@ Each function raises ValueError for a value of no use; its text goes on where th
 
 import math
 import re
-from typing import Any
+from typing import SupportsFloat
 
 _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 _LONGEST = 40
 
 
-def number(value: Any) -> float:
+def number(value: object) -> float:
     """A finite number."""
     try:
-        found = float(value)
+        found = float(value) if isinstance(value, str | SupportsFloat) else None
     except (TypeError, ValueError):
         found = None
     if found is None or isinstance(value, bool):
@@ -25,7 +25,7 @@ def number(value: Any) -> float:
     return found
 
 
-def integer(value: Any) -> float:
+def integer(value: object) -> float:
     """A whole number, or one whose fraction is to be cut off."""
     if isinstance(value, str) and _HEXADECIMAL.fullmatch(value):
         return int(value, 16)
@@ -41,7 +41,7 @@ def in_bounds(value: float, minimum: float, above: float) -> float:
     return value
 
 
-def flag(value: Any) -> bool:
+def flag(value: object) -> bool:
     """A truth value; numbers count as Python counts them."""
     found = _TRUTHS.get(value.lower()) if isinstance(value, str) else value
     if not isinstance(found, bool | int | float):
@@ -49,14 +49,14 @@ def flag(value: Any) -> bool:
     return bool(found)
 
 
-def text(value: Any) -> str:
+def text(value: object) -> str:
     """A text."""
     if not isinstance(value, str):
         raise ValueError(f": {_shorten(value)} is not a text")
     return value
 
 
-def numbers(value: Any, count: int) -> tuple[float, ...]:
+def numbers(value: object, count: int) -> tuple[float, ...]:
     """So many finite numbers, of a list or of a text with white space between them."""
     parts = value.split() if isinstance(value, str) else value
     if not isinstance(parts, list) or len(parts) != count:

@@ -1,7 +1,6 @@
 """GLB files of a simulated world: one per model, made again only when it looks different."""
 
 from collections.abc import Callable
-from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -41,7 +40,7 @@ class WorldFiles:
         self._models: dict[str, tuple[_Appearance, _File]] = {}
         self._served: frozenset[str] = frozenset()
 
-    def update(self, world: World, body_of: BodyOf, report: Diagnostics) -> tuple[dict[str, Any], dict[str, bytes]]:
+    def update(self, world: World, body_of: BodyOf, report: Diagnostics) -> tuple[dict[str, object], dict[str, bytes]]:
         """Make the files of a world.
 
         Args:

@@ -129,7 +129,7 @@ class NodeEndpoints:
         """Pairs (topic, type) of all subscriptions."""
         return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
 
-    def connections(self) -> list[list[object]]:
+    def connections(self) -> list[list[int | str | bool]]:
         """All links, as in getBusInfo."""
         return [link for end in (*self.publishers, *self.subscriptions) for link in end.connections()]
 

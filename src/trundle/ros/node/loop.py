@@ -29,7 +29,7 @@ nothing outside the process.
 _SPINS = 200
 """Passes after which `idle` starts to sleep between passes."""
 _NAP_S = 0.001
-_SLICE_NS = 100_000
+SLICE_NS = 100_000
 """Linux' shortest time slice: the loop then preempts a busy thread instead of waiting for its 3 ms slice."""
 _GRACE_S = 5.0
 
@@ -225,7 +225,7 @@ class GraphLoop:
             await asyncio.wait(farewells, timeout=timeout_s)
 
     def _run(self) -> None:
-        _message_codec.request_time_slice(_SLICE_NS)
+        _message_codec.request_time_slice(SLICE_NS)
         asyncio.set_event_loop(self._loop)
         try:
             self._loop.run_forever()

@@ -205,7 +205,7 @@ class Publisher:
         self._subscriber_links.close()
         self._count()
 
-    def connections(self) -> list[list[object]]:
+    def connections(self) -> list[list[int | str | bool]]:
         """Links, as in getBusInfo."""
         return self._subscriber_links.connections()
 

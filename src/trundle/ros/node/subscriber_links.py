@@ -1,7 +1,5 @@
 """Subscribers of a publisher: connections to other processes, and subscriptions of this one."""
 
-from typing import Any
-
 from ..transport.tcpros import FrameProtocol
 from .local_graph import LocalSubscriber
 
@@ -39,7 +37,7 @@ class SubscriberLinks:
         self.remote.clear()
         self.local.clear()
 
-    def connections(self) -> list[list[Any]]:
+    def connections(self) -> list[list[int | str | bool]]:
         """Links, as in getBusInfo."""
         remote = [
             [_number(link), name, "o", link.kind, self._topic, True, link.description]

@@ -132,7 +132,7 @@ class Subscription:
         except MessageError as error:
             self._node.log.error(f"a message on {self.topic} is dropped: {error}")
 
-    def connections(self) -> list[list[object]]:
+    def connections(self) -> list[list[int | str | bool]]:
         """Links, as in getBusInfo."""
         result: list[list[Any]] = []
         for uri, link in self._links.items():

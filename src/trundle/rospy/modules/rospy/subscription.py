@@ -11,7 +11,9 @@ from collections.abc import Callable, Mapping
 from queue import Empty, SimpleQueue
 from typing import Any
 
+from trundle.ros import _message_codec
 from trundle.ros.node.local_graph import LocalPublisher
+from trundle.ros.node.loop import SLICE_NS
 from trundle.ros.node.node import Node
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.node.subscription import Subscription as GraphSubscription
@@ -147,6 +149,7 @@ class Subscription:
         return True
 
     def _run(self) -> None:
+        _message_codec.request_time_slice(SLICE_NS)  # a message would wait for busy threads here, too
         read = self._reader()
         while (entry := self._waiting.get()) is not None:
             data, header = entry
