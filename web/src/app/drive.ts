@@ -2,6 +2,7 @@
 
 import { computed, effect, signal } from "@preact/signals";
 
+import { isWatcher } from "../protocol/watchers";
 import type { Page } from "./page";
 import { isNumber, recall, remember } from "./storage";
 
@@ -23,14 +24,14 @@ export class Drive {
   private known: readonly string[] = [];
   private timer: ReturnType<typeof setInterval> | undefined;
 
-  /** Topics of velocities that a node listens to, the session's first. */
+  /** Topics of velocities that a node which does not only watch listens to, the session's first. */
   readonly topics = computed<readonly string[]>(() => {
     const { connection, session } = this.page;
     const { types, subscribers } = connection.graph.value;
     const published = [...connection.topics.value.values()].map(({ name, type }) => [name, type] as const);
     const typed = [...published, ...types].flatMap(([name, type]) => (TWISTS.includes(type) ? [name] : []));
     const named = [...subscribers.keys()].filter((name) => BY_NAME.test(name));
-    const isHeard = (name: string): boolean => (subscribers.get(name) ?? []).some((node) => node !== session.node);
+    const isHeard = (name: string): boolean => (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
     const isUntold = published.length + types.size + subscribers.size === 0; // as after a lost connection
     if (isUntold || connection.state.value.kind !== "connected") return this.known;

@@ -85,6 +85,7 @@ describe("driving", () => {
     expect([drive.topics.value, drive.topic.value]).toEqual([[], null]);
     connection.advertise("/told", "geometry_msgs/TwistStamped");
     connection.listen("/told", "geometry_msgs/TwistStamped", "/trundle_page_1");
+    connection.listen("/told", "geometry_msgs/TwistStamped", "/rviz");
     connection.listen("/scan", "sensor_msgs/LaserScan");
     expect(drive.topic.value).toBeNull();
     connection.listen("/a/move", "geometry_msgs/TwistStamped");

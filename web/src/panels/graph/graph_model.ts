@@ -1,6 +1,7 @@
 /** The graph of nodes and topics, as rqt_graph filters it. */
 
 import type { GraphInfo } from "../../protocol/connection";
+import { isWatcher } from "../../protocol/watchers";
 
 /** rqt_graph's three views. */
 export type GraphView = "Nodes only" | "Nodes/Topics (active)" | "Nodes/Topics (all)";
@@ -32,12 +33,11 @@ export interface GraphFilter {
   readonly text: string;
 }
 
-const DEBUG_NODES = /^\/(rosout|rqt_.*|rviz.*|rosbag.*|record_.*|play_.*|rostopic_.*|trundle_page.*|statistics)$/;
 const DEBUG_TOPICS = /^\/(rosout|rosout_agg|statistics)$/;
 
 /** Nodes and topics to draw, with arrows from publishers to subscribers. */
 export function graphDrawing(graph: GraphInfo, filter: GraphFilter): Drawing {
-  const isShown = (node: string): boolean => !filter.hideDebug || !DEBUG_NODES.test(node);
+  const isShown = (node: string): boolean => !filter.hideDebug || !isWatcher(node);
   const ends = (of: ReadonlyMap<string, readonly string[]>, topic: string): readonly string[] =>
     (of.get(topic) ?? []).filter(isShown);
   const topics = [...new Set([...graph.publishers.keys(), ...graph.subscribers.keys()])]
