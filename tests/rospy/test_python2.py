@@ -126,6 +126,7 @@ def test_division_is_pythons_own_where_it_is_imported() -> None:
         ("#!/usr/bin/env python2.7\nprint('a')\n", True),
         ("print('a', 7 / 2)\n", False),
         ("try:\n    import Queue\nexcept ImportError:\n    import queue\n", False),
+        ("try:\n    import urllib.parse as urlparse\nexcept ImportError:\n    import urlparse\n", False),
         ("try:\n    input = raw_input\nexcept NameError:\n    pass\n", False),
         ("import sys\nread = raw_input if sys.version_info[0] < 3 else input\n", False),
         ("file = open('a')\nfile.read()\n", False),
@@ -134,6 +135,25 @@ def test_division_is_pythons_own_where_it_is_imported() -> None:
 )
 def test_programs_of_both_pythons_and_of_python_3_are_left_alone(source: str, is_old: bool) -> None:
     assert is_python2(source) == is_old
+
+
+def test_modules_beside_a_module_are_relative_within_packages_only(tmp_path: Path) -> None:
+    """The folder of a script may have an `__init__.py`, too, as those of tests have."""
+    folder = tmp_path / "scripts"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    (folder / "first.py").write_text("from second import WORD\nprint 'top', WORD\n")
+    (folder / "second.py").write_text("WORD = 'second'\n")
+    (folder / "run.py").write_text("import first\nimport inside.third\nprint 'end'\n")
+    package = folder / "inside"
+    package.mkdir()
+    (package / "__init__.py").write_text("print 'init'\nfrom fourth import WORD\n")
+    (package / "third.py").write_text("from fourth import WORD\nprint 'package', WORD\n")
+    (package / "fourth.py").write_text("WORD = 'fourth'\n")
+
+    done = subprocess.run([sys.executable, RUN_PYTHON2, folder / "run.py"], capture_output=True, text=True, check=False)
+
+    assert done.stdout.splitlines() == ["top second", "init", "package fourth", "end"], done.stderr
 
 
 def test_a_node_and_the_modules_of_its_package_run_on_a_graph(tmp_path: Path) -> None:

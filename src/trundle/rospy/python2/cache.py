@@ -14,7 +14,7 @@ from types import CodeType
 from trundle.files import read_file
 from trundle.ownership import home_folder, is_owned_by_user
 
-_VERSION = 1
+_VERSION = 2
 """Raised when the same file is translated otherwise."""
 _IS_PYTHON3 = b"3"
 """Kept for a file that needs no translation."""
@@ -23,33 +23,39 @@ _MAX_FILES = 500
 _said: list[str] = []
 
 
-def is_python2_file(path: str | os.PathLike[str]) -> bool:
-    """True if a file is Python 2 source; False for what cannot be read."""
+def is_python2_file(path: str | os.PathLike[str], *, in_package: bool = False) -> bool:
+    """True if a file is Python 2 source; False for what cannot be read. Arguments are those of `translated_code`."""
     try:
         data = read_file(path, max_bytes=_MAX_BYTES)
     except OSError:
         return False
     if b"\0" in data:
         return False
-    kept = _kept(data, path)
+    file = _file(data, path, in_package)
+    kept = _kept(file)
     if kept is not None:
         return kept != _IS_PYTHON3
     from .detect import is_python2
 
     if not is_python2(_text(data)):
-        _keep(data, path, _IS_PYTHON3)
+        _keep(file, _IS_PYTHON3)
         return False
     return True
 
 
-def translated_code(path: str | os.PathLike[str]) -> CodeType:
+def translated_code(path: str | os.PathLike[str], *, in_package: bool = False) -> CodeType:
     """Code of a Python 2 file, with its name and lines; the first of a process is named on standard error.
+
+    Args:
+        path: of the file.
+        in_package: it is imported as a module of a package.
 
     Raises:
         SyntaxError: it is neither Python 2 nor Python 3.
     """
     data = read_file(path, max_bytes=_MAX_BYTES)
-    kept = _kept(data, path)
+    file = _file(data, path, in_package)
+    kept = _kept(file)
     if kept is not None:
         with contextlib.suppress(ValueError, EOFError, TypeError):
             code = marshal.loads(kept)
@@ -58,8 +64,8 @@ def translated_code(path: str | os.PathLike[str]) -> CodeType:
                 return code
     from .translate import compile_translated
 
-    code = compile_translated(_text(data), os.fspath(path))
-    _keep(data, path, marshal.dumps(code))
+    code = compile_translated(_text(data), os.fspath(path), in_package=in_package)
+    _keep(file, marshal.dumps(code))
     _say(path)
     return code
 
@@ -87,14 +93,13 @@ def _text(data: bytes) -> str:
         return data.decode("latin-1")
 
 
-def _file(data: bytes, path: str | os.PathLike[str]) -> Path:
+def _file(data: bytes, path: str | os.PathLike[str], in_package: bool) -> Path:
     root = os.environ.get("XDG_CACHE_HOME") or home_folder(os.environ) / ".cache"
-    key = b"\0".join((str(_VERSION).encode(), MAGIC_NUMBER, os.fsencode(path), data))
+    key = b"\0".join((str(_VERSION).encode(), b"%d" % in_package, MAGIC_NUMBER, os.fsencode(path), data))
     return Path(root) / "trundle" / "python2" / hashlib.sha256(key).hexdigest()
 
 
-def _kept(data: bytes, path: str | os.PathLike[str]) -> bytes | None:
-    file = _file(data, path)
+def _kept(file: Path) -> bytes | None:
     if not is_owned_by_user(file.parent):  # another user's file could be any code
         return None
     try:
@@ -103,8 +108,7 @@ def _kept(data: bytes, path: str | os.PathLike[str]) -> bytes | None:
         return None
 
 
-def _keep(data: bytes, path: str | os.PathLike[str], content: bytes) -> None:
-    file = _file(data, path)
+def _keep(file: Path, content: bytes) -> None:
     with contextlib.suppress(OSError):
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not is_owned_by_user(file.parent):

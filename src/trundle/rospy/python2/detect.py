@@ -69,9 +69,10 @@ def _is_fallback(node: ast.Try) -> bool:
     """True if a missing module or name is caught, as in programs for both."""
     kinds = [handler.type for handler in node.handlers if handler.type is not None]
     caught = {name.id for kind in kinds for name in ast.walk(kind) if isinstance(name, ast.Name)}
-    tried = [each for each in node.body if isinstance(each, ast.Import | ast.ImportFrom)]
+    statements = [*node.body, *(each for handler in node.handlers for each in handler.body)]
+    tried = [each for each in statements if isinstance(each, ast.Import | ast.ImportFrom)]
     return "NameError" in caught or bool(
-        tried and caught & {"ImportError", "ModuleNotFoundError"} and any(map(_names_python2, tried))
+        caught & {"ImportError", "ModuleNotFoundError"} and any(map(_names_python2, tried))
     )
 
 

@@ -47,10 +47,11 @@ class _Loader(SourceFileLoader):
     def get_code(self, fullname: str) -> CodeType | None:
         from .cache import is_python2_file, translated_code
 
-        if not is_python2_file(self.path):
+        in_package = "." in fullname or self.is_package(fullname)
+        if not is_python2_file(self.path, in_package=in_package):
             return super().get_code(fullname)
         self._is_translated = True
-        return translated_code(self.path)
+        return translated_code(self.path, in_package=in_package)
 
     def exec_module(self, module: ModuleType) -> None:
         code = self.get_code(module.__name__)

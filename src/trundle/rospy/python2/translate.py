@@ -11,15 +11,21 @@ from typing import Any
 
 from .meaning import keep_meaning
 
-_FIXERS = """apply dict except exec funcattrs getcwdu has_key import imports imports2 itertools
+_FIXERS = """apply dict except exec funcattrs getcwdu has_key imports imports2 itertools
     itertools_imports metaclass methodattrs ne next nonzero numliterals paren print raise renames repr sys_exc throw
     tuple_params urllib xreadlines"""
+_RELATIVE_IMPORTS = "import"
 _DIVISION = re.compile(r"^from\s+__future__\s+import\s.*\bdivision\b", re.MULTILINE)
 _INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 
 
-def translate(source: str, filename: str) -> str:
+def translate(source: str, filename: str, *, in_package: bool = False) -> str:
     """Translate Python 2 to Python 3, with the helpers of `names`.
+
+    Args:
+        source: text of the file.
+        filename: its path, beside which modules are looked for.
+        in_package: it is a module of a package, where `import name` may mean the module beside it.
 
     Raises:
         SyntaxError: it is neither.
@@ -28,13 +34,13 @@ def translate(source: str, filename: str) -> str:
     if "\t" in text:
         text = _INDENT.sub(lambda found: found[0].expandtabs(8), text)  # which Python 2 lets mix with spaces
     text = text if text.endswith("\n") else text + "\n"
-    tree = _parsed(text, filename)
+    tree = _parsed(text, filename, in_package)
     return keep_meaning(str(tree), true_division=bool(_DIVISION.search(text)))
 
 
-def compile_translated(source: str, filename: str) -> CodeType:
-    """Compile Python 2 source; its code has the line numbers of `source`."""
-    text = translate(source, filename)
+def compile_translated(source: str, filename: str, *, in_package: bool) -> CodeType:
+    """Compile Python 2 source, see `translate`; its code has the line numbers of `source`."""
+    text = translate(source, filename, in_package=in_package)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SyntaxWarning)
         warnings.simplefilter("ignore", DeprecationWarning)
@@ -50,14 +56,14 @@ def show_changes(source: str, filename: str) -> str:
     return "\n".join(difflib.unified_diff(source.splitlines(), new.splitlines(), *names, lineterm=""))
 
 
-def _parsed(text: str, filename: str) -> "Any":
+def _parsed(text: str, filename: str, in_package: bool) -> "Any":
     from fissix.pgen2.parse import ParseError
     from fissix.pgen2.tokenize import TokenError
 
     failed: Exception | None = None
     for print_function in (False, True):
         try:
-            return _tool(print_function).refactor_string(text, filename)
+            return _tool(print_function, in_package).refactor_string(text, filename)
         except (ParseError, TokenError, IndentationError) as error:
             failed = failed or error
     try:
@@ -68,16 +74,15 @@ def _parsed(text: str, filename: str) -> "Any":
 
 
 @cache
-def _tool(print_function: bool) -> "Any":
+def _tool(print_function: bool, in_package: bool) -> "Any":
     logging.getLogger("fissix").setLevel(logging.CRITICAL)
     logging.getLogger("RefactoringTool").setLevel(logging.CRITICAL)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         from fissix.refactor import RefactoringTool
 
-        return RefactoringTool(
-            [f"fissix.fixes.fix_{name}" for name in _FIXERS.split()], {"print_function": print_function}
-        )
+        names = [*_FIXERS.split(), *([_RELATIVE_IMPORTS] if in_package else [])]
+        return RefactoringTool([f"fissix.fixes.fix_{name}" for name in names], {"print_function": print_function})
 
 
 def _line_numbers(source: str, text: str) -> list[int]:
