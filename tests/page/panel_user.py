@@ -6,8 +6,6 @@ from typing import Any
 
 from tests.graphs import PATIENCE_S
 
-from trundle.page import PageServer
-
 PATIENCE_MS = 60_000
 _STILL_MS = 300
 """What does not change for this long stands still."""
@@ -16,13 +14,13 @@ _STILL_MS = 300
 class PanelUser:
     """Open panels, and look at what they show."""
 
-    def __init__(self, browser: Any, server: PageServer, *, size: tuple[int, int] = (1440, 900)) -> None:
+    def __init__(self, browser: Any, url: str, *, size: tuple[int, int] = (1440, 900)) -> None:
         """Open the page, and wait until it is connected."""
         self.page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         self.page.set_default_timeout(PATIENCE_MS)
         self.faults: list[str] = []
         self.page.on("pageerror", self._note)
-        self.page.goto(server.url)
+        self.page.goto(url)
         self.page.wait_for_selector(".dv-tab")
         self.page.get_by_label("Connected").first.wait_for()
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 from PIL import Image
 from tests.page.panel_user import PanelUser
 
-from trundle.page import PageServer
-
 PX_PER_M = 100.0
 _TOP = 48
 """The bar and a gap [px]."""
@@ -33,9 +31,9 @@ def rviz_text(*displays: dict[str, Any]) -> str:
 class SceneUser(PanelUser):
     """Use tools at points of the ground [m], look at the picture."""
 
-    def __init__(self, browser: Any, server: PageServer) -> None:
+    def __init__(self, browser: Any, url: str) -> None:
         """Open the page; a browser that draws on the CPU has a pixel for each of this size."""
-        super().__init__(browser, server, size=(1280, 760))
+        super().__init__(browser, url, size=(1280, 760))
 
     def at(self, point: Point) -> Point:
         """Return the place of a point of the ground in the page [px]; the origin is in the middle of the panels."""

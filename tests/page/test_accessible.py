@@ -66,7 +66,7 @@ def _check(tab: Any, state: str) -> None:
 
 @pytest.fixture(params=["dark", "light"])
 def user(request: pytest.FixtureRequest, chromium: Any, server: PageServer) -> Iterator[PanelUser]:
-    user = PanelUser(chromium, server)
+    user = PanelUser(chromium, server.url)
     if user.page.evaluate("document.documentElement.dataset.theme") != request.param:
         user.page.get_by_role("button", name=f"{request.param.capitalize()} theme").click()
     user.page.evaluate(AXE.read_text())  # by the debugger: the policy has no inline scripts

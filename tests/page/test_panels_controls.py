@@ -75,7 +75,7 @@ def owner(graph: Graph, server: PageServer) -> Owner:
 
 @pytest.fixture(scope="module")
 def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
-    user = PanelUser(chromium, server)
+    user = PanelUser(chromium, server.url)
     yield user
     user.close()
 

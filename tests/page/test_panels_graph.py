@@ -36,7 +36,7 @@ def server(graph: Graph) -> Iterator[PageServer]:
 
 @pytest.fixture(scope="module")
 def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
-    user = PanelUser(chromium, server)
+    user = PanelUser(chromium, server.url)
     yield user
     user.close()
 

@@ -26,7 +26,7 @@ def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
             writer.write(BagMessage(TEXT, START + second * S, text(f"word {second}")))
     playing = BagFile(path=str(path), speed=1.0, paused=True)
     with PageServer.start(Session(title="words", kind="bag"), at=PageAddress(port=0), bag=playing) as server:
-        user = PanelUser(chromium, server)
+        user = PanelUser(chromium, server.url)
         user.open("Timeline")
         head = user.page.get_by_role("slider", name="Time")
         head.wait_for()

@@ -111,7 +111,7 @@ def server(graph: Graph, node: Node) -> Iterator[PageServer]:
 
 @pytest.fixture(scope="module")
 def user(chromium: Any, server: PageServer) -> Iterator[SceneUser]:
-    user = SceneUser(chromium, server)
+    user = SceneUser(chromium, server.url)
     user.open("Log")  # the panel of topics subscribes to all of them
     user.button("Add").click()
     yield user

@@ -62,7 +62,7 @@ def server(graph: Graph, node: Node, robot: Robot) -> Iterator[PageServer]:
 
 @pytest.fixture(scope="module")
 def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
-    user = PanelUser(chromium, server)
+    user = PanelUser(chromium, server.url)
     user.page.locator(".disc").wait_for()
     yield user
     user.close()

@@ -115,7 +115,7 @@ def server(graph: Graph, node: Node, heard: dict[str, list[Any]]) -> Iterator[Pa
 
 @pytest.fixture(scope="module")
 def user(chromium: Any, server: PageServer) -> Iterator[SceneUser]:
-    user = SceneUser(chromium, server)
+    user = SceneUser(chromium, server.url)
     things = ((-2.0, -1.0), (2.0 - GRIP, 1.0), (0.5, 0.0))  # a button, a ring, a point of the scan
     user.until(lambda: all(user.sees_at(point) for point in things), what="for the markers and the scan")
     yield user

@@ -8,14 +8,15 @@ import sys
 import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 PATIENCE_S = 120.0
 
 
 @contextmanager
-def running_page(*words: str, environment: dict[str, str]) -> Generator[str]:
-    """Run a command until its page answers; yields the page's address, then presses Ctrl-C."""
+def running_page(*words: str, environment: dict[str, str], folder: Path | None = None) -> Generator[str]:
+    """Run a command in a folder until its page answers; yields the page's address, then presses Ctrl-C."""
     process = subprocess.Popen(
         [sys.executable, "-m", "trundle", *words],
         stderr=subprocess.PIPE,
@@ -23,6 +24,7 @@ def running_page(*words: str, environment: dict[str, str]) -> Generator[str]:
         text=True,
         env={**os.environ, **environment},
         start_new_session=True,
+        cwd=folder,
     )
     assert process.stderr is not None
     said = ""

@@ -44,14 +44,31 @@ export function takesKeys(target: EventTarget | null, key: string): boolean {
   return (key === " " || key === "Enter") && target.closest("button, a, [role=treeitem], [role=tab]") !== null;
 }
 
-/** Run commands by their keys; returns how to stop. */
+/** Run commands by their keys; returns how to stop. Space is a button's only if the keyboard went there, not the mouse. */
 export function listenForKeys(commands: CommandList): () => void {
-  const keyDown = (event: KeyboardEvent): void => {
-    const keys = keysOf(event);
-    const always = keys === "Ctrl K";
-    if (event.defaultPrevented || (!always && takesKeys(event.target, event.key))) return;
-    if (commands.press(keys)) event.preventDefault();
+  const events = new AbortController();
+  const options = { signal: events.signal };
+  let pressed: HTMLButtonElement | null = null;
+  let isHeld = false;
+  const click = ({ detail }: MouseEvent): void => {
+    const focused = document.activeElement;
+    pressed = detail > 0 && focused instanceof HTMLButtonElement ? focused : null;
   };
-  addEventListener("keydown", keyDown);
-  return () => removeEventListener("keydown", keyDown);
+  const keyDown = (event: KeyboardEvent): void => {
+    if (event.key === "Tab") pressed = null;
+    const keys = keysOf(event);
+    const isPressedButton = event.key === " " && pressed !== null && event.target === pressed;
+    const isTaken = keys !== "Ctrl K" && !isPressedButton && takesKeys(event.target, event.key);
+    if (event.defaultPrevented || isTaken || !commands.press(keys)) return;
+    event.preventDefault();
+    isHeld = isPressedButton;
+  };
+  const keyUp = (event: KeyboardEvent): void => {
+    if (isHeld && event.key === " ") event.preventDefault(); // the button's own press, in Firefox
+    isHeld = false;
+  };
+  addEventListener("click", click, options);
+  addEventListener("keydown", keyDown, options);
+  addEventListener("keyup", keyUp, options);
+  return () => events.abort();
 }

@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { describe, expect, it } from "vitest";
 
-import { CommandList, keysOf, takesKeys } from "../../src/app/commands";
+import { CommandList, keysOf, listenForKeys, takesKeys } from "../../src/app/commands";
 
 const key = (init: KeyboardEventInit): KeyboardEvent => new KeyboardEvent("keydown", init);
 
@@ -40,5 +40,22 @@ describe("keys", () => {
     expect(commands.press("F")).toBe(true);
     remove();
     expect([commands.press("F"), ran]).toEqual([false, 1]);
+  });
+
+  it("are with Space the page's after the mouse pressed a button, and the button's after the keyboard went there", () => {
+    const commands = new CommandList();
+    let played = 0;
+    commands.add({ id: "play", title: "Play", group: "Simulation", keys: "Space", run: () => (played += 1) });
+    const stop = listenForKeys(commands);
+    const button = document.body.appendChild(document.createElement("button"));
+    const press = (name: string): boolean => button.dispatchEvent(key({ key: name, bubbles: true, cancelable: true }));
+    button.focus();
+    expect([press(" "), played]).toEqual([true, 0]);
+    button.dispatchEvent(new MouseEvent("click", { detail: 1, bubbles: true }));
+    expect([press(" "), played]).toEqual([false, 1]);
+    press("Tab");
+    expect([press(" "), played]).toEqual([true, 1]);
+    stop();
+    button.remove();
   });
 });

@@ -1,0 +1,204 @@
+"""A person at the controls of a simulation; its clock, its topics and its recording are checked."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.graphs import Graph, running_graph
+from tests.page.scene_user import SceneUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+from trundle.ros import Node
+from trundle.simulation import read_state_log
+
+pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+
+STEP_NS = 10_000_000
+LONG_NS = 100 * 10**9
+"""More simulation time than passes while a test waits, at speed 1."""
+HEIGHT = 2.0
+"""Of the balloon at first [m]."""
+ARM = """<link name="arm"><pose>0.5 0 0 0 0 0</pose></link>
+<joint name="hinge" type="revolute"><parent>base</parent><child>arm</child>
+<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper><effort>9</effort></limit></axis></joint>"""
+PLUGINS = """<plugin name="truth" filename="libgazebo_ros_p3d.so"><bodyName>base</bodyName><topicName>/truth</topicName>
+</plugin><plugin name="states" filename="libgazebo_ros_joint_state_publisher.so"><jointName>hinge</jointName>
+<updateRate>50</updateRate></plugin>"""
+
+
+def _world(more: str = "") -> str:
+    """Return a world of a balloon with an arm, which rises, and of more models."""
+    link = '<link name="base"/>'
+    balloon = f'<model name="balloon"><pose>0 0 {HEIGHT} 0 0 0</pose>{link}{ARM}{PLUGINS}</model>'
+    step = "<physics type='ode'><max_step_size>0.01</max_step_size></physics>"
+    return f'<sdf version="1.6"><world name="sky"><gravity>0 0 0.01</gravity>{step}{balloon}{more}</world></sdf>'
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def node(graph: Graph) -> Node:
+    return graph.node("tester")
+
+
+Heights = list[tuple[int, float]]
+"""Simulation time [ns] and height of the balloon [m] at each step."""
+
+
+@pytest.fixture(scope="module")
+def heights(node: Node) -> Heights:
+    heights: Heights = []
+
+    def hear(message: Any) -> None:
+        stamp = message.header.stamp
+        heights.append((stamp.sec * 10**9 + stamp.nanosec, message.pose.pose.position.z))
+
+    node.subscribe("/truth", "nav_msgs/Odometry", hear, queue_size=None)
+    return heights
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("sky")
+    (folder / "sky.sdf").write_text(_world())
+    return folder
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, graph: Graph, heights: Heights, folder: Path) -> Iterator[SceneUser]:
+    words = ("run", "sky.sdf", "--pause", "--port", "0")
+    with running_page(*words, environment={"ROS_MASTER_URI": graph.core.uri}, folder=folder) as url:
+        user = SceneUser(chromium, url)
+        yield user
+        user.close()
+
+
+def _bar(user: SceneUser, name: str) -> Any:
+    return user.page.get_by_role("banner").get_by_role("button", name=name, exact=True)
+
+
+def _choose(user: SceneUser, menu: str, entry: str) -> None:
+    _bar(user, menu).click()
+    user.page.get_by_role("menu").get_by_text(entry, exact=True).click()
+
+
+def _at_rest(user: SceneUser, heights: Heights) -> int:
+    """Wait until the world stands still; return its time [ns]."""
+    _bar(user, "Play").wait_for()
+    user.until_still(lambda: len(heights))
+    return heights[-1][0]
+
+
+def test_play_and_pause_are_one_toggle(graph: Graph, user: SceneUser, heights: Heights) -> None:
+    """The clock of the bar shows the time at which the world stands."""
+    _bar(user, "Play").click()
+    graph.until(lambda: heights)
+    _bar(user, "Pause").click()
+    time_s = _at_rest(user, heights) / 1e9
+    user.page.get_by_role("banner").get_by_text(f"0:{time_s:05.2f}", exact=True).wait_for()
+
+
+@pytest.mark.slow
+def test_a_step_is_one_of_the_physics(user: SceneUser, heights: Heights) -> None:
+    """By its button and by its key."""
+    before = _at_rest(user, heights)
+    _bar(user, "Step 1").click()
+    user.until(lambda: heights[-1][0] > before)
+    user.page.locator("canvas").first.focus()
+    user.page.keyboard.press(".")
+    user.until(lambda: heights[-1][0] > before + STEP_NS)
+
+    assert _at_rest(user, heights) == before + 2 * STEP_NS
+    assert [time_ns for time_ns, _ in heights[-3:]] == [before, before + STEP_NS, before + 2 * STEP_NS]
+
+
+@pytest.mark.slow
+def test_as_fast_as_possible_is(user: SceneUser, heights: Heights) -> None:
+    before = _at_rest(user, heights)
+    _choose(user, "Speed 1×", "As fast as possible")
+    _bar(user, "As fast as possible").wait_for()
+    user.page.keyboard.press("Space")
+    user.until(lambda: heights[-1][0] > before + LONG_NS)
+    _bar(user, "Pause").click()
+    _choose(user, "As fast as possible", "1×")
+    _bar(user, "Speed 1×").wait_for()
+
+
+@pytest.mark.slow
+def test_time_and_poses_are_reset_together_or_one_alone(user: SceneUser, heights: Heights) -> None:
+    """A step shows where it begins again."""
+
+    def after_a_step() -> tuple[int, float]:
+        count = len(heights)
+        _bar(user, "Step 1").click()
+        user.until(lambda: len(heights) > count)
+        return heights[-1]
+
+    before = _at_rest(user, heights)
+    assert heights[-1][1] > HEIGHT + 1.0
+    _choose(user, "Reset", "Reset poses only")
+    time_ns, height = after_a_step()
+    assert (time_ns, height) == (before + STEP_NS, pytest.approx(HEIGHT, abs=1e-4))
+    _choose(user, "Reset", "Reset time only")
+    time_ns, height = after_a_step()
+    assert time_ns == STEP_NS
+    for _ in range(9):
+        after_a_step()
+    user.page.keyboard.press("Shift+R")
+    time_ns, height = after_a_step()
+    assert (time_ns, height) == (STEP_NS, pytest.approx(HEIGHT, abs=1e-4))
+
+
+@pytest.mark.slow
+def test_a_joint_s_slider_moves_it(node: Node, user: SceneUser) -> None:
+    angles: list[float] = []
+    node.subscribe("/joint_states", "sensor_msgs/JointState", lambda m: angles.extend(m.position))
+    user.page.get_by_role("treeitem").filter(has_text="balloon").first.click()
+    _bar(user, "Play").click()
+    user.until(lambda: angles)
+    user.page.get_by_role("slider", name="hinge").press("PageUp")
+    user.until(lambda: angles[-1] > 0.05)
+    user.page.locator("aside").get_by_role("button", name="All to zero").click()
+    user.until(lambda: abs(angles[-1]) < 0.01)
+    _bar(user, "Pause").click()
+
+
+@pytest.mark.slow
+def test_what_is_recorded_can_be_played(user: SceneUser, heights: Heights, folder: Path) -> None:
+    _bar(user, "Record").click()
+    recording = user.page.get_by_role("banner").get_by_role("button", name="Recording")
+    recording.wait_for()
+    before = _at_rest(user, heights)
+    _bar(user, "Play").click()
+    user.until(lambda: heights[-1][0] > before + 10**9)
+    recording.click()
+    _bar(user, "Record").wait_for()
+    _bar(user, "Pause").click()
+    _at_rest(user, heights)
+
+    [file] = folder.glob("recorded/*/state.log")
+    log = read_state_log(file)
+    assert log.times[0] == pytest.approx(before / 1e9, abs=1e-4)
+    assert log.times[-1] - log.times[0] > 0.9
+    assert log.links == ("balloon::base", "balloon::arm")
+
+
+@pytest.mark.slow
+def test_a_world_that_was_changed_is_loaded_again(user: SceneUser, heights: Heights, folder: Path) -> None:
+    """A broken one is refused with its line; last."""
+    (folder / "sky.sdf").write_text(_world('<model name="cloud"><pose>3 0 0 0 0 0</pose><link name="l"/></model>'))
+    _choose(user, "Reset", "Load the world again")
+    user.page.get_by_role("treeitem").filter(has_text="cloud").first.wait_for()
+    (folder / "sky.sdf").write_text(_world("<model"))
+    _choose(user, "Reset", "Load the world again")
+    user.page.get_by_role("status").get_by_text("sky.sdf:5: error: not well-formed XML").wait_for()
+    count = len(heights)
+    _bar(user, "Step 1").click()
+    user.until(lambda: len(heights) > count)
+    assert heights[-1][0] == STEP_NS
