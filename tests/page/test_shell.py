@@ -127,7 +127,7 @@ def test_a_field_with_the_focus_takes_the_keys(open_page: Open, robot: Robot) ->
     tab.keyboard.press("w")
     tab.wait_for_timeout(300)
 
-    assert robot.velocities == []
+    assert set(robot.velocities) <= {(0.0, 0.0)}  # the stop of a drive before may come late
 
 
 def test_a_display_is_edited_undone_and_saved(open_page: Open, drive_page: PageServer) -> None:

@@ -35,7 +35,7 @@ def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
         user.page.get_by_role("treeitem", name="data word 0").wait_for()
         user.open("Timeline")
         head.press("End")
-        user.page.locator('[role=slider][aria-valuetext="0:10.00"]').wait_for()
+        user.page.locator('[role=slider][aria-valuetext="1:50.00"]').wait_for()
         user.open("Topics")
         user.page.get_by_role("treeitem", name="data word 10").wait_for()
         user.open("Timeline")

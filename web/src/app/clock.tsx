@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
-import { clock, fixed, rosTime } from "../theme/format";
+import { fixed, rosTime } from "../theme/format";
 import { MenuButton } from "../theme/menu";
 import { StatusShape } from "../theme/status_shape";
 import { simulates } from "./simulation_commands";
@@ -14,15 +14,15 @@ const SPEEDS: readonly (number | null)[] = [0.1, 0.5, 1, 2, null];
 const REFRESH = 100; // ms
 
 export function Clock({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { world } = shell.page;
+  const { world, session } = shell.page;
   if (!simulates(shell.page)) return <RosTime shell={shell} />;
   const state = world.state.value;
   const factor = state === null || state.paused ? null : state.real_time_factor;
   return (
     <>
       <span class="read">
-        <b>{state === null ? "—" : clock(state.time_ns / 1e9)}</b>
-        <span class="of">sim time</span>
+        <b>{state === null ? "—" : rosTime(BigInt(state.time_ns))}</b>
+        <span class="of">{session.kind === "bag" ? "ROS time" : "sim time"}</span>
       </span>
       <Factor factor={factor} speed={state?.speed ?? null} />
       {!shell.layout.isPhone.value && state !== null && <Speed shell={shell} speed={state.speed} />}

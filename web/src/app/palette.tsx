@@ -1,6 +1,6 @@
 /** The palette: every command by name. */
 
-import { useSignal } from "@preact/signals";
+import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
@@ -13,7 +13,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
   const text = useSignal("");
   const at = useSignal(0);
   const list = useRef<HTMLDivElement>(null);
-  const found = search(shell.commands.all.value, text.value);
+  const found = useComputed(() => search(shell.commands.all.value, text.value)); // keys may come before the list is drawn
   const close = (): void => {
     shell.dialog.value = null;
   };
@@ -25,8 +25,8 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
   useEffect(() => list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }), [at.value, text.value]);
   const keyDown = (event: KeyboardEvent): void => {
     const step = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
-    if (event.key === "Enter") run(found[at.value]);
-    else if (step !== 0) at.value = Math.max(0, Math.min(found.length - 1, at.value + step));
+    if (event.key === "Enter") run(found.value[at.value]);
+    else if (step !== 0) at.value = Math.max(0, Math.min(found.value.length - 1, at.value + step));
     else return;
     event.preventDefault();
   };
@@ -39,7 +39,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
           aria-label="Search commands"
           aria-expanded="true"
           aria-controls="palette-list"
-          aria-activedescendant={found.length > 0 ? `palette-${at.value}` : undefined}
+          aria-activedescendant={found.value.length > 0 ? `palette-${at.value}` : undefined}
           placeholder="Search commands"
           autoFocus
           onInput={(event) => {
@@ -50,7 +50,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
         />
       </label>
       <div ref={list} id="palette-list" class="scroll" role="listbox" aria-label="Commands">
-        {found.map((command, index) => (
+        {found.value.map((command, index) => (
           <div key={command.id} id={`palette-${index}`} role="option" class="command" aria-selected={index === at.value} onClick={() => run(command)}>
             <span>{command.title}</span>
             <span class="r">{command.group}</span>
@@ -58,7 +58,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
           </div>
         ))}
       </div>
-      {found.length === 0 && <p class="empty">No command is named so.</p>}
+      {found.value.length === 0 && <p class="empty">No command is named so.</p>}
     </Dialog>
   );
 }

@@ -121,7 +121,7 @@ function Head({ state, span, share }: ShareProps & { readonly state: TimelineSta
         aria-valuetext={timeText(now)}
         aria-disabled={!span.isSeekable}
         tabIndex={0}
-        style={{ left: share(now) }}
+        style={{ left: share(now), "--at": share(now) }}
         onKeyDown={(event) => {
           const to = keys[event.key];
           if (to === undefined || !span.isSeekable) return;
