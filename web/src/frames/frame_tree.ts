@@ -17,7 +17,7 @@ export interface FrameInfo {
 }
 
 export interface FrameTree {
-  /** Names of all frames, sorted; changes only when a frame appears or is forgotten. */
+  /** Names of all frames, sorted; changes only when a frame appears, is forgotten or gets another parent. */
   readonly frames: ReadonlySignal<readonly string[]>;
   /** Frames with their parents and ages, now. */
   describe(): readonly FrameInfo[];

@@ -27,14 +27,16 @@ export class TransformTree implements FrameTree {
 
   /** Add transforms; those that tf2 refuses are left out: numbers that are none, frames in themselves or without name. */
   add(transforms: readonly TransformStamped[], isStatic: boolean): void {
-    const before = this.#names.size;
+    let isOther = false;
     for (const { header, child_frame_id, transform } of transforms) {
       const child = bareName(child_frame_id);
       const sample = sampleOf(nanoseconds(header.stamp), bareName(header.frame_id), transform);
       if (sample === null || child === "" || child === sample.parent) continue;
-      if (this.#enter(child) && this.#enter(sample.parent)) this.#set(child, sample, isStatic);
+      if (!this.#enter(child) || !this.#enter(sample.parent)) continue;
+      isOther ||= this.#parent(child) !== sample.parent;
+      this.#set(child, sample, isStatic);
     }
-    if (this.#names.size !== before) this.frames.value = [...this.#names].sort();
+    if (isOther) this.frames.value = [...this.#names].sort();
   }
 
   /** Forget all but static transforms, as when the time goes back: static ones are sent once. */
@@ -54,12 +56,11 @@ export class TransformTree implements FrameTree {
   describe(): readonly FrameInfo[] {
     const now = performance.now();
     return this.frames.peek().map((name) => {
-      const fixed = this.#static.get(name);
       const moving = this.#moving.get(name);
       return {
         name,
-        parent: (fixed ?? moving?.newest)?.parent ?? null,
-        isStatic: fixed !== undefined,
+        parent: this.#parent(name),
+        isStatic: this.#static.has(name),
         stamp: moving?.newest.stamp ?? 0n,
         rate: moving?.arrivals.at(now).rate ?? null,
         publisher: null,
@@ -72,6 +73,10 @@ export class TransformTree implements FrameTree {
     if (to === from) return { position: new Vector3(), orientation: new Quaternion() };
     const found = this.#find(to, from, time);
     return typeof found === "string" ? new NoTransform(`No transform from [${from}] to [${to}]`, found) : found;
+  }
+
+  #parent(name: string): string | null {
+    return (this.#static.get(name) ?? this.#moving.get(name)?.newest)?.parent ?? null;
   }
 
   /** The pose of `from` in `to`, or why there is none. */

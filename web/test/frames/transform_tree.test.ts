@@ -211,3 +211,13 @@ test("describes frames with parents, stamps and rates", () => {
   expect(tree.describe()[0]).toMatchObject({ stamp: 2_000_000_000n, rate: 2 });
   vi.useRealTimers();
 });
+
+test("a frame that was a root and gets a parent is news, although no name is", () => {
+  const tree = new TransformTree();
+  tree.add([stamped("base", "laser", 0n), stamped("map", "odom", 0n)], true);
+  let changes = -1; // the first is at once
+  tree.frames.subscribe(() => (changes += 1));
+  tree.add([stamped("odom", "base", 1n)], false);
+  tree.add([stamped("odom", "base", 2n)], false);
+  expect(changes).toBe(1);
+});
