@@ -390,3 +390,13 @@ def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -
         client.send("trundle/request", id=1, request="pause")
         run(lambda: any(each.get("id") == 1 for each in client.jsons))
         assert {"op": "trundle/response", "id": 1, "ok": True} in client.jsons
+
+
+def test_meshes_that_are_missing_are_named(tmp_path: Path) -> None:
+    visuals = "".join(
+        f'<visual name="{name}"><geometry><mesh><uri>{name}</uri></mesh></geometry></visual>'
+        for name in ("lost.stl", "gone.dae")
+    )
+    shown = Shown(loaded(tmp_path, model("m", visuals))[0])
+
+    assert ("meshes", "2 meshes are missing: gone.dae, lost.stl") in shown.server.notices

@@ -108,10 +108,15 @@ export class Layout {
     return () => removeEventListener("resize", resize);
   }
 
+  /** What the phone's sheet covers, and the disc above it; a sheet that is full hides the scene. */
+  private phoneFoot(drive: boolean): number {
+    return this.sheetHeight.value === "closed" ? 72 + (drive ? FOOT.phoneDrive : 0) : this.height.value / 2;
+  }
+
   /** Edges of the scene that panels and what lies on it cover [px]; it begins below the bar. */
   insets({ tiles, drive }: { readonly tiles: boolean; readonly drive: boolean }): Insets {
     const [left, right] = this.sides.value;
-    if (this.isPhone.value) return { left: 0, right: 0, top: tiles ? HEAD.phoneTile : HEAD.gap, bottom: 72 + (drive ? FOOT.phoneDrive : 0) };
+    if (this.isPhone.value) return { left: 0, right: 0, top: tiles ? HEAD.phoneTile : HEAD.gap, bottom: this.phoneFoot(drive) };
     const bottom = this.dock.value + 16;
     const foot = tiles ? FOOT.tiles : drive ? FOOT.drive : 0;
     const isRoom = this.height.value - bottom - foot >= LEAST;

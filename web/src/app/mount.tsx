@@ -17,6 +17,7 @@ import "../theme/dockview.css";
 import type { Panel } from "../panels/panel";
 import { App } from "./app";
 import { listenForKeys, type CommandList } from "./commands";
+import { acceptDroppedRviz } from "./open_rviz";
 import type { Page } from "./page";
 import { pageCommands } from "./page_commands";
 import { Shell } from "./shell";
@@ -38,6 +39,7 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
   shell.layout.listen();
   commands.add(...simulationCommands(shell), ...pageCommands(shell), ...toolCommands(shell));
   listenForKeys(commands);
+  acceptDroppedRviz(shell);
   effect(() => {
     document.title = shell.robot.value ?? page.session.title;
   });

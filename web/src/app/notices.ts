@@ -82,10 +82,12 @@ function summary(
 ): { level: StatusLevel; text: string } {
   const displays = (which: (notice: Notice) => boolean): number => new Set(faults.filter(which).map((notice) => notice.display)).size;
   const isTransform = (notice: Notice): boolean => /no transform|fixed frame/i.test(notice.text);
+  const isMesh = (notice: Notice): boolean => notice.text.startsWith("Could not load mesh");
   const isSilent = (notice: Notice): boolean => !isTransform(notice) && isSilence(notice);
   const silent = displays(isSilent);
   const lost = displays(isTransform);
-  const other = displays((notice) => !isTransform(notice) && !isSilent(notice));
+  const meshes = faults.filter(isMesh).length;
+  const other = displays((notice) => !isTransform(notice) && !isSilent(notice) && !isMesh(notice));
   const parts: string[] = reports.slice(-1).map(({ title, text }) => `${title}: ${text}`);
   const say = (number: number, one: string, many: string): void => {
     if (number > 0) parts.push(number === 1 ? one : `${number} ${many}`);
@@ -93,6 +95,7 @@ function summary(
   say(silent, "1 display has no data", "displays have no data");
   const noun = silent > 0 ? "" : "display ";
   say(lost, `1 ${noun}has no transform`, silent > 0 ? "have no transform" : "displays have no transform");
+  say(meshes, "1 mesh is missing", "meshes are missing");
   say(other, "1 display has a fault", "displays have faults");
   say(unsupported, "1 display is not supported", "displays are not supported");
   if (server.length === 1) parts.push(server[0]?.text ?? "");

@@ -2,6 +2,7 @@
 
 import { toggleFollowing } from "./following";
 import { frameSelection } from "./framing";
+import { chooseRviz } from "./open_rviz";
 import type { Command } from "./page";
 import { save } from "./rviz_foot";
 import type { Shell } from "./shell";
@@ -31,7 +32,8 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("dock.toggle", "Panels", "Show or hide the dock", toggle(layout.dockOpen), "\\"),
     { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
     { ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"), enabled: () => undo.redoTitle.peek() !== null },
-    command("save_rviz", "Displays", page.session.rviz?.writable === true ? `Save ${page.session.rviz.name}` : "Download as .rviz", () => save(shell)),
+    command("open_rviz", "Displays", "Open an .rviz file", () => chooseRviz(shell)),
+    command("save_rviz", "Displays", page.session.rviz?.writable === true ? "Save the .rviz file" : "Download as .rviz", () => save(shell)),
     command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
     command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),
     command("notices", "Page", "List what is missing", () => (dialog.value = "notices")),

@@ -21,6 +21,8 @@ export class Shell {
   readonly dialog = signal<Dialog>(null);
   /** The display that is selected in its panel. */
   readonly display = signal<Display | null>(null);
+  /** Name of an .rviz file of the person's own that took the place of the session's; null: none did. */
+  readonly opened = signal<string | null>(null);
   readonly showsCameras = signal(recall("cameras", true, isBoolean));
   /** Name of the robot: the session's, else that of the robot description. */
   readonly robot = computed(() => {

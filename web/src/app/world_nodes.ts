@@ -40,11 +40,12 @@ export function bodiesOf(model: ModelInfo): readonly number[] {
   return [...model.links.map((link) => link.body), ...model.models.flatMap(bodiesOf)];
 }
 
-export function worldNode(manifest: Manifest): WorldNode {
+/** The tree of a world; most worlds are called `default`, which says less than the page's title. */
+export function worldNode(manifest: Manifest, title = manifest.name): WorldNode {
   const lights = manifest.lights.map(({ name, type }) => leaf(`light/${name}`, name, type, "light"));
   const models = manifest.models.map((model) => modelNode(model, ""));
   return {
-    ...leaf("world", manifest.name, count(manifest.models.length, "model"), "world"),
+    ...leaf("world", manifest.name === "default" ? title : manifest.name, count(manifest.models.length, "model"), "world"),
     children: [...models, ...group("lights", "Lights", lights)],
   };
 }

@@ -14,7 +14,7 @@ import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type W
 
 export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const { world, selection, session } = shell.page;
-  const root = useComputed(() => (world.manifest.value === null ? null : worldNode(world.manifest.value)));
+  const root = useComputed(() => (world.manifest.value === null ? null : worldNode(world.manifest.value, shell.page.session.title)));
   const search = useSignal("");
   const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
   const isOpen = (node: WorldNode): boolean => toggled.value.get(node.key) ?? opensAtFirst(node, world.manifest.value);

@@ -18,7 +18,7 @@ function Plots({ page }: PanelProps): JSX.Element {
   return (
     <Split detail={state.isAdding.value && <CurvePicker page={page} state={state} />}>
       {state.curves.length === 0 ? (
-        <div class="empty">
+        <div class="empty line">
           Nothing is plotted. <Button small tone="line" icon="plus" onClick={() => void (state.isAdding.value = true)}>Add curve</Button>
         </div>
       ) : (

@@ -22,3 +22,10 @@ it("is one line with counts, and a list with the most severe first", () => {
   notices.report("Play", "The simulator has stopped.");
   expect(notices.line.value).toMatchObject({ level: "error", text: expect.stringContaining("Play: The simulator has stopped.") as string });
 });
+
+it("counts missing meshes, not the displays that want them", () => {
+  const page = fakePage();
+  const notices = new Notices(page);
+  for (const name of ["rviz/RobotModel", "rviz/Marker"]) page.displays.show(name, null, null).status("error", "Could not load mesh resource 'package://a/b.dae'");
+  expect(notices.line.value.text).toBe("2 meshes are missing");
+});

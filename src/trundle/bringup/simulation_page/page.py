@@ -42,11 +42,13 @@ from .body_numbers import BodyNumbers
 from .controls import Recorder, SimulationControls, reason_of
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
+from .missing_meshes import missing_meshes
 from .pictures import WorldPictures
 from .titles import page_names
 from .world_builder import WorldBuilder
 
-_WARNING = "simulation"
+_WARNING, _MESHES = "simulation", "meshes"
+"""Notices of the page."""
 _FRAME_NS = 33_000_000
 """Period of poses and lines, in wall time [ns]."""
 _SLOW_NS = 3 * _FRAME_NS
@@ -83,6 +85,7 @@ class SimulationPage:
         self._server = server
         self._session: Session | None = None
         self._warning: str | None = None
+        self._missing: str | None = None
         self._has_graph = has_graph
         self._wall_ns = wall_ns
         self._rays = RayOverlay(lambda: server.is_watched(LINES))
@@ -189,6 +192,11 @@ class SimulationPage:
             self._warning = text
             self._server.set_notice(_WARNING, text)
 
+    def _set_missing(self, meshes: str | None) -> None:
+        if meshes != self._missing:
+            self._missing = meshes
+            self._server.set_notice(_MESHES, meshes)
+
     def end_recording(self) -> None:
         """End the recording that a person at the page has begun."""
         if self._controls.recorder is not None:
@@ -209,6 +217,7 @@ class SimulationPage:
         self._generation += 1
         manifest = world_manifest(simulation, sensors, self._bodies) | {"generation": self._generation}
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
+        self._set_missing(missing_meshes(simulation.world))
         self._rays.set_sensors(sensors)
         if not self._has_graph:
             self._listen([sensor for sensor in sensors if isinstance(sensor, CameraSensor)])

@@ -72,8 +72,8 @@ function Row({ connection, state, topic, now }: Omit<TopicTableProps, "topics"> 
         </td>
       ) : (
         <>
-          <td class="num">{fixed(rate, 1)}</td>
-          <td class="num">{lastAt === null ? "—" : `${bytes(bandwidth)}/s`}</td>
+          <td class="num">{rate !== null && rate < 0.05 ? "—" : fixed(rate, 1)}</td>
+          <td class="num">{lastAt === null || bandwidth < 0.5 ? "—" : `${bytes(bandwidth)}/s`}</td>
           <td class={lastAt === null ? "num dim" : "num"}>{lastAt === null ? "never" : age((now - lastAt) / 1000)}</td>
         </>
       )}

@@ -1,0 +1,101 @@
+"""A person opens an .rviz file in the page, edits it and takes it home."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.graphs import Graph, running_graph
+from tests.page.scene_user import SceneUser
+
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page.client_files import CLIENT
+from trundle.page_address import PageAddress
+from trundle.ros import Node
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+RED = (255, 0, 0)
+ROS_2 = """Panels:
+  - Class: rviz_common/Displays
+    Name: Displays
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Marker
+      Name: Cube
+      Enabled: true
+      Topic: {Value: /cube, Depth: 5, Durability Policy: Volatile}
+      Strange: 42
+    - Class: nav2_rviz_plugins/ParticleCloud
+      Name: Particles
+      Enabled: true
+  Global Options:
+    Background Color: 0; 0; 0
+    Fixed Frame: map
+  Views:
+    Current: {Class: rviz_default_plugins/TopDownOrtho, Name: Current View, Scale: 100, X: 0, Y: 0, Angle: 0}
+    Saved: ~
+Window Geometry:
+  Height: 800
+"""
+"""As RViz 2 writes it."""
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def node(graph: Graph) -> Node:
+    node = graph.node("tester")
+    cube = {"type": 1, "scale": {"x": 1.0, "y": 1.0, "z": 1.0}, "color": {"r": 1.0, "a": 1.0}}
+    cube |= {"header": {"frame_id": "map"}, "pose": {"orientation": {"w": 1.0}}}
+    node.advertise("/cube", "visualization_msgs/Marker", latch=True).publish(cube)
+    return node
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, graph: Graph, node: Node) -> Iterator[SceneUser]:
+    address = GraphAddress(master_uri=graph.core.uri)
+    with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0), graph=address) as server:
+        user = SceneUser(chromium, server.url)
+        yield user
+        user.close()
+
+
+def _choose(user: SceneUser, command: str) -> None:
+    user.page.keyboard.press("Control+k")
+    user.page.get_by_role("combobox", name="Search commands").fill(command)
+    user.page.get_by_role("option", name=command).click()
+
+
+def test_a_file_of_ros_2_is_opened_and_what_is_not_understood_comes_back(user: SceneUser, tmp_path: Path) -> None:
+    import yaml
+
+    file = tmp_path / "two.rviz"
+    file.write_text(ROS_2)
+    with user.page.expect_file_chooser() as chooser:
+        _choose(user, "Open an .rviz file")
+    chooser.value.set_files(file)
+    user.page.get_by_role("treeitem").filter(has_text="Particles").first.wait_for()
+    user.page.get_by_text("not supported").first.wait_for()
+    user.until(lambda: user.sees_at((0.0, 0.0)), what="for the cube")
+    assert user.area((0, 0, 0)) > 1.0
+    user.page.get_by_role("treeitem").filter(has_text="Cube").first.focus()
+    user.page.keyboard.press(" ")
+    user.until(lambda: not user.sees_at((0.0, 0.0)), what="for the end of the cube")
+    with user.page.expect_download() as download:
+        user.button("Download").click()
+
+    assert download.value.suggested_filename == "two.rviz"
+    found, expected = yaml.safe_load(download.value.path().read_text()), yaml.safe_load(ROS_2)
+    cube, particles = found["Visualization Manager"]["Displays"]
+    assert particles == expected["Visualization Manager"]["Displays"][1]
+    assert (cube["Class"], cube["Enabled"], cube["Strange"]) == ("rviz_default_plugins/Marker", False, 42)
+    assert cube["Topic"]["Value"] == "/cube"
+    assert (found["Panels"], found["Window Geometry"]) == (expected["Panels"], expected["Window Geometry"])
