@@ -29,7 +29,7 @@ class Gazebo:
             report=self.report,
             folder=folder,
             say=self.said.append,
-            window=None,
+            page=None,
         )
         self.host = NodeHost(simulator=self.world)
         self.client = Node("/client", loop=loop, master_uri=uri)

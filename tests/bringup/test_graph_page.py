@@ -14,7 +14,9 @@ import aiohttp
 import pytest
 
 from trundle.bringup.graph_page import GraphPage
+from trundle.bringup.shared_page import SharedPage
 from trundle.nodes import Slider
+from trundle.page import GraphAddress
 from trundle.page_address import PageAddress
 from trundle.ros import Core, GraphLoop, Node
 
@@ -75,7 +77,7 @@ def shown(tmp_path: Path) -> Iterator[Shown]:
         loop.run(core.start())
         rviz = Node("rviz", loop=loop, master_uri=core.uri)
         said: list[str] = []
-        page = GraphPage(say=said.append, at=PageAddress(port=0))
+        page = GraphPage(SharedPage(say=said.append, at=PageAddress(port=0), graph=GraphAddress(master_uri=core.uri)))
         shown = Shown(loop, page, rviz, config, said)
         yield shown
         page.close()

@@ -1,18 +1,17 @@
 """Sensors on the page, as models come and go."""
 
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
 from msgspec.structs import replace
-from tests.bringup.simulation_page.fake_server import FakeServer
+from tests.bringup.simulation_page.fake_server import shared_page
 
 import trundle
 from trundle.bringup.ray_overlay import RayOverlay
 from trundle.bringup.realtime_pacer import RealtimePacer
 from trundle.bringup.simulation_page.page import SimulationPage
-from trundle.page import PageServer
 from trundle.render import NativeRenderer
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation
@@ -87,8 +86,8 @@ def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) 
 def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
     """The page gets all cameras again whenever a model comes or goes."""
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
-    server = FakeServer()
-    page = SimulationPage(cast(PageServer, server), sim, [], has_graph=False)
+    shared, server = shared_page()
+    page = SimulationPage(shared, sim, [])
     assert sim.lines_are_shown
 
     def show(*cameras: Any) -> None:

@@ -93,14 +93,14 @@ def test_the_car_with_roslaunch(terminal, shared: Path) -> None:
 def test_the_telepresence_robot_in_gazebo(terminal, shared: Path, tmp_path: Path) -> None:
     gazebo = terminal()
     gazebo.type("gazebo")
-    assert "<html" in page_at("see the simulation at ", gazebo)
+    assert "<html" in page_at("see it at ", gazebo)
     gazebo.keys("\x03")
     gazebo.expect("(trundle) $ ", PATIENCE_S)
     finish(gazebo, "mkdir -p ~/.gazebo/models/rp2w && cd ~/.gazebo/models/rp2w")
     finish(gazebo, f"cp {shared}/seeds/rp2w/model.* .")
     assert "Check complete" in finish(gazebo, "gz sdf -k model.sdf")
     gazebo.type("gazebo")
-    gazebo.expect("see the simulation at ", PATIENCE_S)
+    gazebo.expect("see it at ", PATIENCE_S)
 
     robot = terminal()
     finish(robot, "gz model -m rp2w -f ~/.gazebo/models/rp2w/model.sdf")

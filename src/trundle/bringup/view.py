@@ -9,12 +9,14 @@ from dataclasses import dataclass
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.names import anonymous_name
+from trundle.page import GraphAddress
 from trundle.page_address import AllowedNames, PageAddress
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
 
 from .console import Console
 from .graph_page import GraphPage
 from .network_warning import warn_of_network
+from .shared_page import SharedPage
 from .signals import stop_flag
 
 
@@ -55,7 +57,8 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
-        page = GraphPage(say=show.line, at=at)
+        graph = GraphAddress(master_uri=uri, host=options.host)
+        page = GraphPage(SharedPage(say=show.line, at=at, graph=graph))
         open_things.callback(page.close)
         shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
         while not stop.wait(0.1):

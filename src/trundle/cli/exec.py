@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from trundle.bringup.console import Console
     from trundle.bringup.gazebo.world import GazeboWorld
     from trundle.bringup.graph_page import GraphPage
+    from trundle.bringup.shared_page import SharedPage
     from trundle.nodes import BuiltinReplacement
     from trundle.ros import Node
 
@@ -152,21 +153,21 @@ def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
         if what in ROSCPP:
             node.log.loggers = Loggers.for_roscpp(args.package)
         with ExitStack() as stack:
-            page = stack.enter_context(closing(_page())) if what in WINDOWS else None
-            world = stack.enter_context(_world(node, with_window=what in CLIENTS)) if what in WORLDS else None
-            host = NodeHost(display=page, simulator=world)
+            page = stack.enter_context(closing(_page(node))) if what in WINDOWS | CLIENTS else None
+            display = _display(page) if page is not None and what in WINDOWS else None
+            world = stack.enter_context(_world(node, page)) if what in WORLDS else None
+            host = NodeHost(display=display, simulator=world)
             return loop.run(run_builtin_node(stand_in, node, list(words.rest), host), None)
 
 
 @contextmanager
-def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
+def _world(node: "Node", page: "SharedPage | None") -> "Generator[GazeboWorld]":
     """Simulated world of a gzserver node, with its findings printed."""
     from trundle.bringup.console import Console
     from trundle.bringup.gazebo.world import GazeboWorld
     from trundle.bringup.graph import Graph
     from trundle.bringup.launch.logs import log_folder
     from trundle.diagnostics import Diagnostics
-    from trundle.page_address import PageAddress
 
     report = Diagnostics()
     show = Console(sys.stderr, report)
@@ -178,7 +179,7 @@ def _world(node: "Node", *, with_window: bool) -> "Generator[GazeboWorld]":
         report=report,
         folder=log_folder(os.environ, "gazebo") / "spawned",
         say=show.line,
-        window=PageAddress() if with_window else None,
+        page=page,
     )
     telling = node.loop.spawn(_show_findings(show))
     try:
@@ -195,8 +196,15 @@ async def _show_findings(show: "Console") -> None:
         await asyncio.sleep(_POLL_S)
 
 
-def _page() -> "GraphPage":
+def _page(node: "Node") -> "SharedPage":
     """Page of a node with a window."""
+    from trundle.bringup.shared_page import SharedPage
+    from trundle.page import GraphAddress
+
+    return SharedPage(say=lambda text: print(text, flush=True), graph=GraphAddress(master_uri=node.master_uri))
+
+
+def _display(page: "SharedPage") -> "GraphPage":
     from trundle.bringup.graph_page import GraphPage
 
-    return GraphPage(say=lambda text: print(text, flush=True))
+    return GraphPage(page)

@@ -20,7 +20,7 @@ from trundle.page_address import PageAddress
 from .drive_stop import DriveStop
 from .errors import PageError
 from .mailbox import Mailbox, Piece
-from .requests import Request
+from .requests import GraphAction, Request
 from .session import Session
 from .streams import ARRAY_HEADER, IMAGE_HEADER, JOINTS, LINES, POSES, STATE, ClockState, Line, line_pieces
 from .wire import (
@@ -63,7 +63,8 @@ class PageServer:
         self._stop = stop
         self._outgoing: queue.SimpleQueue[Start | ToServer | None] = queue.SimpleQueue()
         self._replies: queue.SimpleQueue[Served | Refused | None] = queue.SimpleQueue()
-        self._requests: deque[Request] = deque(maxlen=_MAX_REQUESTS)
+        self._requests: dict[bool, deque[Request]] = {kind: deque(maxlen=_MAX_REQUESTS) for kind in (False, True)}
+        """By whether they are to nodes of the graph."""
         self._watched: frozenset[str] = frozenset()
         self._boxes: dict[str, Mailbox] = {}
         self._generation = 0
@@ -147,6 +148,11 @@ class PageServer:
         """Number of the server's process."""
         return self._process.pid
 
+    @property
+    def generation(self) -> int:
+        """Generation of the last world shown; 0 before the first."""
+        return self._generation
+
     def is_watched(self, stream: str) -> bool:
         """True if some client looks at a stream: one of `trundle.page.streams`, or a camera's topic.
 
@@ -154,13 +160,20 @@ class PageServer:
         """
         return stream in self._watched
 
-    def requests(self) -> list[Request]:
-        """Return the requests since the last call, oldest first; each is to be answered by `respond`."""
+    def requests(self, *, of_graph: bool | None = None) -> list[Request]:
+        """Return the requests since the last call, oldest first; each is to be answered by `respond`.
+
+        Two threads may share the page: one takes the requests to nodes of the graph, the other one the rest.
+
+        Args:
+            of_graph: True: requests to nodes of the graph alone; False: all others; None: all.
+        """
         taken: list[Request] = []
-        with contextlib.suppress(IndexError):
-            while True:
-                taken.append(self._requests.popleft())
-        return taken
+        for kind, waiting in self._requests.items():
+            with contextlib.suppress(IndexError):
+                while of_graph in (None, kind):
+                    taken.append(waiting.popleft())
+        return taken if of_graph is not None else sorted(taken, key=lambda request: request.id)
 
     def respond(self, request_id: int, error: str | None = None) -> None:
         """Answer a request; `error` is a sentence that says why it was not done."""
@@ -274,7 +287,7 @@ class PageServer:
             while True:
                 match from_server_decoder.decode(read_frame(pipe)):
                     case Request() as request:
-                        self._requests.append(request)
+                        self._requests[isinstance(request.action, GraphAction)].append(request)
                     case Watched(streams):
                         self._watched = streams
                     case Driven(topics):

@@ -133,6 +133,8 @@ ClientAction: TypeAlias = (
     Play | Pause | Step | Reset | Reload | SetSpeed | Seek | MoveJoint | MoveSlider | MoveJoystick | SaveRviz | Record
 )
 """Requests that arrive over the page's socket."""
+GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz
+"""Requests to nodes of the graph; all others are to what the page shows."""
 PageAction: TypeAlias = ClientAction | RenderView
 
 

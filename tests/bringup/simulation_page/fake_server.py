@@ -1,17 +1,19 @@
 """A page's server that keeps what it is given."""
 
 import queue
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from trundle.page import PageAction, Request
+from trundle.bringup.shared_page import SharedPage
+from trundle.page import PageAction, PageServer, Request, Session
 
 
 class FakeServer:
     """Stands for `trundle.page.PageServer`; everything is watched."""
 
     url = "http://localhost:1"
+    generation = 0
 
     def __init__(self) -> None:
         self.watched: set[str] | None = None
@@ -32,9 +34,12 @@ class FakeServer:
         self.pending.append(Request(len(self.pending) + len(self.answers), action))
         return self.pending[-1].id
 
-    def requests(self) -> list[Request]:
+    def requests(self, **_: object) -> list[Request]:
         pending, self.pending = self.pending, []
         return pending
+
+    def set_session(self, session: Session) -> None:
+        self.session = session
 
     def set_notice(self, notice_id: str, text: str | None) -> None:
         self.notices.append((notice_id, text))
@@ -68,3 +73,9 @@ class FakeServer:
 
     def close(self) -> None:
         self.is_closed = True
+
+
+def shared_page() -> tuple[SharedPage, FakeServer]:
+    """A page without ROS, on a server that keeps what it is given."""
+    server = FakeServer()
+    return SharedPage(say=print, server=cast(PageServer, server)), server

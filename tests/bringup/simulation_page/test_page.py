@@ -4,26 +4,26 @@ import io
 import json
 import time
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 from urllib.request import urlopen
 
 import numpy as np
 import pytest
 from msgspec import UNSET
 from PIL import Image
-from tests.bringup.simulation_page.fake_server import FakeServer
+from tests.bringup.simulation_page.fake_server import shared_page
 from tests.bringup.simulation_page.worlds import BOX, CAMERA, lidar, loaded, model
 from tests.gltf.glb import Glb
 from tests.page_client import ProtocolClient
 from tests.skinned import bending_column
 
 from trundle.bringup.realtime_pacer import RealtimePacer
+from trundle.bringup.shared_page import SharedPage
 from trundle.bringup.simulation_page.page import SimulationPage
 from trundle.bringup.state_logs import PageRecording
 from trundle.page import (
     LINES,
     MoveJoint,
-    PageServer,
     Pause,
     Play,
     Record,
@@ -57,16 +57,9 @@ class Shown:
     """A simulation with a page."""
 
     def __init__(self, sim: Simulation, sensors: Any = (), recorder: Any = None, timeline: Any = None) -> None:
-        self.sim, self.clock, self.server = sim, Clock(), FakeServer()
-        self.page = SimulationPage(
-            cast(PageServer, self.server),
-            sim,
-            sensors,
-            has_graph=False,
-            recorder=recorder,
-            timeline=timeline,
-            wall_ns=self.clock,
-        )
+        self.sim, self.clock = sim, Clock()
+        page, self.server = shared_page()
+        self.page = SimulationPage(page, sim, sensors, recorder=recorder, timeline=timeline, wall_ns=self.clock)
         self.pacer = RealtimePacer(1.0)
         self.paused = False
 
@@ -362,9 +355,10 @@ def test_lines_of_plugins_and_rays_are_put_with_their_names(tmp_path: Path) -> N
 
 def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -> None:
     sim, sensors = loaded(tmp_path, model("eye", CAMERA + BOX) + model("ball", BOX, static=False))
+    shared = SharedPage(say=print, at=PageAddress(port=0))
     with (
-        SimulationPage.open(sim, sensors, PageAddress(port=0)) as page,
-        ProtocolClient(page.url) as client,
+        SimulationPage(shared, sim, sensors) as page,
+        ProtocolClient(str(shared.url)) as client,
     ):
         pacer = RealtimePacer(None)
 
@@ -383,7 +377,7 @@ def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -
 
         manifest = json.loads(client.payloads("trundle/world")[-1])
         for url in (*(file["url"] for file in manifest["files"]), *manifest["resources"]):
-            with urlopen(f"{page.url}/{url}") as answer:
+            with urlopen(f"{shared.url}/{url}") as answer:
                 content = answer.read()
             assert Glb(content).tree if url.endswith(".glb") else content
 

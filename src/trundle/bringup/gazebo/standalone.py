@@ -8,11 +8,12 @@ from pathlib import Path
 
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import BuiltinReplacement, NodeHost, run_builtin_node
-from trundle.page_address import PageAddress
+from trundle.page import GraphAddress
 from trundle.ros import GraphLoop, Message, Node
 
 from ..console import Console
 from ..graph import Graph
+from ..shared_page import SharedPage
 from .world import GazeboWorld
 
 OPEN_WINDOW = "/gazebo/open_window"
@@ -42,7 +43,7 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
             report=report,
             folder=logs / "spawned",
             say=console.line,
-            window=PageAddress(),
+            page=SharedPage(say=console.line, graph=GraphAddress(master_uri=graph.master_uri, host=graph.host)),
         )
         node.advertise_service(OPEN_WINDOW, "std_srvs/Trigger", lambda _: _open_window(world, node))
         kind = "Gazebo" if window else "GazeboServer"

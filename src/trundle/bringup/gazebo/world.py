@@ -10,8 +10,6 @@ from trundle.description import load
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import World
 from trundle.packages import Packages
-from trundle.page import GraphAddress
-from trundle.page_address import PageAddress
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -21,6 +19,7 @@ from ..graph import Graph
 from ..lockstep import Lockstep
 from ..realtime_pacer import shorten_gil_interval
 from ..renderers import RendererName
+from ..shared_page import SharedPage
 from .contents import GazeboContents
 from .gzclient_page import GzclientPage
 from .simulation_thread import SimulationThread
@@ -42,7 +41,7 @@ class GazeboWorld:
         report: Diagnostics,
         folder: Path,
         say: Callable[[str], None],
-        window: PageAddress | None,
+        page: SharedPage | None,
         speed: float | None = 1.0,
         renderer: RendererName = "cpu",
         steps: Lockstep | None = None,
@@ -56,7 +55,7 @@ class GazeboWorld:
             report: takes findings of files and physics.
             folder: keeps the text of each spawned model; messages name its lines.
             say: prints a line.
-            window: address of the page; None: headless.
+            page: of the graph's windows; None: headless.
             speed: times real time; None: flat out.
             renderer: draws the cameras' images.
             steps: holds time until the nodes are done; None: time is free.
@@ -68,7 +67,7 @@ class GazeboWorld:
         self._folder = folder
         self._say = say
         self._renderer: RendererName = renderer
-        self._window = GzclientPage(window, GraphAddress(master_uri=graph.master_uri, host=graph.host), say)
+        self._window = GzclientPage(page, say)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
         self._stepper = GazeboStepper(graph.loop, self._thread, speed=speed, lockstep=steps, say=say)
@@ -120,16 +119,6 @@ class GazeboWorld:
         if self._thread.stop() and self._contents is not None:
             self._contents.close_plugins()
             self._contents = None
-
-    @property
-    def url(self) -> str | None:
-        """URL of the page; None before it is served."""
-        return self._window.url
-
-    @property
-    def is_over(self) -> bool:
-        """True if there will be no page."""
-        return self._window.is_over
 
     @property
     def is_open(self) -> bool:

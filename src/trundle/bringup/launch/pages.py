@@ -1,4 +1,4 @@
-"""Pages that a launch's nodes open, and their URLs."""
+"""Page that a launch's nodes open, and its URL."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -22,26 +22,17 @@ class OpeningPage(Protocol):
     def is_over(self) -> bool: ...
 
 
-def opening_pages(
-    launched: Sequence[Launched], graph: OpeningPage | None, world: OpeningPage | None
-) -> Sequence[OpeningPage]:
-    """Select the pages that the started nodes open.
-
-    Args:
-        launched: the nodes.
-        graph: page of the ROS graph, which rviz and the like open; None: headless.
-        world: page of the simulated world, which gzclient or gazebo opens.
-    """
+def opens_page(launched: Sequence[Launched]) -> bool:
+    """Return True if one of the started nodes opens the page, as rviz, rqt's programs and gzclient do."""
     started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
-    expected = ((world, not CLIENTS.isdisjoint(started)), (graph, not WINDOWS.isdisjoint(started)))
-    return [page for page, opens in expected if page is not None and opens]
+    return not (CLIENTS | WINDOWS).isdisjoint(started)
 
 
-def await_urls(pages: Sequence[OpeningPage], is_ending: Callable[[], bool]) -> list[str]:
-    """Wait until each page is served or will not be; return the URLs."""
+def await_url(page: OpeningPage, is_ending: Callable[[], bool]) -> str | None:
+    """Wait until the page is served or will not be; return its URL."""
     deadline = time.monotonic() + _TIMEOUT_S
     while not is_ending() and time.monotonic() < deadline:
-        if all(page.url is not None or page.is_over for page in pages):
+        if page.url is not None or page.is_over:
             break
         time.sleep(_POLL_S)
-    return [page.url for page in pages if page.url is not None]
+    return page.url

@@ -106,15 +106,15 @@ class RunningNodes:
             say(text)
 
 
-def what_runs(launched: Sequence[Launched], pages: Sequence[str] = ()) -> str:
-    """Table of the nodes by kind: process, stand-in, missing, failed; then the URLs of pages."""
+def what_runs(launched: Sequence[Launched], page: str | None = None) -> str:
+    """Table of the nodes by kind: process, stand-in, missing, failed; then the URL of the page."""
     rows = [(entry.kind, entry.node.full_name, entry.what) for entry in launched]
     widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
     return "\n".join(
         [
             "WHAT RUNS",
             *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows),
-            *(f"  {'page':<{widths[0]}}  {url}" for url in pages),
+            *([] if page is None else [f"  {'page':<{widths[0]}}  {page}"]),
         ]
     )
 

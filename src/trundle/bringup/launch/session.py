@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Self
 
 from trundle.garbage import no_garbage
 from trundle.launch import LaunchNode, LaunchPlan
-from trundle.nodes import WINDOWS, WORLDS, Executable, NodeHost, Simulator, find_node
+from trundle.nodes import WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.page_address import PageAddress
 from trundle.ros import DISTROS, Clock, Node, Recorder, RecorderOptions, StepRecorder, follow_time
 from trundle.spatial import NS_PER_S
@@ -24,13 +24,13 @@ from .loaded_launch import LoadedLaunch
 from .logs import LaunchLog, log_folder
 from .nodes import NodeStarter
 from .options import LaunchOptions
-from .pages import await_urls, opening_pages
+from .pages import await_url, opens_page
 from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
 
 if TYPE_CHECKING:
-    from ..gazebo.world import GazeboWorld
-    from ..graph_page import GraphPage
+    from ..shared_page import SharedPage
+
 
 _START_S = 60.0
 """Starting programs takes long on a busy machine."""
@@ -67,8 +67,7 @@ class LaunchSession:
         self._running: RunningNodes | None = None
         self.recording_broke_off = False
         self._lockstep: Lockstep | None = None
-        self._page: GraphPage | None = None
-        self._world: GazeboWorld | None = None
+        self._page: SharedPage | None = None
         try:
             with no_garbage():
                 self._open(ports, rosout=rosout)
@@ -111,24 +110,40 @@ class LaunchSession:
             if publishes_clock:
                 show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
                 self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
-        if not options.headless:
-            from ..graph_page import GraphPage  # a launch without a page does not wait for it
+        page = self._page = None if options.headless else self._shared_page()
+        if page is None:
+            display = None
+        else:
+            from ..graph_page import GraphPage
 
-            at = PageAddress(host=options.host, port=options.view_port, allowed=options.allowed)
-            self._page = page = GraphPage(say=show.line, at=at, source=next(iter(read.plan.files), None))
-            self._open_things.callback(page.close)
+            display = GraphPage(page)
         tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
         self.starter = NodeStarter(
             graph=graph,
             packages=read.packages,
             env=read.env,
             report=read.report,
-            host=NodeHost(display=self._page, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            host=NodeHost(display=display, simulator=self._simulator(logs) if _simulates(read.plan) else None),
             tree=tree,
             log_folder=logs,
             output=options.output,
             all_required=options.all_required,
         )
+
+    def _shared_page(self) -> "SharedPage":
+        from trundle.page import GraphAddress  # a launch without a page does not wait for it
+
+        from ..shared_page import SharedPage
+
+        graph, options, read = self.graph, self._options, self._read
+        page = SharedPage(
+            say=read.show.line,
+            at=PageAddress(host=options.host, port=options.view_port, allowed=options.allowed),
+            graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
+            source=next(iter(read.plan.files), None),
+        )
+        self._open_things.callback(page.close)
+        return page
 
     def _record(self, file: Path, in_step: bool, programs: Sequence[str]) -> StepRecorder | None:
         """Record every topic into a bag; return the recorder if it writes in lockstep with the nodes."""
@@ -193,28 +208,20 @@ class LaunchSession:
         from ..gazebo.world import GazeboWorld  # a launch without Gazebo does not wait for the physics
 
         options, read = self._options, self._read
-        gazebo = self._world = GazeboWorld(
+        gazebo = GazeboWorld(
             graph=self.graph,
             start=read.start,
             env=read.env,
             report=read.report,
             folder=logs / "spawned",
             say=read.show.line,
-            window=None
-            if options.headless
-            else PageAddress(host=options.host, port=self._window_port(), allowed=options.allowed),
+            page=self._page,
             speed=options.speed,
             renderer=options.renderer,
             steps=self._lockstep,
         )
         self._open_things.callback(gazebo.close)
         return gazebo
-
-    def _window_port(self) -> int | None:
-        """Port of the simulation's page: the next one if rviz or the like has a page, too."""
-        port = self._options.view_port
-        is_beside = any((node.package, node.type) in WINDOWS for node in self._read.plan.nodes)
-        return port + 1 if port and is_beside else port
 
     def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
         """Start nodes, unless the end comes first, and print the table of them."""
@@ -230,9 +237,9 @@ class LaunchSession:
             steps.start()
         self._read.show.findings()
         if running.launched and not options.quiet:
-            pages = opening_pages(running.launched, self._page, self._world)
-            urls = await_urls(pages, lambda: is_ending() or running.is_over)
-            self._say(what_runs(running.launched, urls))
+            page = self._page if opens_page(running.launched) else None
+            url = None if page is None else await_url(page, lambda: is_ending() or running.is_over)
+            self._say(what_runs(running.launched, url))
         return running
 
     def _say(self, text: str) -> None:

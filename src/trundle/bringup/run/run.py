@@ -60,8 +60,6 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         page = None
         if not options.headless:
             page = open_things.enter_context(_open_page(world, options, show.line))
-            show.line(f"see it at {page.url}")
-            show.line(f"Foxglove connects to {page.foxglove_url}")
         wall_s = _simulate(world, page, options, stop, show.line)
         show.findings()
         simulation = world.simulation
@@ -82,17 +80,20 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
     """Serve the page; with ROS it joins the graph, and drives what listens to /cmd_vel."""
     from trundle.page import GraphAddress
 
+    from ..shared_page import SharedPage
     from ..simulation_page.page import SimulationPage
     from ..state_logs import PageRecording
 
     ros = world.ros
-    page = SimulationPage.open(
+    page = SimulationPage(
+        SharedPage(
+            say=say,
+            at=PageAddress(host=options.host, port=options.port, allowed=options.allowed),
+            graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
+        ),
         world.simulation,
         (*world.cameras, *world.sensors),
-        PageAddress(host=options.host, port=options.port, allowed=options.allowed),
-        graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
         node=None if ros is None else ros.node,
-        drive_topic=None if ros is None else "/cmd_vel",
         recorder=PageRecording(world.simulation, say),
         timeline=world.timeline,
     )

@@ -5,27 +5,22 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Self
 
-from msgspec.structs import replace
-
 from trundle.bridge import WORLD_FRAME
 from trundle.diagnostics import TrundleError
 from trundle.page import (
-    GraphAddress,
-    PageServer,
     Play,
     Reload,
     RenderView,
     Reset,
-    Session,
     Step,
 )
-from trundle.page_address import PageAddress
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.timeline import Timeline
 
 from ..realtime_pacer import RealtimePacer
+from ..shared_page import SharedPage
 from .controls import Recorder, SimulationControls, reason_of
 from .pictures import WorldPictures
 from .titles import page_names
@@ -39,86 +34,41 @@ class SimulationPage:
 
     def __init__(
         self,
-        server: PageServer,
+        page: SharedPage,
         simulation: Simulation,
         sensors: Sequence[CameraSensor | InstrumentSensor],
         *,
-        has_graph: bool,
+        node: Node | None = None,
         recorder: Recorder | None = None,
         timeline: Timeline | None = None,
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        """Show a simulation.
+        """Serve the page, and show a simulation there.
 
         Args:
-            server: the page's.
+            page: which windows of the graph may share.
             simulation: the running one.
             sensors: those that measure; cameras and rays are drawn.
-            has_graph: True if the page's server gets pictures from the ROS graph.
+            node: publishes the stop of a robot that is driven when the page's server dies.
             recorder: records the run; None: it cannot be recorded.
             timeline: of the run; None: it cannot go back.
             wall_ns: the wall clock [ns].
-        """
-        self.on_reload: Callable[[], None] | None = None
-        """Loads the world again, and calls `show`; None: it cannot be."""
-        self._server = server
-        self._session: Session | None = None
-        self._warning: str | None = None
-        self._streams = WorldStreams(server, has_graph=has_graph, wall_ns=wall_ns)
-        self._pictures = WorldPictures(server.respond_picture)
-        self._set_simulation(simulation, sensors, recorder, timeline)
-
-    @classmethod
-    def open(
-        cls,
-        simulation: Simulation,
-        sensors: Sequence[CameraSensor | InstrumentSensor],
-        at: PageAddress,
-        *,
-        graph: GraphAddress | None = None,
-        node: Node | None = None,
-        drive_topic: str | None = None,
-        recorder: Recorder | None = None,
-        timeline: Timeline | None = None,
-    ) -> Self:
-        """Serve the page.
-
-        Args:
-            simulation: the running one.
-            sensors: those that measure.
-            at: address to bind.
-            graph: ROS graph that the page joins; None: without ROS.
-            node: publishes the stop of a robot that is driven when the page's server dies.
-            drive_topic: velocity commands of the page; None: driving is not offered.
-            recorder: records the run; None: it cannot be recorded.
-            timeline: of the run; None: it cannot go back.
 
         Raises:
             UsageError: the port is taken.
         """
-        title, robot = page_names(simulation.world)
-        session = Session(
-            title=title,
-            kind="simulation",
-            robot=robot,
-            fixed_frame=WORLD_FRAME,
-            drive_topic=drive_topic,
-        )
+        self.on_reload: Callable[[], None] | None = None
+        """Loads the world again, and calls `show`; None: it cannot be."""
+        self._page = page
+        self._warning: str | None = None
         source = Path(simulation.world.at.file)
-        server = PageServer.start(session, at=at, graph=graph, node=node, source=source if source.exists() else None)
-        page = cls(server, simulation, sensors, has_graph=graph is not None, recorder=recorder, timeline=timeline)
-        page._session = session
-        return page
-
-    @property
-    def url(self) -> str:
-        """URL of the page."""
-        return self._server.url
-
-    @property
-    def foxglove_url(self) -> str:
-        """Address for Foxglove and Lichtblick, with the token."""
-        return self._server.foxglove_url
+        if page.session.rviz is None and page.session.fixed_frame is None:
+            page.change(fixed_frame=WORLD_FRAME)
+        self._set_titles(simulation)
+        self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
+        self._streams = WorldStreams(self._server, has_graph=page.has_graph, wall_ns=wall_ns)
+        self._pictures = WorldPictures(self._server.respond_picture)
+        self._set_simulation(simulation, sensors, recorder, timeline)
 
     def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Set the sensors that measure after models came or went."""
@@ -133,13 +83,10 @@ class SimulationPage:
         recorder: Recorder | None,
         timeline: Timeline | None = None,
     ) -> None:
-        """Show another simulation in place of the one before; arguments are those of `open`."""
+        """Show another simulation in place of the one before; arguments are those of the constructor."""
+        self._set_titles(simulation)
         self._server.set_node(node)
         self._set_simulation(simulation, sensors, recorder, timeline)
-        if self._session is not None:
-            title, robot = page_names(simulation.world)
-            self._session = replace(self._session, title=title, robot=robot)
-            self._server.set_session(self._session)
 
     def _set_simulation(
         self,
@@ -151,6 +98,10 @@ class SimulationPage:
         self._simulation = simulation
         self._controls = SimulationControls(simulation, recorder, timeline)
         self._streams.show(simulation, sensors, recorder, timeline)
+
+    def _set_titles(self, simulation: Simulation) -> None:
+        title, robot = page_names(simulation.world)
+        self._page.change(kind="simulation", title=title, robot=robot)
 
     def warn(self, text: str | None) -> None:
         """Show a sentence until a person plays, steps, resets or reloads; None: end it."""
@@ -169,7 +120,7 @@ class SimulationPage:
 
     def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Handle the requests since the last call; return True if the simulation is paused now."""
-        requests = self._server.requests()
+        requests = self._page.requests(of_world=True)
         for request in requests:
             if isinstance(request.action, RenderView):
                 self._draw(request.id, request.action)
@@ -200,7 +151,7 @@ class SimulationPage:
         """Close the page."""
         self._streams.close()
         self._pictures.close()
-        self._server.close()
+        self._page.release(shows_world=True)
 
     def __enter__(self) -> Self:
         return self

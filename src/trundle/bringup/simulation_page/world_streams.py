@@ -48,7 +48,7 @@ class WorldStreams:
         self._rays = RayOverlay(lambda: server.is_watched(LINES))
         self._bodies = BodyNumbers()
         self._builder = WorldBuilder()
-        self._generation = 0
+        self._generation = server.generation
         self._cameras: set[CameraSensor] = set()
         """Cameras whose pictures go to the page from here."""
         self._frame_due_ns = self._slow_due_ns = 0

@@ -35,6 +35,6 @@ def main(_: argparse.Namespace) -> int:
             raise UsageError(f"gzserver does not open its page: {error}") from None
         if url is None:
             raise UsageError("gzserver cannot serve its page; it says why")
-        print(f"see the simulation at {url}", flush=True)
+        print(f"see it at {url}", flush=True)
         loop.run(node.closed.wait(), None)
     return 0

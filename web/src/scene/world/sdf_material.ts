@@ -52,6 +52,10 @@ export function sdfMaterial(colours: SdfColours, texture: Texture | null, isFlat
   }
   const isTransparent = diffuse[3] < 1;
   const material = new ShaderMaterial({
+    // behind what displays draw at the same place: rviz's model of a robot that is simulated
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
     vertexShader: VERTEX_SHADER,
     fragmentShader: "",
     uniforms: own,
