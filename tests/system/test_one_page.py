@@ -16,7 +16,10 @@ _RVIZ = {
         "Views": {"Current": {"Class": "rviz/Orbit", "Distance": 6, "Pitch": 0.6, "Yaw": 0.8}},
     }
 }
-_LAUNCH = """<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/>
+_WORLD = """<sdf version="1.6"><world name="default">
+<model name="post"><static>true</static><link name="l"><hue>3</hue></link></model></world></sdf>"""
+_LAUNCH = """<launch><include file="$(find gazebo_ros)/launch/empty_world.launch">
+<arg name="world_name" value="$(dirname)/yard.world"/></include>
 <node pkg="rviz" type="rviz" name="see" args="-d $(dirname)/see.rviz"/>
 <node pkg="joy" type="joy_node" name="stick"/></launch>"""
 
@@ -24,6 +27,7 @@ _LAUNCH = """<launch><include file="$(find gazebo_ros)/launch/empty_world.launch
 @pytest.fixture
 def launch(tmp_path: Path) -> str:
     (tmp_path / "see.rviz").write_text(json.dumps(_RVIZ))  # JSON is YAML
+    (tmp_path / "yard.world").write_text(_WORLD)
     (tmp_path / "both.launch").write_text(_LAUNCH)
     return str(tmp_path / "both.launch")
 
@@ -44,7 +48,7 @@ def test_gazebo_and_rviz_are_on_one_page(start: Any, until: Any, launch: str, en
 
         client.until(lambda: session().get("kind") == "simulation")
         client.until(lambda: client.payloads("trundle/world"))
-        assert session()["title"] == "empty"
+        assert session()["title"] == "yard"
         assert session()["rviz"]["name"] == "see.rviz"
         assert session()["fixed_frame"] is None  # the file has one
         requests: tuple[dict[str, Any], ...] = (
@@ -67,9 +71,11 @@ def test_gazebo_and_rviz_are_on_one_page(start: Any, until: Any, launch: str, en
 def test_a_person_finds_the_world_and_the_displays_on_it(chromium: Any, launch: str, tmp_path: Path) -> None:
     words = ("launch", launch, "--port", "0", "--view-port", "0")
     with running_page(*words, environment={"HOME": str(tmp_path)}) as url, opened(chromium, url) as page:
-        page.get_by_text("ground_plane").first.wait_for()
+        page.get_by_text("post").first.wait_for()
         page.get_by_role("tab", name="Displays").first.click()
         page.get_by_text("Where the world begins").first.wait_for()
         page.get_by_role("button", name="Pause", exact=True).first.click()
         page.get_by_role("button", name="Play", exact=True).first.wait_for()
         until(page, lambda: page.get_by_label("Fixed Frame").first.input_value() == "map", "the file's frame")
+        page.get_by_role("button", name="Details").click()
+        page.get_by_role("dialog").get_by_text("yard.world:2: <hue>").wait_for()

@@ -27,7 +27,7 @@ export class FakeConnection implements Connection {
   readonly parameters = signal<ReadonlyMap<string, ParameterValue>>(new Map());
   readonly floatParameters = signal<ReadonlySet<string>>(new Set());
   readonly graph = signal<GraphInfo>({ types: new Map(), publishers: new Map(), subscribers: new Map(), services: new Map() });
-  readonly notices = signal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string }[]>([]);
+  readonly notices = signal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]>([]);
 
   /** ROS time [ns]; a test sets it. */
   time = 0n;

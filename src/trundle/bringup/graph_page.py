@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from trundle.atomic_write import write_atomically
-from trundle.diagnostics import DescriptionError, Source, TrundleError, UsageError
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, TrundleError, UsageError
 from trundle.files import read_file
 from trundle.nodes import Slider
 from trundle.page import (
@@ -37,9 +37,15 @@ class GraphPage:
     All methods but the properties and `close` are called on the graph's loop.
     """
 
-    def __init__(self, page: SharedPage) -> None:
-        """Prepare; `show` serves the page."""
+    def __init__(self, page: SharedPage, report: Diagnostics | None = None) -> None:
+        """Prepare; `show` serves the page.
+
+        Args:
+            page: which a simulation may share.
+            report: takes warnings about the files of the launch; the page shows them.
+        """
         self._page = page
+        self._report = report
         self._config: Path | None = None
         self._owner: Node | None = None
         self._move_slider: MoveJoint | None = None
@@ -117,6 +123,8 @@ class GraphPage:
         try:
             while server.alive and not node.closed.is_set():
                 self._handle_requests(server)
+                if self._report is not None:
+                    self._page.show_findings(self._report)
                 await asyncio.sleep(_PERIOD_S)
         finally:
             self._page.release()

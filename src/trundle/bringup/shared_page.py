@@ -6,11 +6,13 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from trundle.diagnostics import UsageError
+from trundle.diagnostics import Diagnostics, UsageError
 from trundle.page import GraphAddress, PageServer, Request, Session
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 
+_MAX_FINDINGS = 60
+"""Most warnings about files on the page."""
 CMD_VEL = "/cmd_vel"
 """Topic of velocity commands until a window asks for another."""
 
@@ -47,6 +49,9 @@ class SharedPage:
         self._session = Session(title="ROS", kind="graph", drive_topic=None if graph is None else CMD_VEL)
         self._users = {False: 0, True: 0}
         """Windows that show the graph, and those that show a simulated world."""
+        self._findings: tuple[Diagnostics, int] | None = None
+        """Collection that is shown, and how many of its findings."""
+        self._notices = 0
         self._is_over = False
         self._starting = threading.Lock()
         self._lock = threading.Lock()
@@ -109,12 +114,24 @@ class SharedPage:
             if self._is_over:
                 server.close()
                 raise UsageError("the page was closed while it was being opened")
-            self._server = server
+            self._server, self._findings, self._notices = server, None, 0
             if self._session is not started:
                 server.set_session(self._session)
         self._say(f"see it at {server.url}")
         self._say(f"Foxglove connects to {server.foxglove_url}")
         return server
+
+    def show_findings(self, report: Diagnostics) -> None:
+        """Show the warnings about files, `file:line: text`; to be called whenever there may be new ones."""
+        with self._lock:
+            server, shown = self._server, (report, len(report.findings))
+            if server is None or shown == self._findings:
+                return
+            self._findings = shown
+            texts = _warnings(report)
+            for number in range(max(len(texts), self._notices)):
+                server.set_notice(f"file/{number}", texts[number] if number < len(texts) else None)
+            self._notices = len(texts)
 
     def requests(self, *, of_world: bool) -> list[Request]:
         """Return new requests to the windows of one kind; those of the other kind, too, where it has no window."""
@@ -138,3 +155,12 @@ class SharedPage:
             server, self._server = self._server, None
         if server is not None:
             server.close()
+
+
+def _warnings(report: Diagnostics) -> list[str]:
+    """Return warnings and errors, the first of them if they are very many; one about many lines of a file is one."""
+    own = Diagnostics()
+    own.extend(finding for finding in report.findings if finding.severity != "info")
+    texts = [text.replace(": warning: ", ": ", 1) for text in own.worst_first()]
+    rest = len(texts) - _MAX_FINDINGS
+    return texts if rest <= 0 else [*texts[:_MAX_FINDINGS], f"{rest} more, which the terminal shows"]

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import time
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from trundle.bringup.realtime_pacer import RealtimePacer
 from trundle.bringup.shared_page import SharedPage
 from trundle.bringup.simulation_page.page import SimulationPage
 from trundle.bringup.state_logs import PageRecording
+from trundle.diagnostics import Source
 from trundle.page import (
     LINES,
     MoveJoint,
@@ -103,6 +105,20 @@ def test_a_texture_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
     assert warning.endswith(
         "paint.png: warning: the texture cannot be read: it is not an image; a plain colour is drawn"
     )
+
+
+def test_warnings_about_the_files_are_notices_with_their_line(tmp_path: Path) -> None:
+    """The page counts them, and lists each."""
+    shown = Shown(loaded(tmp_path, '<model name="m"><link name="l"><hue>3</hue></link></model>')[0])
+    shown.update()
+    ((name, text),) = shown.server.notices
+    assert name == "file/0"
+    assert re.fullmatch(r"\S+:\d+: <hue> .*", str(text))
+
+    shown.sim.report.warn(Source("cart.sdf", 7), "mass must be > 0 kg")
+    shown.update(1.0)
+    shown.update(1.0)
+    assert shown.server.notices[2:] == [("file/1", "cart.sdf:7: mass must be > 0 kg")]
 
 
 def test_poses_are_those_of_the_simulation(cart: Shown) -> None:

@@ -17,6 +17,8 @@ export interface Notice {
 }
 
 const KEPT = 100;
+/** Begin of the ids of warnings about the world's, the robot's and the launch's files. */
+const FILE = "file/";
 
 export class Notices {
   private readonly reports = signal<readonly Notice[]>([]);
@@ -31,15 +33,18 @@ export class Notices {
     const unsupported = computed(() =>
       displays.unsupported.value.map(({ name, className, reason }): Notice => ({ level: "warn", title: name || className, text: reason })),
     );
+    const isWritten = (id: string | undefined): boolean => id?.startsWith(FILE) ?? false;
+    const told = computed(() => connection.notices.value.filter(({ level }) => level !== "info"));
     const server = computed(() =>
-      connection.notices.value
-        .filter(({ level }) => level !== "info")
+      told.value
+        .filter(({ id }) => !isWritten(id))
         .map(({ level, text }): Notice => ({ level: level === "error" ? "error" : "warn", title: "Server", text })),
     );
-    const files = computed(() => world.faults.value.map((text): Notice => ({ level: "warn", title: "World", text })));
-    this.all = computed(() => bySeverity([...this.reports.value, ...server.value, ...files.value, ...faults.value, ...unsupported.value]));
+    const files = computed(() => told.value.filter(({ id }) => isWritten(id)).map(({ text }): Notice => ({ level: "warn", title: "File", text })));
+    const drawn = computed(() => world.faults.value.map((text): Notice => ({ level: "warn", title: "World", text })));
+    this.all = computed(() => bySeverity([...this.reports.value, ...server.value, ...files.value, ...drawn.value, ...faults.value, ...unsupported.value]));
     this.line = computed(() => {
-      const line = summary(this.reports.value, [...server.value, ...files.value], faults.value, unsupported.value.length);
+      const line = summary(this.reports.value, [...server.value, ...drawn.value], faults.value, unsupported.value.length, files.value);
       return line.text === this.dismissed.value ? { level: "ok", text: "" } : line;
     });
   }
@@ -79,6 +84,7 @@ function summary(
   server: readonly Notice[],
   faults: readonly Notice[],
   unsupported: number,
+  files: readonly Notice[],
 ): { level: StatusLevel; text: string } {
   const displays = (which: (notice: Notice) => boolean): number => new Set(faults.filter(which).map((notice) => notice.display)).size;
   const isTransform = (notice: Notice): boolean => /no transform|fixed frame/i.test(notice.text);
@@ -100,6 +106,7 @@ function summary(
   say(unsupported, "1 display is not supported", "displays are not supported");
   if (server.length === 1) parts.push(server[0]?.text ?? "");
   else if (server.length > 1) parts.push(count(server.length, "warning"));
+  say(files.length, files[0]?.text ?? "", "warnings about the files");
   const level = [...reports, ...server].some((notice) => notice.level === "error") ? "error" : "warn";
   return { level, text: parts.join(" · ") };
 }

@@ -68,8 +68,8 @@ export interface Connection {
   /** Parameters whose numbers are floating-point even where they are whole; setting one keeps it so. */
   readonly floatParameters: ReadonlySignal<ReadonlySet<string>>;
   readonly graph: ReadonlySignal<GraphInfo>;
-  /** Messages of the server about itself, newest last. */
-  readonly notices: ReadonlySignal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string }[]>;
+  /** Messages of the server about itself, newest last; one with an id takes the place of the earlier one with it. */
+  readonly notices: ReadonlySignal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]>;
   /** ROS time now [ns]: of /clock where it is used, else the wall's. */
   now(): bigint;
 

@@ -29,3 +29,14 @@ it("counts missing meshes, not the displays that want them", () => {
   for (const name of ["rviz/RobotModel", "rviz/Marker"]) page.displays.show(name, null, null).status("error", "Could not load mesh resource 'package://a/b.dae'");
   expect(notices.line.value.text).toBe("2 meshes are missing");
 });
+
+it("counts warnings about files, and lists each with its line", () => {
+  const page = fakePage();
+  const notices = new Notices(page);
+  const warning = (line: number): { level: "warning"; text: string; id: string } => ({ level: "warning", text: `cart.sdf:${line}: mass must be > 0 kg`, id: `file/${line}` });
+  page.connection.notices.value = [warning(3)];
+  expect(notices.line.value).toEqual({ level: "warn", text: "cart.sdf:3: mass must be > 0 kg" });
+  page.connection.notices.value = [warning(3), warning(7), { level: "warning", text: "38 meshes are missing" }];
+  expect(notices.line.value.text).toBe("38 meshes are missing · 2 warnings about the files");
+  expect(notices.all.value.map(({ title, text }) => `${title} ${text}`)).toContain("File cart.sdf:7: mass must be > 0 kg");
+});

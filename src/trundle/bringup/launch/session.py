@@ -116,7 +116,7 @@ class LaunchSession:
         else:
             from ..graph_page import GraphPage
 
-            display = GraphPage(page)
+            display = GraphPage(page, read.report)
         tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
         self.starter = NodeStarter(
             graph=graph,

@@ -117,6 +117,7 @@ class SimulationPage:
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
         """Send the page what is due: poses and lines at 30 Hz, joints and the clock at 10 Hz, if they are watched."""
         self._streams.update(pacer, paused=paused, at_once=at_once)
+        self._page.show_findings(self._simulation.report)
 
     def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Handle the requests since the last call; return True if the simulation is paused now."""
