@@ -48,7 +48,7 @@ def test_a_request_is_read_by_its_name(text: str, action: PageAction) -> None:
         ('{"request": "dance"}', "Invalid value 'dance'"),
         ('{"request": "step", "count": 0}', "`int` >= 1"),
         ('{"request": "speed", "factor": -1}', "> 0"),
-        ('{"request": "joint", "model": "a", "joint": "b"}', "give one of 'position' and 'velocity'"),
+        ('{"request": "joint", "model": "a", "joint": "b"}', "give one of 'position', 'velocity' and 'effort'"),
         ('{"request": "joint", "model": "a", "joint": "b", "position": 1, "velocity": 1}', "give one of"),
         ('{"request": "seek", "time_ns": -1}', ">= 0"),
     ],

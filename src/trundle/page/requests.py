@@ -8,6 +8,8 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from .edit_requests import Action, EditAction
+
 _MAX_STEPS = 1_000_000
 _MAX_TEXT = 4_000_000
 Count: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=_MAX_STEPS)]
@@ -15,10 +17,6 @@ TimeNs: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
 Factor: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
 Values: TypeAlias = Annotated[tuple[float, ...], msgspec.Meta(max_length=64)]
 Text: TypeAlias = Annotated[str, msgspec.Meta(max_length=_MAX_TEXT)]
-
-
-class Action(msgspec.Struct, frozen=True, tag_field="request", tag=str.lower):
-    """Base of all requests."""
 
 
 class Play(Action, frozen=True):
@@ -55,22 +53,6 @@ class Seek(Action, frozen=True):
     """Go to a time of a recorded run or bag."""
 
     time_ns: TimeNs
-
-
-class MoveJoint(Action, frozen=True, tag="joint"):
-    """Move a joint of a simulated model: one of position and velocity is given."""
-
-    model: str
-    joint: str
-    position: float | None = None
-    """[rad or m]"""
-    velocity: float | None = None
-    """[rad/s or m/s]"""
-
-    def __post_init__(self) -> None:
-        """Check that one is given."""
-        if (self.position is None) == (self.velocity is None):
-            raise ValueError("give one of 'position' and 'velocity'")
 
 
 class MoveSlider(Action, frozen=True, tag="slider"):
@@ -130,7 +112,7 @@ class RenderView(Action, frozen=True, tag="camera"):
 
 
 ClientAction: TypeAlias = (
-    Play | Pause | Step | Reset | Reload | SetSpeed | Seek | MoveJoint | MoveSlider | MoveJoystick | SaveRviz | Record
+    Play | Pause | Step | Reset | Reload | SetSpeed | Seek | EditAction | MoveSlider | MoveJoystick | SaveRviz | Record
 )
 """Requests that arrive over the page's socket."""
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz

@@ -1,13 +1,12 @@
 """Requests of the page to a running simulation: time, joints and recording."""
 
-import math
 from collections.abc import Callable
 from functools import partial
 from typing import Protocol
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.page import (
-    MoveJoint,
+    EDITS,
     PageAction,
     Pause,
     Play,
@@ -18,15 +17,14 @@ from trundle.page import (
     SetSpeed,
     Step,
 )
-from trundle.simulation import JointHandle, Simulation
+from trundle.simulation import Simulation
 from trundle.timeline import Timeline
 
 from ..realtime_pacer import RealtimePacer
+from .edits import edit
 
 _STEPS_AT_ONCE = 100
 """Steps between two looks at the requests."""
-_JOINT_EFFORT = 10.0
-"""Effort limit of a joint without one of its own that the page moves [N·m or N]."""
 
 
 class Recorder(Protocol):
@@ -81,8 +79,8 @@ class SimulationControls:
                 pacer.restart()
             case SetSpeed(factor):
                 pacer.set_speed(factor)
-            case MoveJoint():
-                self._do(partial(_move_joint, action))
+            case _ if isinstance(action, EDITS):
+                self._do(partial(edit, action))
             case Seek(time_ns) if self.timeline is not None:
                 paused, self._steps = True, 0
                 self.timeline.seek(time_ns)
@@ -113,23 +111,6 @@ class SimulationControls:
             command(self._simulation)
         else:
             self.timeline.do(command)
-
-
-def _move_joint(move: MoveJoint, simulation: Simulation) -> None:
-    joint = _find_joint(simulation, move)
-    axis = joint.joint.axis
-    effort = math.inf if axis is not None and math.isfinite(axis.effort) else _JOINT_EFFORT
-    if move.position is not None:
-        joint.command_position(move.position, max_effort=effort)
-    elif move.velocity is not None:
-        joint.command_velocity(move.velocity, max_effort=effort)
-
-
-def _find_joint(simulation: Simulation, move: MoveJoint) -> JointHandle:
-    """Return the joint of a model, or of one nested in it, `outer::inner`."""
-    name = f"{move.model}::{move.joint}"
-    outer = max((m.name for m in simulation.models if name.startswith(f"{m.name}::")), key=len, default=move.model)
-    return simulation[outer].joint(name.removeprefix(f"{outer}::"))
 
 
 def reason_of(error: TrundleError) -> str:

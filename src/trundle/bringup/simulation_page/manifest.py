@@ -36,6 +36,7 @@ def world_manifest(
     return {
         "name": world.name,
         "scene": _scene(world),
+        "physics": {"gravity": world.physics.gravity, "wind": world.wind, "step": world.physics.max_step_size_s},
         "robot": _robot(world, bodies),
         "models": [_nested(_model(model, bodies, live, indices)) for model in world.models],
         "lights": [_light(light, "") for light in world.lights]
@@ -182,7 +183,12 @@ def _joint(joint: Joint, index: int | None) -> _Json:
 
 
 def _light(light: Light, prefix: str) -> _Json:
-    return {"name": f"{prefix}{light.name}", "type": light.type}
+    return {
+        "name": f"{prefix}{light.name}",
+        "type": light.type,
+        "diffuse": light.diffuse[:3],
+        "intensity": light.intensity,
+    }
 
 
 def _camera(camera: CameraSensor, bodies: BodyNumbers) -> _Json:

@@ -1,0 +1,122 @@
+"""Requests that change a simulated world while it runs; numbers are bounded, so that none destroys the state."""
+
+from typing import Annotated, TypeAlias
+
+import msgspec
+
+_Number: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
+_Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1)]
+_Friction: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1e6)]
+Name: TypeAlias = Annotated[str, msgspec.Meta(max_length=500)]
+Triple: TypeAlias = tuple[_Number, _Number, _Number]
+
+
+class Action(msgspec.Struct, frozen=True, tag_field="request", tag=str.lower):
+    """Base of all requests."""
+
+
+class MoveJoint(Action, frozen=True, tag="joint"):
+    """Drive a joint of a simulated model: one of position, velocity and effort is given."""
+
+    model: Name
+    joint: Name
+    position: _Number | None = None
+    """[rad or m]"""
+    velocity: _Number | None = None
+    """[rad/s or m/s]"""
+    effort: _Number | None = None
+    """[N·m or N]"""
+
+    def __post_init__(self) -> None:
+        """Check that one is given."""
+        if [self.position, self.velocity, self.effort].count(None) != 2:
+            raise ValueError("give one of 'position', 'velocity' and 'effort'")
+
+
+class SetPose(Action, frozen=True, tag="pose"):
+    """Move a model so that one of its links has this pose."""
+
+    model: Name
+    link: Name
+    position: Triple
+    """In the world [m]."""
+    orientation: tuple[_Number, _Number, _Number, _Number]
+    """Quaternion wxyz, of any length but zero."""
+
+    def __post_init__(self) -> None:
+        """Check that the quaternion has a direction."""
+        if sum(part * part for part in self.orientation) < 1e-12:
+            raise ValueError("the quaternion of an orientation is not zero")
+
+
+class SetTwist(Action, frozen=True, tag="twist"):
+    """Set the velocity of a model once, world axes."""
+
+    model: Name
+    linear: Triple
+    """[m/s]"""
+    angular: Triple
+    """[rad/s]"""
+
+
+class SetMass(Action, frozen=True, tag="mass"):
+    """Set the mass of a link; its moments of inertia change in proportion."""
+
+    model: Name
+    link: Name
+    mass: Annotated[float, msgspec.Meta(ge=1e-6, le=1e6)]
+    """[kg]"""
+
+
+class SetFriction(Action, frozen=True, tag="friction"):
+    """Set the friction of all collisions of a link."""
+
+    model: Name
+    link: Name
+    mu: _Friction
+    mu2: _Friction
+
+
+class SetLight(Action, frozen=True, tag="light"):
+    """Set the colour and intensity of a light."""
+
+    light: Name
+    """`name`, or `model::link::name` of one on a link."""
+    diffuse: tuple[_Share, _Share, _Share]
+    intensity: Annotated[float, msgspec.Meta(ge=0, le=1e6)]
+
+
+class SetPhysics(Action, frozen=True, tag="physics"):
+    """Set what is given of gravity, wind and time step."""
+
+    gravity: Triple | None = None
+    """[m/s²]"""
+    wind: Triple | None = None
+    """[m/s]"""
+    step: Annotated[float, msgspec.Meta(ge=1e-6, le=1.0)] | None = None
+    """[s]"""
+
+
+class ApplyWrench(Action, frozen=True, tag="wrench"):
+    """Push a link at its centre of mass, world axes."""
+
+    model: Name
+    link: Name
+    force: Triple
+    """[N]"""
+    torque: Triple
+    """[N·m]"""
+    duration: Annotated[float, msgspec.Meta(gt=0, le=1e6)]
+    """Simulated time [s]."""
+
+
+class DeleteModel(Action, frozen=True, tag="delete"):
+    """Remove a model from the world."""
+
+    model: Name
+
+
+EditAction: TypeAlias = (
+    MoveJoint | SetPose | SetTwist | SetMass | SetFriction | SetLight | SetPhysics | ApplyWrench | DeleteModel
+)
+EDITS = (MoveJoint, SetPose, SetTwist, SetMass, SetFriction, SetLight, SetPhysics, ApplyWrench, DeleteModel)
