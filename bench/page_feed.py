@@ -13,6 +13,7 @@ from bench.page import process, subscribe
 from bench.robots import rolling_robots
 from bench.table import Row
 from trundle.bringup.realtime_pacer import RealtimePacer
+from trundle.bringup.shared_page import SharedPage
 from trundle.bringup.simulation_page.page import SimulationPage
 from trundle.page import POSES, PageServer, Session
 from trundle.page_address import PageAddress
@@ -30,7 +31,7 @@ def run() -> list[Row]:
     sim = rolling_robots(_ROBOTS, rolling=_ROBOTS)
     wall = _Wall()
     with PageServer.start(Session(title="bench", kind="simulation"), at=PageAddress(port=0)) as server:
-        page = SimulationPage(server, sim, [], has_graph=False, wall_ns=wall)
+        page = SimulationPage(SharedPage(say=print, server=server), sim, [], wall_ns=wall)
         pacer = RealtimePacer(None)
 
         def show() -> None:
