@@ -13,6 +13,19 @@ from .page_address import AUTHORITY, NONE_ALLOWED, AllowedNames, is_address, is_
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class AccessWords:
+    """Texts of refusals: the server, and how to open it."""
+
+    server: str = "this page"
+    token: str = "open the address that trundle printed, with what follows '?token='"
+    host: str = "start trundle with --allow-host NAME"
+    origin: str = "start trundle with --allow-origin ORIGIN"
+
+
+_PAGE = AccessWords()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PageRequest:
     """Fields of an HTTP request or WebSocket upgrade that decide access."""
 
@@ -34,6 +47,13 @@ class Access:
     needs_token: bool = False
     """True if the token is required; always so off loopback."""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
+    serves_local_pages: bool = False
+    """True: pages of every port of this machine are served, as for a server without a page of its own."""
+    serves_null_origin: bool = False
+    """True: pages of files are served, whose origin is 'null', as is that of any page's sandboxed frame."""
+    is_open: bool = False
+    """True: every request is served, as by ROS' own servers."""
+    words: AccessWords = _PAGE
 
     def url(self, address: str, port: int) -> str:
         """Return the URL, with the token if required."""
@@ -42,21 +62,23 @@ class Access:
 
     def refusal(self, request: PageRequest) -> str | None:
         """Return the reason for refusing a request, as a sentence; None: it is served."""
-        if self._has_token_in_query(request) or (self._has_token_in_cookie(request) and _is_own(request)):
+        words = self.words
+        if self.is_open or self._has_token_in_query(request):
+            return None
+        if self._has_token_in_cookie(request) and _is_own(request):
             return None
         if self._is_closed:
-            return "this page asks for its token: open the address that trundle printed, with what follows '?token='"
+            return f"{words.server} asks for its token: {words.token}"
         if request.origin is not None and _plain(request.origin) in map(_plain, self.allowed.origins):
             return None
         if not self._allows_host(request.host):
             return (
-                f"this page is not served as {(request.host or '')[:100]!r}; open it at localhost, "
-                "or start trundle with --allow-host NAME"
+                f"{words.server} is not served as {(request.host or '')[:100]!r}; open it at localhost, or {words.host}"
             )
-        if not _is_own(request):
+        if not _is_own(request) and not self._serves_origin(request.origin or ""):
             return (
-                f"this page does not answer pages of {(request.origin or '')[:100]!r}; "
-                "start trundle with --allow-origin ORIGIN to let them in"
+                f"{words.server} does not answer pages of {(request.origin or '')[:100]!r}; "
+                f"{words.origin} to let them in"
             )
         return None
 
@@ -90,6 +112,14 @@ class Access:
     def _cookie(self) -> str:
         """Cookie name; the port distinguishes pages of one host."""
         return f"trundle-{self.port}"
+
+    def _serves_origin(self, origin: str) -> bool:
+        """True for local pages and files, where they are served."""
+        if origin == "null":
+            return self.serves_null_origin
+        scheme, separator, authority = origin.lower().partition("://")
+        is_web = bool(separator) and scheme in ("http", "https")
+        return self.serves_local_pages and is_web and is_loopback(_name(authority))
 
     def _has_token_in_query(self, request: PageRequest) -> bool:
         return self._matches(parse_qs(request.target.partition("?")[2]).get("token", [""])[-1])

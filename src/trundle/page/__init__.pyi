@@ -26,6 +26,7 @@ from .requests import SaveRviz as SaveRviz
 from .requests import Seek as Seek
 from .requests import SetSpeed as SetSpeed
 from .requests import Step as Step
+from .send_buffer import SendBuffer as SendBuffer
 from .session import JointSlider as JointSlider
 from .session import RvizFile as RvizFile
 from .session import Session as Session
@@ -37,5 +38,10 @@ from .streams import ClockState as ClockState
 from .streams import Line as Line
 from .streams import Recording as Recording
 from .streams import TimelineSpan as TimelineSpan
+from .web_server import Handler as Handler
+from .web_server import Reply as Reply
+from .web_server import SocketClient as SocketClient
+from .web_server import SocketOptions as SocketOptions
+from .web_server import WebServer as WebServer
 from .wire import BagFile as BagFile
 from .wire import GraphAddress as GraphAddress

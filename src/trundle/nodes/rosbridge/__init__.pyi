@@ -1,0 +1,2 @@
+from .tcp import RosbridgeTcp as RosbridgeTcp
+from .websocket import RosbridgeWebsocket as RosbridgeWebsocket

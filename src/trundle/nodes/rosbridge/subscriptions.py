@@ -1,0 +1,205 @@
+"""A client's subscriptions: throttled, queued and encoded as it asks."""
+
+import asyncio
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+
+from trundle.ros import Message, MessageError, Node, RawMessage
+from trundle.ros import Subscription as RosSubscription
+
+from .cbor import cbor_values, dump_cbor
+from .json_values import JsonEncoder
+from .png import encode_png
+from .topic_types import resolve_type
+
+_ANY = "*"
+_MAX_QUEUE = 10_000
+_COMPRESSIONS = ("cbor-raw", "cbor", "png")
+"""The first that one of a client's subscriptions asks for is used for all of them, as in rosbridge_library."""
+
+Send = Callable[[str | bytes], bool]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """Options of one `subscribe`."""
+
+    throttle_ms: float = 0.0
+    queue_length: int = 0
+    compression: str = "none"
+
+
+class Subscription:
+    """One topic of one client."""
+
+    def __init__(
+        self, node: Node, topic: str, encoder: JsonEncoder, send: Send, wait_idle: Callable[[], Any], kind: str
+    ) -> None:
+        """Call `subscribe` next.
+
+        Args:
+            node: subscribes.
+            topic: as the client wrote it.
+            encoder: of messages.
+            send: takes a message for the client; False: it is too slow.
+            wait_idle: coroutine function that waits until the client is not.
+            kind: message type.
+        """
+        self._node = node
+        self._topic = topic
+        self._encoder = encoder
+        self._send = send
+        self._wait_idle = wait_idle
+        self.kind = kind
+        self._settings: dict[object, Settings] = {}
+        self._subscription: RosSubscription | None = None
+        self._subscribed_kind = ""
+        self._queue: deque[Message] = deque(maxlen=1)
+        self._filled = asyncio.Event()
+        self._pump_task: asyncio.Task[None] | None = None
+        self._sent_s = 0.0
+        self._throttle_s = 0.0
+        self._queue_length = 0
+        self._compression = "none"
+        self._has_warned = False
+
+    @property
+    def is_empty(self) -> bool:
+        """True after the last `unsubscribe`."""
+        return not self._settings
+
+    def subscribe(self, key: object, settings: Settings) -> None:
+        """Add settings under an id; the least of all of them count."""
+        self._settings[key] = settings
+        self._update()
+
+    def unsubscribe(self, key: object) -> None:
+        """Remove the settings of an id; None: all."""
+        if key is None:
+            self._settings.clear()
+        self._settings.pop(key, None)
+        if self._settings:
+            self._update()
+        else:
+            self.close()
+
+    def close(self) -> None:
+        """Unsubscribe."""
+        if self._subscription is not None:
+            self._subscription.unregister()
+            self._subscription = None
+        if self._pump_task is not None:
+            self._pump_task.cancel()
+            self._pump_task = None
+
+    def _update(self) -> None:
+        settings = self._settings.values()
+        self._throttle_s = max(min(each.throttle_ms for each in settings), 0.0) / 1e3
+        self._queue_length = max(min(min(each.queue_length for each in settings), _MAX_QUEUE), 0)
+        asked = {each.compression for each in settings}
+        self._compression = next((each for each in _COMPRESSIONS if each in asked), "none")
+        self._queue = deque(self._queue, maxlen=max(self._queue_length, 1))
+        if self._queue_length and self._pump_task is None:
+            self._pump_task = asyncio.get_running_loop().create_task(self._pump())
+        is_raw = self._compression == "cbor-raw" or not self._node.messages.has(self.kind)
+        kind = _ANY if is_raw else self.kind
+        if kind != self._subscribed_kind:
+            if self._subscription is not None:
+                self._subscription.unregister()
+            self._subscribed_kind = kind
+            self._subscription = self._node.subscribe(self._topic, kind, self._receive, on_loop=True)
+
+    def _receive(self, message: Message) -> None:
+        if self._queue_length:
+            self._queue.append(message)
+            self._filled.set()
+        elif self._remaining_s() <= 0.0:
+            self._deliver(message)
+
+    def _remaining_s(self) -> float:
+        return self._sent_s + self._throttle_s - time.monotonic()
+
+    async def _pump(self) -> None:
+        """Send queued messages as the throttle and the client allow."""
+        while True:
+            self._filled.clear()
+            await self._filled.wait()
+            while self._queue:
+                await asyncio.sleep(max(self._remaining_s(), 0.0))
+                await self._wait_idle()
+                if self._queue:
+                    self._deliver(self._queue.popleft())
+
+    def _deliver(self, message: Message) -> None:
+        self._sent_s = time.monotonic()
+        try:
+            encoded = self._encode(message)
+        except MessageError as error:
+            self._warn(f"{self._topic}: {error}")
+            return
+        if not self._send(encoded):
+            self._warn(f"{self._topic}: a client is too slow; messages to it are dropped")
+
+    def _warn(self, text: str) -> None:
+        if not self._has_warned:
+            self._has_warned = True
+            self._node.log.warn(text)
+
+    def _encode(self, message: Message) -> str | bytes:
+        head = {"op": "publish", "topic": self._topic}
+        if self._compression == "cbor-raw":
+            now = self._node.clock.now_ns()
+            raw = {"secs": now // 10**9, "nsecs": now % 10**9, "bytes": bytes(message.data)}
+            return dump_cbor({**head, "msg": raw})
+        kind, messages = self.kind, self._node.messages
+        if isinstance(message, RawMessage):
+            messages.add_definition(message.type, message.definition)
+            kind, message = message.type, messages.deserialize(message.data, message.type)
+        if self._compression == "cbor":
+            return dump_cbor({**head, "msg": cbor_values(messages, message, kind)})
+        text = dump_json({**head, "msg": self._encoder.values(message, kind)})
+        return dump_json({"op": "png", "data": encode_png(text)}) if self._compression == "png" else text
+
+
+async def make_subscription(
+    node: Node,
+    topic: str,
+    given: str | None,
+    *,
+    encoder: JsonEncoder,
+    send: Send,
+    wait_idle: Callable[[], Any],
+    is_raw: bool,
+) -> Subscription:
+    """Make a subscription with the given or the established type.
+
+    Raises:
+        RosbridgeError: there is none, or the topic has another type.
+        RosError: no such type, or no master.
+    """
+    kind = _ANY if is_raw and given is None else await resolve_type(node, topic, given)
+    if given is not None:
+        node.messages.md5(kind)
+    return Subscription(node, topic, encoder, send, wait_idle, kind)
+
+
+def dump_json(value: object) -> str:
+    """Encode as JSON; what is no Unicode is escaped."""
+    try:
+        return msgspec.json.encode(value).decode()
+    except UnicodeEncodeError:
+        return msgspec.json.encode(_replaced(value)).decode()
+
+
+def _replaced(value: Any) -> Any:
+    """Replace lone surrogates, which stand for bytes of texts that are not UTF-8."""
+    if isinstance(value, str):
+        return value.encode("utf-8", "replace").decode()
+    if isinstance(value, dict):
+        return {_replaced(key): _replaced(item) for key, item in value.items()}  # pyright: ignore[reportUnknownVariableType]
+    return [_replaced(item) for item in value] if isinstance(value, list) else value  # pyright: ignore[reportUnknownVariableType]
