@@ -76,6 +76,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("tf2_ros", "static_transform_publisher"): "trundle.nodes.static_transform_publisher:Tf2StaticTransformPublisher",
     ("tf2_tools", "echo.py"): "trundle.nodes.command_line_tools:TfEcho",
     ("tf2_tools", "view_frames.py"): "trundle.nodes.command_line_tools:ViewFrames",
+    ("tf2_web_republisher", "tf2_web_republisher"): "trundle.nodes.tf2_web_republisher:Tf2WebRepublisher",
     ("topic_tools", "drop"): "trundle.nodes.topic_tools:Drop",
     ("topic_tools", "mux"): "trundle.nodes.topic_tools:Mux",
     ("topic_tools", "relay"): "trundle.nodes.topic_tools:Relay",
@@ -88,6 +89,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("turtlesim", "turtle_teleop_key"): "trundle.nodes.turtlesim:TurtleTeleopKey",
     ("turtlesim", "turtlesim_node"): "trundle.nodes.turtlesim:TurtleSim",
     ("twist_mux", "twist_mux"): "trundle.nodes.twist_mux:TwistMux",
+    ("web_video_server", "web_video_server"): "trundle.nodes.web_video_server:WebVideoServer",
 }
 """(package, type) → "module:Class"."""
 

@@ -490,6 +490,22 @@ class tf2_msgs:
     class TFMessage(TypedMessage, Protocol):
         transforms: list[geometry_msgs.TransformStamped]
 
+class tf2_web_republisher:
+    class RepublishTFsRequest(TypedMessage, Protocol):
+        source_frames: list[str]
+        target_frame: str
+        angular_thres: float
+        trans_thres: float
+        rate: float
+        timeout: Time
+
+    class TFSubscriptionGoal(TypedMessage, Protocol):
+        source_frames: list[str]
+        target_frame: str
+        angular_thres: float
+        trans_thres: float
+        rate: float
+
 class topic_tools:
     class MuxAddRequest(TypedMessage, Protocol):
         topic: str

@@ -34,6 +34,7 @@ class ActionOutcome:
 class _Goal:
     id: dict[str, Any]
     stamp_ns: int
+    message: Message
     status: int = _PENDING
     text: str = ""
     task: asyncio.Task[None] | None = None
@@ -82,13 +83,14 @@ class ActionServer:
         """True while a goal is active."""
         return any(goal.status == _ACTIVE for goal in self._goals.values())
 
-    def publish_feedback(self, feedback: dict[str, object]) -> None:
-        """Publish feedback for all active goals; thread-safe."""
+    def publish_feedback(self, feedback: dict[str, object], *, goal: Message | None = None) -> None:
+        """Publish feedback for all active goals, or for that of one message; thread-safe."""
         if not self._feedback.has_subscribers:
             return
-        for goal in [goal for goal in list(self._goals.values()) if goal.status == _ACTIVE]:
+        active = [each for each in list(self._goals.values()) if each.status == _ACTIVE]
+        for each in active if goal is None else [each for each in active if each.message is goal]:
             header = {"stamp": self._node.clock.now_ns()}
-            self._feedback.publish({"header": header, "status": _status(goal), "feedback": feedback})
+            self._feedback.publish({"header": header, "status": _status(each), "feedback": feedback})
 
     def close(self) -> None:
         """Unregister; thread-safe."""
@@ -108,7 +110,7 @@ class ActionServer:
         if not self._side_by_side:
             for other in self._goals.values():
                 self._stop(other)
-        goal = _Goal(id={"stamp": stamp, "id": key}, stamp_ns=stamp)
+        goal = _Goal(id={"stamp": stamp, "id": key}, stamp_ns=stamp, message=message.goal)
         self._goals[key] = goal
         goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
 
