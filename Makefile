@@ -98,7 +98,7 @@ DEBIAN := chromium graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-sr
           $(addprefix python3-,rosbag roscpp-msg rosgraph roslaunch rosmaster rosmsg rosnode rosparam rospy rosservice \
           rostopic std-srvs tf tf2-ros)
 
-system:  ## what the fullest tests use, from Debian's packages and npm's
+system:  ## what the fullest tests use, from Debian's packages, npm's and PyPI's
 	@if command -v apt-get >/dev/null; then \
 	  SUDO=$$([ "$$(id -u)" = 0 ] || echo sudo); \
 	  GET="apt-get -qq -o Acquire::Retries=3"; \
@@ -106,8 +106,10 @@ system:  ## what the fullest tests use, from Debian's packages and npm's
 	else echo "make system knows Debian and Ubuntu only; make test skips what is not installed"; fi
 	@npm install --silent --no-audit --no-fund --ignore-scripts --fetch-retries=1 --fetch-timeout=20000 --prefix .npm \
 	  rosnodejs@3.1.0 @foxglove/ros1@3.0.1 tslib@2.8.1 gltf-validator@2.0.0-dev.3.10 \
-	  @foxglove/ws-protocol@0.8.0 ws@8.23.0 || \
-	  echo "npm brought no rosnodejs, @foxglove/ros1, @foxglove/ws-protocol and gltf-validator: make test-all skips what uses them"
+	  @foxglove/ws-protocol@0.8.0 ws@8.23.0 roslib@1.4.1 || \
+	  echo "npm brought no rosnodejs, @foxglove/ros1, @foxglove/ws-protocol, roslib and gltf-validator: make test-all skips what uses them"
+	@$(BIN)/python -m pip install --quiet --upgrade --target .pip roslibpy==2.1.0 || \
+	  echo "PyPI brought no roslibpy: make test-all skips what uses it"
 
 clean:  ## remove what make made
 	rm -rf $(VENV) .npm web/node_modules src/trundle/page/client dist build .pytest_cache .ruff_cache .import_linter_cache .hypothesis out

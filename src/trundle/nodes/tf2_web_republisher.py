@@ -111,7 +111,7 @@ class Tf2WebRepublisher:
                 self._action.publish_feedback({"transforms": transforms}, goal=goal)
 
     async def _on_request(self, request: "tf2_web_republisher.RepublishTFsRequest") -> dict[str, Any]:
-        """Publish on a topic of its own, until it had no subscriber for the timeout."""
+        """Publish on a topic of its own, until it has had no subscribers for the timeout."""
         if len(self._requests) >= _MAX_REQUESTS:
             raise ServiceError(f"{_MAX_REQUESTS} requests are served already")
         topic = self._node.resolve(f"~tf_repub_{self._count}")
