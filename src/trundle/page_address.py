@@ -44,6 +44,8 @@ class PageAddress:
     host: str = "127.0.0.1"
     port: int | None = None
     """None: 8080 or the next free one."""
+    reserved_ports: tuple[int, ...] = ()
+    """Ports that are left to others, unless `port` is one."""
     allowed: AllowedNames = NONE_ALLOWED
 
 

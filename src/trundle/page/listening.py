@@ -34,6 +34,8 @@ def listen(at: PageAddress) -> socket.socket:
             ) from None
     last = _DEFAULT_PORT + _PORTS_TRIED - 1
     for port in range(_DEFAULT_PORT, last + 1):
+        if port in at.reserved_ports:
+            continue
         try:
             return _bind(family, str(address), port)
         except OSError:

@@ -113,6 +113,7 @@ class PageServer:
         start = Start(
             host=at.host,
             port=at.port,
+            reserved_ports=at.reserved_ports,
             hosts=at.allowed.hosts,
             origins=at.allowed.origins,
             session=session,

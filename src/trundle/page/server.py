@@ -51,7 +51,10 @@ def main() -> None:
     try:
         start = start_decoder.decode(read_frame(sys.stdin.buffer))
         address = PageAddress(
-            host=start.host, port=start.port, allowed=AllowedNames(hosts=start.hosts, origins=start.origins)
+            host=start.host,
+            port=start.port,
+            reserved_ports=start.reserved_ports,
+            allowed=AllowedNames(hosts=start.hosts, origins=start.origins),
         )
         listening = listen(address)
     except EOFError:

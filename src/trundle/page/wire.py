@@ -41,6 +41,7 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     host: str
     port: int | None
     """None: 8080 or the next free one."""
+    reserved_ports: tuple[int, ...] = ()
     hosts: tuple[str, ...]
     origins: tuple[str, ...]
     session: Session

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
+from trundle.launch import LaunchPlan
 from trundle.nodes import CLIENTS, WINDOWS
 
 from .nodes import Launched
@@ -11,6 +12,8 @@ from .nodes import Launched
 _TIMEOUT_S = 20.0
 """A world may take longer to read; its page's URL is then printed on a line of its own."""
 _POLL_S = 0.05
+_VIDEO_SERVER = ("web_video_server", "web_video_server")
+_VIDEO_PORT = 8080
 
 
 class OpeningPage(Protocol):
@@ -36,3 +39,14 @@ def await_url(page: OpeningPage, is_ending: Callable[[], bool]) -> str | None:
             break
         time.sleep(_POLL_S)
     return page.url
+
+
+def reserved_ports(plan: LaunchPlan) -> tuple[int, ...]:
+    """Ports of web_video_servers in a launch, whose default is that of pages; other programs expect them there."""
+    ports: list[int] = []
+    for node in plan.nodes:
+        if (node.package, node.type) == _VIDEO_SERVER:
+            name = f"{node.namespace.rstrip('/')}/{node.name}/port"
+            port = next((param.value for param in plan.params if param.name == name), _VIDEO_PORT)
+            ports += [port] if isinstance(port, int) else []
+    return tuple(ports)

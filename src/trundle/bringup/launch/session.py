@@ -24,7 +24,7 @@ from .loaded_launch import LoadedLaunch
 from .logs import LaunchLog, log_folder
 from .nodes import NodeStarter
 from .options import LaunchOptions
-from .pages import await_url, opens_page
+from .pages import await_url, opens_page, reserved_ports
 from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
 
@@ -138,7 +138,12 @@ class LaunchSession:
         graph, options, read = self.graph, self._options, self._read
         page = SharedPage(
             say=read.show.line,
-            at=PageAddress(host=options.host, port=options.view_port, allowed=options.allowed),
+            at=PageAddress(
+                host=options.host,
+                port=options.view_port,
+                reserved_ports=reserved_ports(read.plan),
+                allowed=options.allowed,
+            ),
             graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
             source=next(iter(read.plan.files), None),
         )

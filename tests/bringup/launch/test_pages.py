@@ -1,0 +1,30 @@
+"""Ports of a launch's pages."""
+
+from pathlib import Path
+
+from trundle.bringup.launch.pages import reserved_ports
+from trundle.diagnostics import Diagnostics
+from trundle.launch import read_launch_text
+from trundle.packages import Packages
+from trundle.page.listening import listen
+from trundle.page_address import PageAddress
+
+VIDEO = 'pkg="web_video_server" type="web_video_server"'
+
+
+def test_video_servers_keep_the_ports_that_programs_expect(tmp_path: Path) -> None:
+    plan = read_launch_text(
+        f"""<launch><node name="a" {VIDEO}/>
+        <node ns="b" name="c" {VIDEO}><param name="port" value="8082"/></node></launch>""",
+        name="t.launch",
+        packages=Packages({}, start=tmp_path),
+        report=Diagnostics(),
+    )
+
+    assert reserved_ports(plan) == (8080, 8082)
+
+
+def test_a_page_leaves_reserved_ports_out() -> None:
+    reserved = tuple(range(8080, 8090))
+    with listen(PageAddress(reserved_ports=reserved)) as listening:
+        assert listening.getsockname()[1] not in reserved
