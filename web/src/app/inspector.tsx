@@ -7,10 +7,12 @@ import { Button } from "../theme/button";
 import { Icon, type IconName } from "../theme/icons";
 import { findJoint, findLink, findModel, frameSelection } from "./framing";
 import { JointSection, ModelJoints } from "./joint_sliders";
-import { LinkSections, ModelSections, PoseSection } from "./link_sections";
+import { LinkSections, ModelSections } from "./link_sections";
 import type { Selection } from "./page";
 import { PickedSection } from "./picked_section";
+import { PoseSection } from "./pose_section";
 import type { Shell } from "./shell";
+import { LightSections, WorldSections } from "./world_sections";
 
 export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
   const selection = shell.page.selection.value;
@@ -30,10 +32,15 @@ interface SelectionProps {
 
 function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   const { page } = shell;
-  const isThere = page.world.manifest.value !== null;
+  const manifest = page.world.manifest.value;
   if (selection.kind === "picked") return <PickedSection fields={selection.fields} />;
   if (selection.kind === "frame") return <FrameSections shell={shell} frame={selection.frame} />;
-  const model = isThere ? findModel(page, selection.model) : null;
+  if (selection.kind === "world") return manifest === null ? null : <WorldSections shell={shell} manifest={manifest} />;
+  if (selection.kind === "light") {
+    const light = manifest?.lights.find(({ name }) => name === selection.light);
+    return light === undefined ? <p class="empty">It is no longer in the world.</p> : <LightSections shell={shell} light={light} />;
+  }
+  const model = manifest !== null ? findModel(page, selection.model) : null;
   if (model === null) return <p class="empty">It is no longer in the world.</p>;
   if (selection.kind === "joint") {
     const joint = findJoint(page, selection.model, selection.joint);
@@ -42,7 +49,7 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   const link = selection.kind === "link" ? findLink(page, selection.model, selection.link) : null;
   return (
     <>
-      {link === null ? <ModelSections page={page} model={model} /> : <LinkSections page={page} link={link} isStatic={model.static} />}
+      {link === null ? <ModelSections shell={shell} name={selection.model} model={model} /> : <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />}
       <ModelJoints shell={shell} name={selection.model} model={model} />
     </>
   );
@@ -82,7 +89,7 @@ function asPose<T>(found: T | NoTransform): T | null {
   return found instanceof NoTransform ? null : found;
 }
 
-const ICONS: Readonly<Record<Selection["kind"], IconName>> = { model: "model", link: "link", joint: "joint", frame: "frame", picked: "select" };
+const ICONS: Readonly<Record<Selection["kind"], IconName>> = { world: "world", light: "light", model: "model", link: "link", joint: "joint", frame: "frame", picked: "select" };
 
 function Title({ shell, selection }: SelectionProps): JSX.Element {
   const { name, of, source } = titleOf(shell, selection);
@@ -118,6 +125,8 @@ export function shortSource(source: string): string {
 function titleOf(shell: Shell, selection: Selection): { name: string; of: string; source: string | null } {
   const { page } = shell;
   if (selection.kind === "picked") return { name: selection.title, of: "", source: null };
+  if (selection.kind === "world") return { name: page.world.manifest.value?.name ?? "world", of: "world", source: null };
+  if (selection.kind === "light") return { name: selection.light, of: "light", source: null };
   if (selection.kind === "frame") return { name: selection.frame, of: "frame", source: null };
   if (selection.kind === "model") return { name: selection.model, of: "model", source: findModel(page, selection.model)?.source ?? null };
   const of = `${selection.kind} of ${selection.model}`;

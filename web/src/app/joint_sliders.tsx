@@ -3,12 +3,14 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import type { JointInfo, ModelInfo } from "../scene/simulated_world";
+import type { JointInfo, JointState, ModelInfo } from "../scene/simulated_world";
 import { Button } from "../theme/button";
 import { fixed } from "../theme/format";
 import { Slider } from "../theme/slider";
 import { jointValue, turnsFreely } from "./joint_values";
 import type { Shell } from "./shell";
+import { NumbersRow } from "./value_rows";
+import { canEdit, editWorld, type Fields } from "./world_edits";
 
 /** Range of a velocity slider [rad/s or m/s]. */
 const FASTEST = 10;
@@ -51,6 +53,7 @@ export function JointSection({ shell, model, joint }: { readonly shell: Shell; r
         </div>
       ))}
       {joint.index !== null && <JointSlider shell={shell} model={model} joint={joint} />}
+      {state !== undefined && canEdit(shell) && <JointTargets shell={shell} model={model} joint={joint} state={state} />}
     </section>
   );
 }
@@ -60,8 +63,52 @@ function setJoint(shell: Shell, model: string, joint: JointInfo, value: number):
   shell.request(joint.name, "joint", { model, joint: joint.name, ...fields });
 }
 
+interface TargetProps {
+  readonly shell: Shell;
+  readonly model: string;
+  readonly joint: JointInfo;
+  readonly state: JointState;
+}
+
+/** Commands of the joint's motor as numbers: the last one holds. */
+function JointTargets({ shell, model, joint, state }: TargetProps): JSX.Element {
+  const [metre, newton] = joint.type === "prismatic" ? ["m", "N"] : ["rad", "N m"];
+  const targets: readonly (readonly [TargetName, number, string])[] = [
+    ["position", state.position, metre],
+    ["velocity", state.velocity, `${metre}/s`],
+    ["effort", Number.isFinite(state.effort) ? state.effort : 0, newton],
+  ];
+  return (
+    <>
+      {targets.map(([name, now, unit]) => (
+        <NumbersRow
+          key={name}
+          name={`Target ${name}`}
+          labels={[`target ${name}`]}
+          values={[now]}
+          decimals={3}
+          unit={unit}
+          min={-1e6}
+          max={1e6}
+          onCommit={(_, value) => driveJoint(shell, model, joint.name, { [name]: value }, { [name]: name === "position" ? now : 0 })}
+        />
+      ))}
+    </>
+  );
+}
+
+type TargetName = "position" | "velocity" | "effort";
+type Target = Readonly<Partial<Record<TargetName, number>>>;
+
+/** Command a joint; `before` takes it back. */
+function driveJoint(shell: Shell, model: string, joint: string, after: Target, before: Target): void {
+  const fields = (target: Target): Fields => ({ model, joint, ...target });
+  void editWorld(shell, `Joint ${joint}`, "joint", fields(after), fields(before));
+}
+
 function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element | null {
   const held = useSignal<number | null>(null);
+  const start = useSignal(0);
   const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
   if (state === undefined) return null;
   const { isVelocity, value, unit } = jointValue(joint, state);
@@ -85,10 +132,15 @@ function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly 
         text={`${fixed(shown, decimals)} ${unit}`}
         disabled={shell.page.session.kind !== "simulation"}
         onInput={(to) => {
+          if (held.value === null) start.value = isVelocity ? 0 : value;
           held.value = to;
           setJoint(shell, model, joint, to);
         }}
-        onRelease={() => (held.value = null)}
+        onRelease={() => {
+          const name = isVelocity ? "velocity" : "position";
+          if (held.value !== null) driveJoint(shell, model, joint.name, { [name]: held.value }, { [name]: start.value });
+          held.value = null;
+        }}
       />
       <div class="lim">
         <span>{isVelocity ? "no limits" : fixed(lower, 2)}</span>

@@ -17,6 +17,8 @@ export type Selection =
   | { readonly kind: "model"; readonly model: string }
   | { readonly kind: "link"; readonly model: string; readonly link: string }
   | { readonly kind: "joint"; readonly model: string; readonly joint: string }
+  | { readonly kind: "world" }
+  | { readonly kind: "light"; readonly light: string }
   | { readonly kind: "frame"; readonly frame: string }
   /** Something that a display drew: fields of what was picked. */
   | { readonly kind: "picked"; readonly title: string; readonly fields: Readonly<Record<string, unknown>> };
@@ -44,6 +46,8 @@ export interface UndoStack {
   readonly redoTitle: ReadonlySignal<string | null>;
   /** Do something now and remember how to undo it; "Change of Alpha". */
   run(title: string, redo: () => void, undo: () => void): void;
+  /** Remember how to do again and undo what has been done. */
+  record(title: string, redo: () => void, undo: () => void): void;
   undo(): void;
   redo(): void;
 }

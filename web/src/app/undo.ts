@@ -20,6 +20,10 @@ export class UndoHistory implements UndoStack {
 
   run(title: string, redo: () => void, undo: () => void): void {
     redo();
+    this.record(title, redo, undo);
+  }
+
+  record(title: string, redo: () => void, undo: () => void): void {
     this.done.value = [...this.done.peek(), { title, redo, undo }].slice(-DEPTH);
     this.undone.value = [];
   }

@@ -42,10 +42,11 @@ export function bodiesOf(model: ModelInfo): readonly number[] {
 
 /** The tree of a world; most worlds are called `default`, which says less than the page's title. */
 export function worldNode(manifest: Manifest, title = manifest.name): WorldNode {
-  const lights = manifest.lights.map(({ name, type }) => leaf(`light/${name}`, name, type, "light"));
+  const lights = manifest.lights.map(({ name, type }) => leaf(`light/${name}`, name, type, "light", { kind: "light", light: name }));
   const models = manifest.models.map((model) => modelNode(model, ""));
+  const name = manifest.name === "default" ? title : manifest.name;
   return {
-    ...leaf("world", manifest.name === "default" ? title : manifest.name, count(manifest.models.length, "model"), "world"),
+    ...leaf("world", name, count(manifest.models.length, "model"), "world", { kind: "world" }),
     children: [...models, ...group("lights", "Lights", lights)],
   };
 }
@@ -126,6 +127,8 @@ function matches(node: WorldNode, wanted: string): boolean {
 
 /** Key of the node that stands for a selection. */
 export function keyOf(selection: Selection | null): string | null {
+  if (selection?.kind === "world") return "world";
+  if (selection?.kind === "light") return `light/${selection.light}`;
   if (selection?.kind === "model") return `model/${selection.model}`;
   if (selection?.kind === "link") return `link/${selection.model}/${selection.link}`;
   return selection?.kind === "joint" ? `joint/${selection.model}/${selection.joint}` : null;

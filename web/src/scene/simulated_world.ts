@@ -6,7 +6,8 @@ import type { Box3, Object3D } from "three";
 import type { Transform } from "../frames/transform";
 
 export type SixNumbers = readonly [number, number, number, number, number, number];
-export type Colour = readonly [number, number, number];
+export type Triple = readonly [number, number, number];
+export type Colour = Triple;
 
 export interface SensorInfo {
   readonly name: string;
@@ -47,6 +48,13 @@ export interface ModelInfo {
   readonly models: readonly ModelInfo[];
 }
 
+export interface LightInfo {
+  readonly name: string;
+  readonly type: string;
+  readonly diffuse: Colour;
+  readonly intensity: number;
+}
+
 export interface CameraInfo {
   readonly name: string;
   readonly topic: string;
@@ -77,9 +85,10 @@ export interface Manifest {
       readonly density: number;
     } | null;
   };
+  readonly physics: { readonly gravity: Triple; readonly wind: Triple; readonly step: number };
   readonly robot: number | null;
   readonly models: readonly ModelInfo[];
-  readonly lights: readonly { readonly name: string; readonly type: string }[];
+  readonly lights: readonly LightInfo[];
   readonly cameras: readonly CameraInfo[];
   readonly frames: readonly { readonly frame: string; readonly parent: string; readonly body: number }[];
 }

@@ -97,6 +97,9 @@ export class FakeUndo implements UndoStack {
     this.undoTitle.value = title;
   }
 
+  record(title: string, _redo: () => void, undo: () => void): void {
+    this.run(title, () => undefined, undo);
+  }
   undo(): void {
     const edit = this.done.pop();
     edit?.undo();

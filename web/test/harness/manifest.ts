@@ -52,11 +52,12 @@ export const MANIFEST: Manifest = {
   files: [],
   collisions: null,
   scene: { ambient: [0.4, 0.4, 0.4], background: [0.7, 0.7, 0.7], sky: false, shadows: true, grid: true, fog: null },
+  physics: { gravity: [0, 0, -9.8], wind: [0, 0, 0], step: 0.001 },
   robot: 1,
   models: [robot, model("living_room", [link("walls", 0), link("sofa", 0)], true), model("ball", [link("link", 0.3)], false), model("ground_plane", [link("link", 0)], true)],
   lights: [
-    { name: "sun", type: "directional" },
-    { name: "lamp", type: "point" },
+    { name: "sun", type: "directional", diffuse: [1, 1, 1], intensity: 1 },
+    { name: "lamp", type: "point", diffuse: [1, 0.9, 0.8], intensity: 1 },
   ],
   cameras: ["netbook_webcam", "my_sensor"].map((name) => ({
     name, topic: `/${name}/image_raw`, body: 2, pose: [0, 0, 0, 0, 0, 0], horizontal_fov: 1, width: 320, height: 240, rate: 30,

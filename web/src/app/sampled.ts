@@ -1,0 +1,15 @@
+/** Values that are read again while they are shown. */
+
+import { useEffect, useState } from "preact/hooks";
+
+export const REFRESH = 100; // ms
+
+/** A value that is read again ten times a second. */
+export function useSampled<T>(read: () => T): T {
+  const [, refresh] = useState(0);
+  useEffect(() => {
+    const timer = setInterval(() => refresh((times) => times + 1), REFRESH);
+    return () => clearInterval(timer);
+  }, []);
+  return read();
+}
