@@ -246,6 +246,19 @@ def test_a_distance_is_measured(user: SceneUser) -> None:
     user.tool("Interact")
 
 
+def test_the_camera_is_moved_although_a_marker_lies_below(user: SceneUser, feedback: list[Any]) -> None:
+    """From the plate, which the same drag moves with Interact; and back."""
+    user.side("Views")
+    feedback.clear()
+    user.tool("Move camera")
+    angle = user.property("Angle [rad]")
+    user.drag((0.0, 1.0), (0.4, 1.0))
+    user.until(lambda: angle.input_value() != "0")
+    assert feedback == []
+    user.set("Angle [rad]", "0")
+    user.tool("Interact")
+
+
 def test_a_point_is_focused_and_the_view_saved(user: SceneUser, server: PageServer) -> None:
     """Last, since it moves the ground."""
     user.side("Views")
