@@ -182,3 +182,8 @@ def test_urdf_parser_py_and_angles_and_every_library_import(tmp_path: Path) -> N
     )
     code = f"import importlib\nfor name in {names.split()!r}: importlib.import_module(name)\nprint('all')"
     assert _run(code, tmp_path) == "all\n"
+
+
+def test_submodules_of_roslib_need_no_import_of_their_own(tmp_path: Path) -> None:
+    code = "import roslib\nprint(roslib.message.get_message_class('std_msgs/String').__name__, hasattr(roslib, 'no'))"
+    assert _run(code, tmp_path) == "String False\n"

@@ -1,8 +1,19 @@
 """Old base library: `load_manifest`, and where packages are."""
 
+from importlib import import_module
+from types import ModuleType
+
 from .launcher import load_manifest as load_manifest
 
 _is_interactive = False
+_SUBMODULES = frozenset({"exceptions", "message", "names", "network", "packages", "rosenv", "scriptutil"})
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Import a submodule; programs use those that rospy and rostopic import in ROS without importing them."""
+    if name in _SUBMODULES:
+        return import_module(f"roslib.{name}")
+    raise AttributeError(f"module 'roslib' has no attribute '{name}'")
 
 
 def set_interactive(interactive: bool) -> None:
