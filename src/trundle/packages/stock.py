@@ -17,7 +17,7 @@ _NODES = """
     robot_state_publisher rqt_bag rqt_console rqt_graph rqt_gui rqt_image_view rqt_joint_trajectory_controller rqt_plot
     rqt_publisher rqt_reconfigure rqt_robot_monitor rqt_robot_steering rqt_service_caller rqt_tf_tree rqt_topic rviz
     teleop_twist_joy teleop_twist_keyboard tf tf2_ros tf2_tools topic_tools turtlebot3_teleop turtlebot_teleop turtlesim
-    twist_mux
+    twist_mux web_video_server
 """
 _PLUGINS = """
     gazebo_grasp_plugin gazebo_plugins gazebo_ros_control gazebo_ros_link_attacher hector_gazebo_plugins
