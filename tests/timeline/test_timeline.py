@@ -1,5 +1,6 @@
 """A simulation that was put back goes on as it did, to the byte."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from trundle.simulation import Simulation
 from trundle.spatial import NS_PER_S, Pose
 from trundle.timeline import Timeline
 
+STATM = Path("/proc/self/statm")
 ROBOT = """
 <model name="robot{number}"><pose>0 {number} 0.1 0 0 0</pose>
   <link name="base">
@@ -204,6 +206,20 @@ def test_the_oldest_states_make_room(simulation: LoadedSimulation) -> None:
     assert timeline.start_ns == seconds(3)
     with pytest.raises(UsageError, match=r"0\.500 s is not part of the timeline, which is from 3\.000 to 3\.000 s"):
         timeline.seek(seconds(0.5))
+
+
+@pytest.mark.skipif(not STATM.exists(), reason="this system does not say there how much memory a process has")
+def test_its_memory_is_bounded(tmp_path: Path) -> None:
+    world = tmp_path / "small.world"
+    world.write_text("<sdf version='1.6'><world name='w'><model name='m'><link name='l'/></model></world></sdf>")
+    simulation = trundle.load(world)
+    timeline = Timeline(simulation, limit_bytes=20_000_000, wall_ns=lambda: 0)
+    sizes: list[int] = []
+    for second in range(1, 301):
+        timeline.advance(seconds(second))
+        sizes.append(int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGESIZE"))
+    assert sizes[-1] - sizes[0] < 40_000_000
+    assert timeline.end_ns - timeline.start_ns > seconds(20)
 
 
 def test_a_reset_of_time_begins_anew(simulation: LoadedSimulation) -> None:

@@ -32,6 +32,9 @@ from .state_writer import StateWriter
 if TYPE_CHECKING:  # a world without belts does not load them
     from .surface_motion import LinkGrip
 
+_DATA_BYTES = 450_000
+"""Size of a copied `MjData` beside its buffer and arena, as measured: the struct with its statistics of the solver
+(160 kB in MuJoCo 4), and what the Python binding keeps."""
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 MAX_SPEED = 1e6
 """Speed [m/s or rad/s] from which on the physics is unstable; MuJoCo's own limit is 1e10."""
@@ -259,7 +262,7 @@ class Engine:
     @property
     def checkpoint_bytes(self) -> int:
         """Size of a checkpoint, about."""
-        return int(self._data.nbuffer + self._data.maxuse_arena)
+        return int(_DATA_BYTES + self._data.nbuffer + self._data.maxuse_arena)
 
     def restore(self, state: EngineState) -> None:
         """Restore a saved state exactly.
