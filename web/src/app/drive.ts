@@ -33,7 +33,7 @@ export class Drive {
     const named = [...subscribers.keys()].filter((name) => BY_NAME.test(name));
     const isHeard = (name: string): boolean => (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
-    const isUntold = published.length + types.size + subscribers.size === 0; // as after a lost connection
+    const isUntold = types.size + subscribers.size === 0; // as after a lost connection, when topics are told of before the graph
     if (isUntold || connection.state.value.kind !== "connected") return this.known;
     this.known = [...new Set([...typed, ...named].filter(isHeard))].sort((a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1));
     return this.known;

@@ -67,6 +67,17 @@ describe("driving", () => {
     expect(drive.command.value).toBeNull();
   });
 
+  it("goes on with its topic after a lost connection, though topics are told of before who listens", () => {
+    const { connection } = setUp();
+    const { graph, topics } = connection;
+    press("w");
+    press("w", document.body, "keyup");
+    graph.value = { types: new Map(), publishers: new Map(), subscribers: new Map(), services: new Map() };
+    topics.value = new Map([["/rosout", { name: "/rosout", type: "rosgraph_msgs/Log" } as never]]);
+    press("s");
+    expect(connection.driven.at(-1)).toMatchObject({ topic: "/cmd_vel", linear: -0.5 });
+  });
+
   it("leaves keys of the browser alone", () => {
     const { connection } = setUp();
     document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "s", code: "KeyS", ctrlKey: true, bubbles: true }));
