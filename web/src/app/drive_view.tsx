@@ -14,7 +14,8 @@ import type { Shell } from "./shell";
 export function DriveView({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const { page, layout } = shell;
   const { drive, session } = page;
-  useEffect(() => listenToDriveKeys(drive, { pads: !session.joystick }), [drive, session]);
+  const pads = !session.joystick;
+  useEffect(() => listenToDriveKeys(drive, { pads }), [drive, pads]); // not at every new session: what is held would be let go
   const topic = drive.topic.value;
   if (topic === null) return null;
   const command = drive.command.value;
