@@ -98,7 +98,7 @@ DEBIAN := chromium graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-sr
           $(addprefix python3-,rosbag roscpp-msg rosgraph roslaunch rosmaster rosmsg rosnode rosparam rospy rosservice \
           rostopic std-srvs tf tf2-ros)
 
-system:  ## what the fullest tests use, from Debian's packages, npm's and PyPI's
+system: | $(NODE)  ## what the fullest tests use, from Debian's packages, npm's and PyPI's
 	@if command -v apt-get >/dev/null; then \
 	  SUDO=$$([ "$$(id -u)" = 0 ] || echo sudo); \
 	  GET="apt-get -qq -o Acquire::Retries=3"; \
