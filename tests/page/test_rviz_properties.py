@@ -62,7 +62,8 @@ def _saved_by_page(chromium: Any, server: PageServer) -> str:
     page.goto(server.url)
     page.wait_for_selector("canvas[aria-label='3D view']", timeout=1000 * PATIENCE_S)
     page.keyboard.press("Control+k")
-    page.keyboard.type("Save case.rviz")
+    page.keyboard.type("Save the .rviz file")
+    page.get_by_role("option", name="Save the .rviz file").wait_for(timeout=1000 * PATIENCE_S)
     page.keyboard.press("Enter")
     end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end:

@@ -120,6 +120,8 @@ def test_the_installed_trundle_is_the_wheel_s(run: Run, commands: Path) -> None:
 def test_every_module_of_the_wheel_imports(run: Run) -> None:
     code = """
 import importlib, pkgutil, trundle
+from trundle.rospy.finder import install
+install()  # as in every program of ROS: genpy and its kin are found
 for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
     importlib.import_module(module.name)
 """

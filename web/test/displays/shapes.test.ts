@@ -49,6 +49,21 @@ describe("axes", () => {
 });
 
 describe("instances", () => {
+  it("get a program anew when their colours begin to be seen through", () => {
+    const boxes = new Instances(BOX);
+    const color = (alpha: number): number => {
+      boxes.begin(1);
+      boxes.setRgbaAt(0, 1, 0, 0, alpha);
+      boxes.finish();
+      return boxes.material.version;
+    };
+    const opaque = color(1);
+
+    expect(color(0.5)).toBe(opaque + 1);
+    expect(color(0.4)).toBe(opaque + 1);
+    expect(color(1)).toBe(opaque + 2);
+  });
+
   it("grow and keep what they had", () => {
     const instances = new Instances(BOX, {}, 1);
     instances.begin(1);

@@ -133,6 +133,7 @@ export class ShapeMaterial extends ShaderMaterial {
   }
 
   setBlended(blended: boolean): void {
+    if (blended !== this.transparent) this.needsUpdate = true; // its program writes alpha, or does not
     this.transparent = blended;
     this.depthWrite = !blended;
   }

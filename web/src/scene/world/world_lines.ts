@@ -72,6 +72,7 @@ export class WorldLines extends Group {
     setPoints(drawn.geometry, points);
     drawn.material.color.setRGB(red, green, blue, SRGBColorSpace);
     drawn.material.opacity = alpha;
+    if (drawn.material.transparent !== alpha < 1) drawn.material.needsUpdate = true; // its program writes alpha, or does not
     drawn.material.transparent = alpha < 1;
   }
 
