@@ -5,10 +5,13 @@ import "./theme/base.css";
 import { render } from "preact";
 
 import { boot, fetchSession } from "./app/boot";
+import { drawsOnCpu } from "./scene/draws_on_cpu";
 
 async function start(root: HTMLElement): Promise<void> {
   try {
-    const session = await fetchSession(location.href);
+    const coming = fetchSession(location.href);
+    drawsOnCpu(); // which takes long, as the answer does
+    const session = await coming;
     boot(root, session, location.href);
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);

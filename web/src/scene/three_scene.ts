@@ -8,6 +8,7 @@ import {
   type Vector3,
 } from "three";
 
+import { drawsOnCpu } from "./draws_on_cpu";
 import { centreOn, freeArea, NO_INSETS } from "./free_area";
 import { GroundGrid } from "./ground_grid";
 import { LabelLayer } from "./label_layer";
@@ -50,6 +51,8 @@ export class ThreeScene implements SceneView {
   private readonly steps = new Set<DrawStep>();
   private readonly stops: (() => void)[] = [];
   private isChanged = true;
+  /** False until its element has a size. */
+  private isPlaced = false;
   private last = performance.now();
   private frame = 0;
   private pixelRatio = 1;
@@ -120,6 +123,7 @@ export class ThreeScene implements SceneView {
       return null;
     }
     const renderer = new WebGLRenderer({ canvas: this.element, context });
+    renderer.debug.checkShaderErrors = import.meta.env.DEV; // asking for them waits until each program is linked
     return renderer;
   }
 
@@ -163,6 +167,7 @@ export class ThreeScene implements SceneView {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     if (width === 0 || height === 0) return;
+    this.isPlaced = true;
     this.size.value = { width, height };
     this.invalidate();
   }
@@ -172,7 +177,7 @@ export class ThreeScene implements SceneView {
     const elapsed = Math.min(0.25, (now - this.last) / 1000);
     this.last = now;
     for (const callback of this.ticks) callback(elapsed);
-    if (!this.isChanged || this.status.peek().kind === "lost") return;
+    if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
     this.isChanged = false;
     this.draw();
   }
@@ -184,8 +189,7 @@ export class ThreeScene implements SceneView {
     const ratio = Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO, Math.sqrt(most / (width * height)));
     const isSame = ratio === this.pixelRatio && this.element.width === Math.floor(width * ratio) && this.element.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
-      this.renderer.setPixelRatio(ratio);
-      this.renderer.setSize(width, height, false);
+      this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
     }
     this.pixelRatio = ratio;
     const camera = this.camera.peek();
@@ -209,14 +213,4 @@ export class ThreeScene implements SceneView {
     this.labels.draw(camera, this.size.peek(), this.pixelRatio);
     this.axes.draw(camera);
   }
-}
-
-/** True where the browser has no graphics processor to draw with. */
-function drawsOnCpu(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  if (context === null) return true;
-  const name = context.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER;
-  const renderer = String(context.getParameter(name));
-  context.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer);
 }
