@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
-from tests.page.scene_user import SceneUser
+from tests.page.scene_user import SceneUser, rviz_text
 
 from trundle.page import GraphAddress, PageServer, Session
 from trundle.page.client_files import CLIENT
@@ -18,7 +18,6 @@ pytestmark = [
     pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
 ]
 
-RED = (255, 0, 0)
 ROS_2 = """Panels:
   - Class: rviz_common/Displays
     Name: Displays
@@ -99,3 +98,40 @@ def test_a_file_of_ros_2_is_opened_and_what_is_not_understood_comes_back(user: S
     assert (cube["Class"], cube["Enabled"], cube["Strange"]) == ("rviz_default_plugins/Marker", False, 42)
     assert cube["Topic"]["Value"] == "/cube"
     assert (found["Panels"], found["Window Geometry"]) == (expected["Panels"], expected["Window Geometry"])
+
+
+IN_GROUP = {
+    "Class": "rviz/Group",
+    "Name": "Things",
+    "Enabled": True,
+    "Displays": [{"Class": "rviz/Marker", "Name": "Cube", "Enabled": True, "Marker Topic": "/cube", "Queue Size": 7}],
+}
+_DROP = """([name, text]) => {
+    const carried = new DataTransfer();
+    carried.items.add(new File([text], name));
+    for (const kind of ["dragover", "drop"])
+        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: carried, bubbles: true, cancelable: true}));
+}"""
+
+
+def test_a_file_that_is_dropped_is_shown_and_its_group_switched_as_one(user: SceneUser) -> None:
+    """What is in the group keeps its own switch."""
+    import yaml
+
+    user.page.evaluate(_DROP, ["dropped.rviz", rviz_text(IN_GROUP)])
+    group = user.page.get_by_role("treeitem").filter(has_text="Things").first
+    group.wait_for()
+    user.until(lambda: user.sees_at((0.0, 0.0)), what="for the cube")
+    group.focus()
+    user.page.keyboard.press(" ")
+    user.until(lambda: not user.sees_at((0.0, 0.0)), what="for the end of the cube")
+    with user.page.expect_download() as download:
+        user.button("Download").click()
+    user.page.keyboard.press("Control+z")
+    user.until(lambda: user.sees_at((0.0, 0.0)), what="for the cube, once more")
+
+    assert download.value.suggested_filename == "dropped.rviz"
+    (found,) = yaml.safe_load(download.value.path().read_text())["Visualization Manager"]["Displays"]
+    (cube,) = found["Displays"]
+    assert (found["Class"], found["Name"], found["Enabled"]) == ("rviz/Group", "Things", False)
+    assert (cube["Enabled"], cube["Marker Topic"], cube["Queue Size"]) == (True, "/cube", 7)
