@@ -82,7 +82,7 @@ load: $(READY)  ## ten minutes (SECONDS=60: one) of 200 topics at 100 Hz to 50 n
 dist: dist/.built  ## sdist and wheels, checked, in dist/
 
 # The wheel is built from the sdist, so that nothing is missing there.
-dist/.built: $(READY) LICENSE README.md $(shell find src examples packaging -type f -not -name '*.pyc')
+dist/.built: $(READY) LICENSE README.md $(shell find src examples packaging -type f -not -name '*.pyc' -not -path '*/page/client/*')
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt build twine
 	rm -rf dist
 	mkdir -p build

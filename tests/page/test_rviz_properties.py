@@ -60,7 +60,7 @@ def _saved_by_page(chromium: Any, server: PageServer) -> str:
     """Save as a person does, by the palette; return the file's text."""
     page = chromium.new_page(viewport={"width": 1280, "height": 800})
     page.goto(server.url)
-    page.wait_for_selector("canvas[aria-label='3D view']", timeout=1000 * PATIENCE_S)
+    page.get_by_label("Connected").first.wait_for(timeout=1000 * PATIENCE_S)
     page.keyboard.press("Control+k")
     page.keyboard.type("Save the .rviz file")
     page.get_by_role("option", name="Save the .rviz file").wait_for(timeout=1000 * PATIENCE_S)

@@ -41,7 +41,9 @@ async function main() {
   await node.advertise({ topic: '/up', dataType: 'std_msgs/String', messageDefinitionText: 'string data' });
   const down = node.subscribe({ topic: '/down', dataType: 'std_msgs/String' });
   down.on('message', (message) => node.publish('/up', { data: 'heard ' + message.data }));
-  node.on('paramUpdate', ({ key, value }) => node.setParameter('/seen', key + ' = ' + value));
+  node.on('paramUpdate', ({ key, value }) => { // what it sets itself is told, too
+    if (key.startsWith('/for_js')) node.setParameter('/seen', key + ' = ' + value);
+  });
   await node.setParameter('/from_js', await node.subscribeParam('/for_js'));
   const call = '<methodCall><methodName>setParam</methodName><params>' +
     ['/fox', '/fetched_js', 'yes'].map((text) => `<param><value>${text}</value></param>`).join('') +

@@ -1,7 +1,7 @@
 /** A dialog over the page; Esc or a press outside shuts it. */
 
 import type { ComponentChildren, JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 
 import { Button } from "../theme/button";
 
@@ -14,7 +14,7 @@ export interface DialogProps {
 
 export function Dialog({ title, class: extra = "", onClose, children }: DialogProps): JSX.Element {
   const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => { // at once: what is typed next belongs to the dialog
     const before = document.activeElement;
     dialog.current?.showModal();
     return () => {
