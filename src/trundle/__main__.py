@@ -14,7 +14,9 @@ def main() -> int:
     except KeyboardInterrupt:
         return 130
     from trundle.cli import main as command
+    from trundle.cli.interrupts import keep_interrupts
 
+    keep_interrupts()
     signal.signal(signal.SIGINT, before)
     code = command()
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # during Python's shutdown no handler runs

@@ -48,6 +48,35 @@ def test_ctrl_c_is_let_through_afterwards() -> None:
     assert _run(sys.executable, "-c", with_it_held).stdout.splitlines()[-1] == "False"
 
 
+@pytest.mark.parametrize(
+    "dropping",
+    ["self.reference = weakref.ref(Thing(), lambda _: interrupt())", "Finalized()"],
+    ids=["callback of a weak reference", "finalizer"],
+)
+def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> None:
+    waits = """
+        import os, signal, sys, time, types, weakref, trundle.cli, trundle.__main__
+        interrupt = lambda: os.kill(os.getpid(), signal.SIGINT)
+        Thing = type("Thing", (), {})
+        Finalized = type("Finalized", (), {"__del__": lambda self: interrupt()})
+        self = types.SimpleNamespace()
+        def command():
+            try:
+                DROPPING
+                print("goes on", flush=True)
+                time.sleep(50)
+            except KeyboardInterrupt:
+                print("interrupted", flush=True)
+            return 0
+        trundle.cli.main = command
+        sys.exit(trundle.__main__.main())
+    """
+
+    done = _run(sys.executable, "-c", textwrap.dedent(waits).replace("DROPPING", dropping))
+
+    assert (done.returncode, done.stdout.splitlines()[-1:], done.stderr) == (0, ["interrupted"], "")
+
+
 def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
     lingers = """
         import sys, threading, time, trundle.cli, trundle.__main__

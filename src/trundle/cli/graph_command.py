@@ -1,6 +1,5 @@
 """Common parts of commands on a running graph: names, master proxy, node, error messages."""
 
-import _thread
 import argparse
 import functools
 import os
@@ -15,6 +14,8 @@ from typing import TYPE_CHECKING
 from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, anonymous_name, resolve_name
 from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
+
+from .interrupts import interrupt_main_thread
 
 if TYPE_CHECKING:
     from trundle.ros import GraphLoop, Node
@@ -89,16 +90,8 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
             rosout=False,
         )
         if threading.current_thread() is threading.main_thread():
-            node.on_shutdown(lambda _: _interrupt())
+            node.on_shutdown(lambda _: interrupt_main_thread())
         yield loop, node
-
-
-def _interrupt() -> None:
-    """Interrupt the main thread like Ctrl-C."""
-    if hasattr(signal, "pthread_kill"):
-        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
-    else:
-        _thread.interrupt_main()
 
 
 def ending_signals() -> list[signal.Signals]:
