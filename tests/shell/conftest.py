@@ -12,6 +12,9 @@ def env(tmp_path: Path) -> dict[str, str]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    foreign = ("ROS_", "GAZEBO_", "TRUNDLE_", "CMAKE_", "PROMPT_COMMAND", "BASH_ENV")
+    foreign = (
+        *("ROS_", "GAZEBO_", "TRUNDLE_", "CMAKE_", "PROMPT_COMMAND", "BASH_ENV"),
+        *("BROWSER", "DISPLAY", "WAYLAND_DISPLAY"),  # or else a developer's browser opens
+    )
     kept = {key: value for key, value in os.environ.items() if not key.startswith(foreign)}
     return {**kept, "HOME": str(tmp_path), "SHELL": "/bin/bash", "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}

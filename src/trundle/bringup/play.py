@@ -21,6 +21,7 @@ from trundle.ros import open_bag
 from trundle.simulation import Simulation, StateLog, read_state_log
 from trundle.spatial import NS_PER_S
 
+from .browser import announce_page
 from .console import Console
 from .signals import StopFlag, stop_flag
 from .simulation_page.actor_bones import ActorBones
@@ -42,6 +43,8 @@ class PlayOptions:
     port: int | None = None
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
+    opens_browser: bool = True
+    """Open the page where there is a display; False: print its URL only."""
     speed: float = 1.0
     """Recorded seconds per second of wall time."""
     paused: bool = False
@@ -74,7 +77,7 @@ def play(file: Path, options: PlayOptions) -> int:
     robot = find_robot(simulation.world)
     session = Session(title=file.name, kind="log", robot=None if robot is None else robot.name, fixed_frame=WORLD_FRAME)
     with stop_flag() as stop, PageServer.start(session, at=options.address) as server:
-        show.line(f"see it at {server.url}")
+        announce_page(server.url, show.line, opens_browser=options.opens_browser)
         LogPage(server, log, simulation, options).run(stop)
     return 130
 
@@ -91,7 +94,8 @@ def play_bag(file: Path, options: PlayOptions) -> int:
     playing = BagFile(path=str(file.absolute()), speed=options.speed, paused=options.paused)
     session = Session(title=file.name, kind="bag")
     with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
-        Console(sys.stderr, Diagnostics()).line(f"see it at {server.url}")
+        say = Console(sys.stderr, Diagnostics()).line
+        announce_page(server.url, say, opens_browser=options.opens_browser)
         while not stop.wait(_ALIVE_S) and server.alive:
             pass
     return 130

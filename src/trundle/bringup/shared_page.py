@@ -11,6 +11,8 @@ from trundle.page import GraphAddress, PageServer, Request, Session
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 
+from .browser import announce_page
+
 _MAX_FINDINGS = 60
 """Most warnings about files on the page."""
 CMD_VEL = "/cmd_vel"
@@ -31,6 +33,7 @@ class SharedPage:
         graph: GraphAddress | None = None,
         source: Path | None = None,
         server: PageServer | None = None,
+        opens_browser: bool = True,
     ) -> None:
         """Prepare; `acquire` serves the page.
 
@@ -40,12 +43,14 @@ class SharedPage:
             graph: ROS graph that the page joins; None: without ROS.
             source: file that the page is about; packages are found from there, else from the working folder.
             server: a running one; None: it is started when it is needed.
+            opens_browser: False: print the URLs only.
         """
         self._say = say
         self._at = at or PageAddress()
         self._graph = graph
         self._source = source
         self._server = server
+        self._opens_browser = opens_browser
         self._session = Session(title="ROS", kind="graph", drive_topic=None if graph is None else CMD_VEL)
         self._users = {False: 0, True: 0}
         """Windows that show the graph, and those that show a simulated world."""
@@ -117,7 +122,7 @@ class SharedPage:
             self._server, self._findings, self._notices = server, None, 0
             if self._session is not started:
                 server.set_session(self._session)
-        self._say(f"see it at {server.url}")
+        announce_page(server.url, self._say, opens_browser=self._opens_browser)
         self._say(f"Foxglove connects to {server.foxglove_url}")
         return server
 

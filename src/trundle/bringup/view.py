@@ -32,6 +32,8 @@ class ViewOptions:
     """Port of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
+    opens_browser: bool = True
+    """Open the page where there is a display; False: print its URL only."""
 
 
 def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> int:
@@ -58,7 +60,7 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         loop.run(follow_time(node))
         at = PageAddress(host=options.host, port=options.port, allowed=options.allowed)
         graph = GraphAddress(master_uri=uri, host=options.host)
-        page = GraphPage(SharedPage(say=show.line, at=at, graph=graph))
+        page = GraphPage(SharedPage(say=show.line, at=at, graph=graph, opens_browser=options.opens_browser))
         open_things.callback(page.close)
         shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
         while not stop.wait(0.1):

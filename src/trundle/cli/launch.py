@@ -104,6 +104,7 @@ def main(args: argparse.Namespace) -> int:
         view_port=args.view_port,
         host=args.host,
         allowed=page_access(args),
+        opens_browser=not args.no_browser,
         renderer=args.renderer,
         output="log" if args.log else "screen" if args.screen else None,
         all_required=args.required,

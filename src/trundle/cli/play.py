@@ -31,7 +31,12 @@ def main(args: argparse.Namespace) -> int:
         from trundle.bringup.play import PlayOptions, play
 
     options = PlayOptions(
-        host=args.host, port=args.port, allowed=page_access(args), speed=args.speed, paused=args.pause
+        host=args.host,
+        port=args.port,
+        allowed=page_access(args),
+        opens_browser=not args.no_browser,
+        speed=args.speed,
+        paused=args.pause,
     )
     return play(args.file, options)
 

@@ -63,6 +63,7 @@ def main(args: argparse.Namespace) -> int:
         headless=args.headless,
         host=args.host,
         allowed=page_access(args),
+        opens_browser=not args.no_browser,
         port=args.port,
         duration_s=args.duration,
         speed=args.speed,

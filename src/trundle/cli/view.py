@@ -33,5 +33,6 @@ def main(args: argparse.Namespace) -> int:
         host=args.host,
         port=args.port,
         allowed=page_access(args),
+        opens_browser=not args.no_browser,
     )
     return view(options)

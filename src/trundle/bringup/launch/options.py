@@ -19,6 +19,8 @@ class LaunchOptions:
     host: str = "127.0.0.1"
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
+    opens_browser: bool = True
+    """Open the page where there is a display; False: print its URL only."""
     renderer: Literal["cpu", "egl"] = "cpu"
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None

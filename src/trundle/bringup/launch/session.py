@@ -146,6 +146,7 @@ class LaunchSession:
             ),
             graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
             source=next(iter(read.plan.files), None),
+            opens_browser=options.opens_browser,
         )
         self._open_things.callback(page.close)
         return page

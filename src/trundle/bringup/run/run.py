@@ -90,6 +90,7 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
             say=say,
             at=PageAddress(host=options.host, port=options.port, allowed=options.allowed),
             graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
+            opens_browser=options.opens_browser,
         ),
         world.simulation,
         (*world.cameras, *world.sensors),

@@ -21,6 +21,8 @@ class RunOptions:
     """Port of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
+    opens_browser: bool = True
+    """Open the page where there is a display; False: print its URL only."""
     duration_s: float | None = None
     """Simulation time [s]; None: until interrupted."""
     speed: float | None = 1.0

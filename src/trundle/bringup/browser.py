@@ -1,0 +1,41 @@
+"""The user's browser, opened on a page."""
+
+import os
+import sys
+import threading
+import webbrowser
+from collections.abc import Callable, Mapping
+
+
+def announce_page(url: str, say: Callable[[str], None], *, opens_browser: bool = True) -> None:
+    """Print the URL of a page, and open it in the browser of a person who sees this terminal.
+
+    Args:
+        url: of the page.
+        say: prints a line.
+        opens_browser: False: print only.
+    """
+    say(f"see it at {url}")
+    if opens_browser and sys.stdout.isatty() and sys.stderr.isatty():
+        threading.Thread(target=_open, args=(url,), daemon=True).start()  # finding and starting it takes seconds
+
+
+def _open(url: str) -> None:
+    if has_browser(os.environ):
+        webbrowser.open(url)
+
+
+def has_browser(env: Mapping[str, str]) -> bool:
+    """True if there is a display with a browser, or $BROWSER names a program that opens links."""
+    if env.get("BROWSER"):
+        return True
+    if sys.platform in ("win32", "darwin"):
+        return "SSH_CONNECTION" not in env
+    if not (env.get("DISPLAY") or env.get("WAYLAND_DISPLAY")):
+        return False
+    try:
+        browser = webbrowser.get()
+    except webbrowser.Error:
+        return False
+    # Only browsers in the terminal itself, such as lynx, are of this very class.
+    return type(browser) is not webbrowser.GenericBrowser
