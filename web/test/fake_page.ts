@@ -82,6 +82,9 @@ export class FakeScene implements SceneView {
   addStep(): () => void {
     return () => undefined;
   }
+  picture(width: number, height: number): HTMLCanvasElement {
+    return Object.assign(document.createElement("canvas"), { width, height });
+  }
   pick(): null {
     return null;
   }

@@ -5,11 +5,15 @@ import type { JSX } from "preact";
 import { Help } from "./help";
 import { NoticeList } from "./notice_list";
 import { Palette } from "./palette";
+import { PictureDialog } from "./picture_dialog";
 import type { Shell } from "./shell";
+import { LinkDialog } from "./view_link_dialog";
 
 export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const dialog = shell.dialog.value;
   if (dialog === "palette") return <Palette shell={shell} />;
   if (dialog === "help") return <Help shell={shell} />;
+  if (dialog === "picture") return <PictureDialog shell={shell} />;
+  if (dialog === "link") return <LinkDialog shell={shell} />;
   return dialog === "notices" ? <NoticeList shell={shell} /> : null;
 }

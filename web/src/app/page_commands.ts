@@ -8,6 +8,7 @@ import { save } from "./rviz_foot";
 import type { Shell } from "./shell";
 import { SIDE_PAGES } from "./side_pages";
 import { switchTheme } from "./theme";
+import { toggleVideo } from "./video_note";
 
 const SIDES = ["front", "back", "left", "right", "top", "bottom"] as const;
 
@@ -24,6 +25,9 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("follow", "View", "Follow what is selected, or stop", () => toggleFollowing(page), "Shift F"),
     command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
+    command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),
+    command("video", "View", "Record a video of the view, or stop", () => toggleVideo(shell)),
+    command("link", "View", "Link to this view", () => (dialog.value = "link")),
     ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
     ...[...SIDE_PAGES.left, ...SIDE_PAGES.right].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
     ...shell.panels.map((panel) => command(`panel.${panel.id}`, "Panels", `Open ${panel.title}`, () => dock.open(panel.id))),

@@ -10,9 +10,10 @@ import { Dock } from "./dock";
 import { Layout } from "./layout";
 import { Notices } from "./notices";
 import type { Page } from "./page";
+import { ViewVideo } from "./view_video";
 import { isBoolean, recall, remember } from "./storage";
 
-export type Dialog = "palette" | "help" | "notices" | null;
+export type Dialog = "palette" | "help" | "notices" | "picture" | "link" | null;
 
 export class Shell {
   readonly layout: Layout;
@@ -43,6 +44,9 @@ export class Shell {
   /** Rows of the Displays page that were opened or closed. */
   readonly openDisplays = signal<ReadonlyMap<string, boolean>>(new Map());
 
+  /** The video that is being recorded of the view. */
+  readonly video: ViewVideo;
+
   constructor(
     readonly page: Page,
     readonly panels: readonly Panel[],
@@ -54,6 +58,7 @@ export class Shell {
   ) {
     this.layout = new Layout(page.session.kind);
     this.notices = new Notices(page);
+    this.video = new ViewVideo(page.scene);
     this.dock = new Dock(page, panels, this.layout);
     effect(() => remember("cameras", this.showsCameras.value));
   }

@@ -8,6 +8,7 @@ import { NoticeLine } from "./notice_line";
 import { SceneNotes } from "./scene_notes";
 import type { Shell } from "./shell";
 import { ToolBar } from "./tool_bar";
+import { VideoNote } from "./video_note";
 
 export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
   const phone = shell.layout.isPhone.value;
@@ -16,6 +17,7 @@ export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
       <div class="top">
         {!phone && <ToolBar shell={shell} />}
         <NoticeLine shell={shell} />
+        <VideoNote shell={shell} />
       </div>
       <SceneNotes shell={shell} />
       <CameraTiles shell={shell} />

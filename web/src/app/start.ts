@@ -6,6 +6,7 @@ import { Box3, Sphere } from "three";
 import type { Rgb, Yaml } from "../displays/properties";
 import { differs, robotBox, simulatedRobot } from "./framing";
 import type { Shell } from "./shell";
+import { linkedView } from "./view_link";
 import { bodiesOf } from "./world_nodes";
 
 /** Wall seconds in which more of a robot may appear. */
@@ -98,11 +99,22 @@ function showRobot({ page }: Shell): void {
   });
 }
 
+/** Show the view of the page's address, now and whenever another is opened; true: there is one. */
+function showLinked({ page }: Shell): boolean {
+  const show = (): boolean => {
+    const view = linkedView(location.hash);
+    if (view !== null) page.views.load({ ...page.views.save(), Current: view });
+    return view !== null;
+  };
+  addEventListener("hashchange", show);
+  return show();
+}
+
 /** Frame the robot once it is there, unless a file says where to look from or a person has begun to look around. */
 export function startView(shell: Shell): void {
   const { page } = shell;
   const { session, world, scene, views } = page;
-  if (session.rviz !== null) return;
+  if (showLinked(shell) || session.rviz !== null) return;
   for (const property of views.current.peek().properties) {
     const first = FIRST_LOOK[property.name];
     if (first !== undefined) property.decode(first);

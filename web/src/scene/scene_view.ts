@@ -105,6 +105,8 @@ export interface SceneView {
   /** Call at each animation frame with the seconds since the last one; returns how to stop it. */
   onTick(callback: (elapsed: number) => void): () => void;
   addStep(step: DrawStep): () => void;
+  /** What is seen, drawn once in a size of its own [px]; throws a sentence where that cannot be. */
+  picture(width: number, height: number): HTMLCanvasElement;
   /** What lies under a point of the element [px]; null: nothing. */
   pick(x: number, y: number): Pick | null;
   /** What lies within a box of the element [px], at most `limit`. */

@@ -13,7 +13,7 @@ import { centreOn, freeArea, NO_INSETS } from "./free_area";
 import { GroundGrid } from "./ground_grid";
 import { LabelLayer } from "./label_layer";
 import { pickBox } from "./box_picking";
-import { Picker } from "./picking";
+import { Picker, type PictureSize } from "./picking";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 import { ViewAxes } from "./view_axes";
 import type { SixSides } from "./view_controller";
@@ -109,6 +109,21 @@ export class ThreeScene implements SceneView {
     return this.labels.add(anchor, text);
   }
 
+  picture(width: number, height: number): HTMLCanvasElement {
+    const picture = Object.assign(document.createElement("canvas"), { width, height });
+    const context = picture.getContext("2d");
+    if (this.renderer === null || this.status.peek().kind !== "drawing" || context === null) throw new Error("Nothing can be drawn now.");
+    const ratio = height / this.size.peek().height;
+    this.draw({ width: width / ratio, height: height / ratio }, ratio, NO_INSETS);
+    const { drawingBufferWidth, drawingBufferHeight } = this.renderer.getContext();
+    for (const canvas of [this.element, this.labels.canvas]) context.drawImage(canvas, 0, 0, width, height);
+    this.invalidate();
+    if (drawingBufferWidth < width - 1 || drawingBufferHeight < height - 1) {
+      throw new Error(`This browser draws at most ${drawingBufferWidth} × ${drawingBufferHeight} pixels of it.`);
+    }
+    return picture;
+  }
+
   dispose(): void {
     cancelAnimationFrame(this.frame);
     for (const stop of this.stops) stop();
@@ -179,14 +194,18 @@ export class ThreeScene implements SceneView {
     for (const callback of this.ticks) callback(elapsed);
     if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
     this.isChanged = false;
-    this.draw();
+    this.draw(this.size.peek(), this.ratio, this.freeArea.peek());
   }
 
-  /** Fit canvas and camera to the element's size. */
-  private fit(): void {
+  /** Device pixels per pixel of the element. */
+  private get ratio(): number {
     const { width, height } = this.size.peek();
     const most = this.isSlow ? MAX_SLOW_PIXELS : MAX_PIXELS;
-    const ratio = Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO, Math.sqrt(most / (width * height)));
+    return Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO, Math.sqrt(most / (width * height)));
+  }
+
+  /** Fit canvas and camera to a size [px]. */
+  private fit({ width, height }: PictureSize, ratio: number, insets: Insets): void {
     const isSame = ratio === this.pixelRatio && this.element.width === Math.floor(width * ratio) && this.element.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
       this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
@@ -194,13 +213,14 @@ export class ThreeScene implements SceneView {
     this.pixelRatio = ratio;
     const camera = this.camera.peek();
     if ("aspect" in camera) camera.aspect = width / height;
-    centreOn(freeArea(width, height, this.freeArea.peek()), camera, width, height);
+    else Object.assign(camera, { left: (camera.bottom * width) / height, right: (camera.top * width) / height });
+    centreOn(freeArea(width, height, insets), camera, width, height);
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
   }
 
-  private draw(): void {
-    this.fit();
+  private draw(size: PictureSize, ratio: number, insets: Insets): void {
+    this.fit(size, ratio, insets);
     const camera = this.camera.peek();
     this.ground.follow(camera);
     this.headlight.position.copy(camera.position);
@@ -210,7 +230,7 @@ export class ThreeScene implements SceneView {
       this.renderer.render(this.scene, camera);
       for (const step of this.steps) step.after?.(this.renderer, camera);
     }
-    this.labels.draw(camera, this.size.peek(), this.pixelRatio);
+    this.labels.draw(camera, size, ratio);
     this.axes.draw(camera);
   }
 }
