@@ -6,6 +6,7 @@ import statistics
 import subprocess
 import sys
 import sysconfig
+import tempfile
 import time
 from collections.abc import Callable, Generator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -23,6 +24,8 @@ _ROSTOPIC = "/usr/bin/rostopic"
 _DEBIANS = "/usr/bin/python3"
 _VERSION = [sys.version_info.major, sys.version_info.minor]
 _THEIRS = [_DEBIANS, "-W", "ignore", str(_END), "rospy"]
+_BYTECODE = tempfile.TemporaryDirectory()
+"""Folder of compiled modules for both sides: an installed program is compiled, a checkout need not be."""
 
 
 def run() -> list[Row]:
@@ -53,8 +56,14 @@ def _fresh_master() -> Generator[dict[str, str]]:
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
-        addresses = {"ROS_MASTER_URI": core.uri, "ROS_IP": "127.0.0.1"}
-        yield {**os.environ, **addresses, "PYTHONWARNINGS": "ignore", "BENCH_SITE": sysconfig.get_path("platlib")}
+        yield {
+            **{name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"},
+            "ROS_MASTER_URI": core.uri,
+            "ROS_IP": "127.0.0.1",
+            "BENCH_SITE": sysconfig.get_path("platlib"),
+            "PYTHONWARNINGS": "ignore",
+            "PYTHONPYCACHEPREFIX": _BYTECODE.name,
+        }
         loop.run(core.stop())
 
 

@@ -59,12 +59,12 @@ from .messages.field_paths import field_type as field_type
 from .messages.field_paths import split_topic as split_topic
 from .messages.field_paths import value_at as value_at
 from .messages.genpy_view import MessageView as MessageView
-from .messages.messages import Message as Message
 from .messages.messages import Messages as Messages
-from .messages.messages import RawMessage as RawMessage
-from .messages.messages import ServiceType as ServiceType
 from .messages.printing import MessagePrinter as MessagePrinter
 from .messages.printing import field_value as field_value
+from .messages.raw_message import Message as Message
+from .messages.raw_message import RawMessage as RawMessage
+from .messages.raw_message import ServiceType as ServiceType
 from .migration import GeneratedRule as GeneratedRule
 from .migration import MessageClass as MessageClass
 from .migration import MessageClasses as MessageClasses

@@ -4,11 +4,10 @@ Each distribution stands as of its last release. The changelogs named are at
 https://docs.ros.org/en/DISTRO/changelogs/PACKAGE/changelog.html.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Distro:
+class Distro(NamedTuple):
     """Behaviour of one distribution."""
 
     distro: str

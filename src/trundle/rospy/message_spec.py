@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from hashlib import md5
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from trundle.ros.errors import DefinitionError
 from trundle.ros.messages.constants import constant_texts, read_constant
@@ -20,8 +19,7 @@ _DEEPEST = 100
 """Limit of nested messages, far above real types."""
 
 
-@dataclass(frozen=True, slots=True)
-class Constant:
+class Constant(NamedTuple):
     """A constant: name, type, value as written, value."""
 
     name: str
@@ -30,8 +28,7 @@ class Constant:
     value: bool | int | float | str
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(NamedTuple):
     """A field: name, element type ('float64', 'geometry_msgs/Twist'), and the length of an array."""
 
     name: str
@@ -55,8 +52,7 @@ class Field:
         return int(self.array[1:-1]) if len(self.array) > len("[]") else None
 
 
-@dataclass(frozen=True, slots=True)
-class MessageSpec:
+class MessageSpec(NamedTuple):
     """A parsed definition."""
 
     type: str

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from ..messages.messages import RawMessage
+from ..messages.raw_message import RawMessage
 from ..node.node import Node
 from ..node.publisher import Publisher
 from .bag import BagConnection, BagMessage, BagReader

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RosError
-from ..messages.messages import RawMessage
+from ..messages.raw_message import RawMessage
 from ..node.clock import Clock, WallClock
 from ..node.node import Node
 from ..node.subscription import Subscription

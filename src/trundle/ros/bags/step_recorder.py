@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from ..messages.messages import Message
+from ..messages.raw_message import Message
 from ..node.local_graph import LocalPublisher
 from ..node.loop import GraphLoop
 from .bag import BagConnection, BagError, BagMessage, recording_failure

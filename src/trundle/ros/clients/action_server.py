@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-from ..messages.messages import Message
+from ..messages.raw_message import Message
 from ..node.clock import to_nsec
 from ..node.node import Node
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ServiceError
-from ..messages.messages import Message
+from ..messages.raw_message import Message
 from ..node.node import Node
 from .reconfigure_server import Option, Options, OptionValue, config_message, config_values
 

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from ..messages.messages import Message
+from ..messages.raw_message import Message
 from ..node.clock import SimClock, to_nsec
 from ..node.node import Node
 from .tf_buffer import Transform, TransformBuffer

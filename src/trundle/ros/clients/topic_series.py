@@ -10,7 +10,8 @@ from trundle.diagnostics import UsageError
 from trundle.drawing import Curve
 
 from ..messages.field_paths import TopicField, field_type, value_at
-from ..messages.messages import Messages, RawMessage
+from ..messages.messages import Messages
+from ..messages.raw_message import RawMessage
 from ..node.clock import Clock
 from ..node.node import Node
 

@@ -4,8 +4,8 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from trundle.files import read_text
 
@@ -17,34 +17,39 @@ DEBIAN_SHARE = "/usr/share"
 """Debian's rospkg searches here last, whatever ROS_PACKAGE_PATH is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Origin:
+class Origin(NamedTuple):
     """File and first line of a definition."""
 
     path: Path
     line: int = 1
 
 
-@dataclass(slots=True)
 class Definitions:
     """Definitions by type name ('geometry_msgs/Twist'); a package is read when one of its types is first used."""
 
-    messages: dict[str, str]
-    services: dict[str, str]
-    folders: dict[str, Path]
-    """Package → folder with its `msg/`, `srv/` and `action/`, for packages not read yet."""
-    _on_path: Mapping[str, Path] | None = None
-    _looked_up: set[str] = field(default_factory=set[str])
-    origins: dict[str, Origin] = field(default_factory=dict[str, Origin])
-    """Origins of definitions that were read from files."""
-    unreadable: dict[str, str] = field(default_factory=dict[str, str])
-    """Type with `.msg` or `.srv` → reason why its file cannot be read."""
+    def __init__(self, folders: dict[str, Path], on_path: Mapping[str, Path] | None = None) -> None:
+        """Start without types.
+
+        Args:
+            folders: of packages, with `msg/`, `srv/` and `action/`.
+            on_path: of packages on the package path; None: search it.
+        """
+        self.messages: dict[str, str] = {}
+        self.services: dict[str, str] = {}
+        self.folders = folders
+        """Package → folder, for packages not read yet."""
+        self.origins: dict[str, Origin] = {}
+        """Origins of definitions that were read from files."""
+        self.unreadable: dict[str, str] = {}
+        """Type with `.msg` or `.srv` → reason why its file cannot be read."""
+        self._on_path = on_path
+        self._looked_up: set[str] = set()
 
     @classmethod
     def shipped(cls) -> "Definitions":
         """Definitions shipped with Trundle: those that rosbags lacks."""
         folders = {path.name: path for path in sorted(_SHIPPED.iterdir()) if path.is_dir()}
-        return cls({}, {}, folders)
+        return cls(folders)
 
     @property
     def on_path(self) -> Mapping[str, Path]:

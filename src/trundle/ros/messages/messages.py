@@ -6,13 +6,13 @@ rosbags supplies the types of a desktop installation; it is imported on first us
 import threading
 import time
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from ..errors import MessageError
 from .codec import Codec
 from .definition_search import Definitions, split_service
+from .raw_message import Message, ServiceType
 from .type_definitions import BUILTIN, TypeDefinitions, ros_name
 from .type_registry import TypeRegistry, UnknownTypeError
 from .typed_message import TypedMessage
@@ -22,38 +22,6 @@ if TYPE_CHECKING:
 
     from ..message_types import Time
     from .message_builder import MessageBuilder
-
-
-Message: TypeAlias = Any
-"""A message object: a dataclass made by rosbags, with the fields of its ROS type. Number arrays are numpy arrays,
-`time` and `duration` have `sec` and `nanosec`, a field that is a Python keyword gets a trailing `_`."""
-
-ANY_TYPE = "*"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RawMessage:
-    """A serialized message with its connection header, for counting, storing or relaying."""
-
-    type: str
-    md5sum: str
-    definition: str
-    data: bytes | memoryview
-    """Read-only; long messages are received in place and not copied."""
-    caller: str = ""
-    """Node that published it."""
-    latching: bool = False
-    """True if the publisher latches."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ServiceType:
-    """A service type: name, md5 sum, request and response types."""
-
-    type: str
-    md5sum: str
-    request: str
-    response: str
 
 
 class Messages:
@@ -66,7 +34,7 @@ class Messages:
             bare: True: start empty, as for reading a bag with the definitions in it.
         """
         self._is_bare = bare
-        self._definitions = Definitions({}, {}, {}, {}) if bare else Definitions.shipped()
+        self._definitions = Definitions({}, {}) if bare else Definitions.shipped()
         self._services: dict[str, ServiceType] = {}
         self._codecs: dict[str, Codec] = {}
         self._lock = threading.RLock()

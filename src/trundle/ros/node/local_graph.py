@@ -2,10 +2,9 @@
 
 import asyncio
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
-from ..messages.messages import Message
+from ..messages.raw_message import Message
 
 
 class LocalPublisher(Protocol):
@@ -67,8 +66,7 @@ class LocalSubscriber(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LocalNode:
+class LocalNode(NamedTuple):
     """A listening node of this process."""
 
     name: str

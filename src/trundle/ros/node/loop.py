@@ -7,16 +7,18 @@ import threading
 import time
 from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from trundle.diagnostics import DescriptionError, UsageError
 
 from .. import _message_codec
-from ..messages.messages import Messages
 from ..transport.closing_loop import ClosingLoop
 from ..transport.fast_selector import FastSelector
 from .local_graph import LocalGraph
 from .pending_work import PendingWork
+
+if TYPE_CHECKING:
+    from ..messages.messages import Messages
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
@@ -40,8 +42,8 @@ class GraphLoop:
     Its nodes exchange message objects without serialization. Also a context manager.
     """
 
-    def __init__(self, *, messages: Messages | None = None) -> None:
-        self.messages = messages or Messages()
+    def __init__(self, *, messages: "Messages | None" = None) -> None:
+        self.messages = messages or _new_messages()
         """Message types of all nodes; loaded on first use."""
         self.local = LocalGraph()
         """Nodes of the loop."""
@@ -235,6 +237,12 @@ class GraphLoop:
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
             self._drop_unstarted()
+
+
+def _new_messages() -> "Messages":
+    from ..messages.messages import Messages  # lazy: rospy has a store of its own
+
+    return Messages()
 
 
 def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:

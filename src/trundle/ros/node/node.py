@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from trundle.names import canonical_name, join_names, resolve_name
 
 from ..distro import NOETIC
-from ..messages.messages import ANY_TYPE, Message, Messages
+from ..messages.raw_message import ANY_TYPE, Message
 from ..messages.typed_message import TypedMessage
 from ..transport.network import master_uri_from_env, server_address
 from .callback_dispatch import Deliver
@@ -32,6 +32,7 @@ from .subscription import Callback, Subscription
 
 if TYPE_CHECKING:
     from ..message_types import Time
+    from ..messages.messages import Messages
 
 _FAREWELL_S = 1.0
 """Timeout of unregistering: a program must end within two seconds of Ctrl-C."""
@@ -131,7 +132,7 @@ class Node:
         return resolve_name(name, self.name, self._remappings)
 
     @property
-    def messages(self) -> Messages:
+    def messages(self) -> "Messages":
         """Message types of the loop."""
         return self.loop.messages
 

@@ -1,13 +1,16 @@
 """Interface of a node for its parts: publishers, subscriptions, services, parameters and servers."""
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from ..messages.messages import Message, Messages
+from ..messages.raw_message import Message
 from .callback_dispatch import Deliver
 from .loop import GraphLoop
 from .master_client import MasterClient
 from .node_log import NodeLog
+
+if TYPE_CHECKING:
+    from ..messages.messages import Messages
 
 
 class NodeContext(Protocol):
@@ -49,7 +52,7 @@ class NodeContext(Protocol):
         ...
 
     @property
-    def messages(self) -> Messages:
+    def messages(self) -> "Messages":
         """Message types of the loop."""
         ...
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import MessageError
 from ..messages.codec import ENCODING_ERRORS, Codec
-from ..messages.messages import Message
+from ..messages.raw_message import Message
 from ..messages.typed_message import TypedMessage
 from ..transport.framing import LENGTH, Pieces
 from ..transport.headers import check_md5

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import MessageError, ServiceError, WireError
-from ..messages.messages import Message, ServiceType
+from ..messages.raw_message import Message, ServiceType
 from ..transport.headers import check_md5, frame
 from ..transport.tcpros import FrameProtocol
 from .callback_dispatch import run_on_callback_thread

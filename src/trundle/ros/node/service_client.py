@@ -4,13 +4,17 @@ import asyncio
 import contextlib
 import struct
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from ..errors import MasterError, MessageError, RosError, ServiceError, WireError
-from ..messages.messages import Message, Messages, ServiceType
+from ..messages.raw_message import Message, ServiceType
 from ..messages.typed_message import TypedMessage
 from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header, frame
 from ..xmlrpc.http import host_and_port
 from .node_context import NodeContext
+
+if TYPE_CHECKING:
+    from ..messages.messages import Messages
 
 _POLL_S = 0.05
 """Poll interval of the master for a missing service."""
@@ -101,7 +105,7 @@ async def probe_service(uri: str, name: str, caller: str) -> dict[str, str]:
 
 
 async def _exchange(
-    messages: Messages, caller: str, uri: str, name: str, kind: ServiceType, request: Message
+    messages: "Messages", caller: str, uri: str, name: str, kind: ServiceType, request: Message
 ) -> Message:
     """Send a request to a provider as the node `caller`, and return the response.
 

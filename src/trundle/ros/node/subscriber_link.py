@@ -8,7 +8,7 @@ from typing import Protocol
 from .. import _message_codec
 from ..errors import MessageError, WireError
 from ..messages.codec import Codec
-from ..messages.messages import ANY_TYPE, Message
+from ..messages.raw_message import ANY_TYPE, Message
 from ..transport.fast_selector import FastSelector
 from ..transport.headers import check_md5
 from ..transport.shared_ring import SharedRingReader

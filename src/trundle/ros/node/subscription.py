@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import MessageError, RosError, WireError
 from ..messages.codec import Codec
-from ..messages.messages import ANY_TYPE, Message, RawMessage
+from ..messages.raw_message import ANY_TYPE, Message, RawMessage
 from ..transport.headers import check_md5
 from ..transport.tcpros import FrameProtocol
 from ..transport.unix_sockets import UNIXROS, connect_unix, unix_address

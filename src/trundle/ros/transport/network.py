@@ -2,14 +2,13 @@
 
 import os
 import socket
-from dataclasses import dataclass
+from typing import NamedTuple
 
 LOOPBACK, _LOOPBACK_6 = "127.0.0.1", "::1"
 DEFAULT_MASTER_URI = "http://localhost:11311"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ServerAddress:
+class ServerAddress(NamedTuple):
     """Address a server binds, and the host its URIs name."""
 
     bind: str

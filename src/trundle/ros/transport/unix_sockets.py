@@ -5,7 +5,6 @@ TCPROS answer. The stream is the same. If connecting fails, as between two machi
 """
 
 import os
-import secrets
 import socket
 import struct
 import sys
@@ -23,7 +22,7 @@ def listen_unix() -> tuple[socket.socket, str] | None:
     """Create a listening socket and its name; None where abstract socket names are not supported."""
     if sys.platform != "linux":
         return None
-    name = _PREFIX + secrets.token_hex(16)
+    name = _PREFIX + os.urandom(16).hex()
     listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         listening.bind(f"\0{name}")

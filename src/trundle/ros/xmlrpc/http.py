@@ -1,7 +1,7 @@
 """Minimal HTTP for XML-RPC: one POST, one response, Content-Length required."""
 
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 from urllib.parse import urlsplit
 
 from ..errors import WireError
@@ -17,8 +17,7 @@ _MAX_PORT = 65535
 _ADDRESS = re.compile(r"(?:http|rosrpc)://(?P<host>\[[^]/@]+\]|:?:?[^][/@?#:][^][/@?#]*):(?P<port>\d{1,5})(?:[/?#]|$)")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Head:
+class Head(NamedTuple):
     """Start line and header fields of a request or response."""
 
     start: tuple[str, str, str]

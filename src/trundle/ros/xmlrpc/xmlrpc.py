@@ -4,14 +4,15 @@ Replaces `xmlrpc.client`, which takes 90 ms to import (too slow for `trundle top
 document type declaration is an error, so no entity can be defined.
 """
 
-import base64
 import binascii
 from collections.abc import Callable, Sequence
-from datetime import datetime
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 from xml.parsers import expat
 
 from ..errors import WireError
+
+if TYPE_CHECKING:
+    from datetime import datetime
 
 Value: TypeAlias = "bool | int | float | str | bytes | datetime | list[Any] | dict[str, Any]"
 """Types that XML-RPC can carry; integers have 32 bits. Lists hold Values, dictionaries map names to Values."""
@@ -100,9 +101,7 @@ def _value(value: object, depth: int = 0) -> str:
         case str():
             body = f"<string>{_text(value)}</string>"
         case bytes():
-            body = f"<base64>{base64.b64encode(value).decode()}</base64>"
-        case datetime():
-            body = f"<dateTime.iso8601>{value:%Y%m%dT%H:%M:%S}</dateTime.iso8601>"
+            body = f"<base64>{binascii.b2a_base64(value, newline=False).decode()}</base64>"
         case list() | tuple():
             items: Sequence[object] = value
             data = "".join(_value(item, depth + 1) for item in items)
@@ -116,8 +115,16 @@ def _value(value: object, depth: int = 0) -> str:
                 parts.append(f"<member><name>{_text(name)}</name>{_value(member, depth + 1)}</member>")
             body = f"<struct>{''.join(parts)}</struct>"
         case _:
-            raise ValueError(f"XML-RPC cannot carry {value!r} of type {type(value).__name__}")
+            body = _date_element(value)
     return f"<value>{body}</value>"
+
+
+def _date_element(value: object) -> str:
+    from datetime import datetime  # lazy: parameters rarely hold a date
+
+    if not isinstance(value, datetime):
+        raise ValueError(f"XML-RPC cannot carry {value!r} of type {type(value).__name__}")
+    return f"<dateTime.iso8601>{value:%Y%m%dT%H:%M:%S}</dateTime.iso8601>"
 
 
 def _boolean(text: str) -> bool:
@@ -126,12 +133,14 @@ def _boolean(text: str) -> bool:
     return text.strip() == "1"
 
 
-def _date(text: str) -> datetime:
+def _date(text: str) -> "datetime":
+    from datetime import datetime
+
     return datetime.strptime(text.strip(), "%Y%m%dT%H:%M:%S")
 
 
 def _binary(text: str) -> bytes:
-    return base64.b64decode(text.encode())
+    return binascii.a2b_base64(text.encode())
 
 
 def _nil(text: str) -> None:

@@ -6,10 +6,10 @@ import threading
 from collections.abc import Callable, Coroutine
 from concurrent.futures import CancelledError
 from queue import SimpleQueue
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from trundle.ros.log import LEVELS
-from trundle.ros.messages.messages import Messages, ServiceType
+from trundle.ros.messages.raw_message import ServiceType
 from trundle.ros.node.clock import WallClock
 from trundle.ros.node.loop import GraphLoop
 from trundle.ros.node.node import Node
@@ -17,6 +17,9 @@ from trundle.ros.node.node_log import NodeLog
 
 from . import core
 from .exceptions import ROSException
+
+if TYPE_CHECKING:
+    from trundle.ros.messages.messages import Messages
 
 _T = TypeVar("_T")
 _POLL_S = 0.2
@@ -103,7 +106,7 @@ def start(name: str, master_uri: str, ports: tuple[int, int]) -> Node:
         ports: of the slave API and of TCPROS.
     """
     global loop, node
-    loop = GraphLoop(messages=cast(Messages, ByteMessages()))
+    loop = GraphLoop(messages=cast("Messages", ByteMessages()))
     loop.start()
     clock = WallClock()
     with _lock:

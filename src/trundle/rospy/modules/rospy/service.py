@@ -9,7 +9,7 @@ from typing import Any
 import genpy
 import rosgraph.names
 from trundle.ros.errors import ServiceError
-from trundle.ros.messages.messages import ServiceType
+from trundle.ros.messages.raw_message import ServiceType
 from trundle.ros.node.node import Node
 from trundle.ros.node.service import Service as GraphService
 from trundle.ros.transport.tcpros import FrameProtocol
