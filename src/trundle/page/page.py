@@ -2,7 +2,7 @@
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from .connection import Connection
 from .hub import Hub
 from .mailbox import Mailbox
 from .outbox import Outbox
-from .owner import Owner, PictureError, respond
+from .owner import MAX_IN_FLIGHT, Owner, PictureError, respond
 from .protocol import (
     CAPABILITIES,
     ERROR,
@@ -31,15 +31,16 @@ from .protocol import (
     Unsubscribe,
     operation_decoder,
 )  # fmt: skip
-from .requests import ClientAction, Definition, RenderView
+from .requests import ClientAction, Definition, RenderView, SaveRvizAs
 from .ros_graph import RosGraph
+from .rviz_saving import save_rviz
 from .session import Session
 from .session_channel import SessionChannel
 from .wire import AddFile, FromServer, OpenMailbox, Respond, SetNotice, SetSession, SetWorld, Start, ToServer
 from .world_channels import BoxChannel, PosesChannel, StateChannel, WorldChannel, joints_channel, lines_channel
 
 _NO_GRAPH = "this page has no ROS graph"
-_action_decoder = msgspec.json.Decoder(ClientAction | Definition)
+_action_decoder = msgspec.json.Decoder(ClientAction | Definition | SaveRvizAs)
 
 
 class Page:
@@ -201,10 +202,21 @@ class Page:
         except msgspec.ValidationError as error:
             respond(client, client_id, f"not a request: {error}")
             return
-        if not isinstance(action, Definition):
-            self._act(client, client_id, action)
+        match action:
+            case Definition(type_name):
+                self._start(client, client_id, self._define(client, client_id, type_name))
+            case SaveRvizAs():
+                self._start(client, client_id, self._save_rviz(client, client_id, action))
+            case _:
+                self._act(client, client_id, action)
+
+    def _start(self, client: Connection, client_id: int | str, work: Coroutine[None, None, None]) -> None:
+        """Begin work that takes time, and that answers a client."""
+        if len(self._tasks) >= MAX_IN_FLIGHT:
+            work.close()
+            respond(client, client_id, f"{MAX_IN_FLIGHT} requests wait already")
             return
-        task = asyncio.get_running_loop().create_task(self._define(client, client_id, action.type))
+        task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
@@ -214,6 +226,16 @@ class Page:
             respond(client, client_id, definition=await asyncio.to_thread(self._messages.definition, type_name))
         except MessageError as error:
             respond(client, client_id, str(error))
+
+    async def _save_rviz(self, client: Connection, client_id: int | str, action: SaveRvizAs) -> None:
+        """Answer with whether it was saved: not where a file is there that may not be replaced."""
+        name, text, replace = action.name, action.text, action.replace
+        try:
+            saved = await asyncio.to_thread(save_rviz, Path.cwd(), name, text, replace=replace)
+        except UsageError as error:
+            respond(client, client_id, str(error))
+        else:
+            respond(client, client_id, saved=saved)
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Have the bag or the owner do what a client asks for."""

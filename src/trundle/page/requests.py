@@ -76,6 +76,15 @@ class SaveRviz(Action, frozen=True, tag="save_rviz"):
     text: Text
 
 
+class SaveRvizAs(Action, frozen=True, tag="save_rviz_as"):
+    """Save an .rviz file below the folder where Trundle was started; the server itself does it."""
+
+    name: Annotated[str, msgspec.Meta(max_length=500)]
+    text: Text
+    replace: bool = False
+    """True: a file of that name is replaced."""
+
+
 class Record(Action, frozen=True):
     """Begin or end recording."""
 

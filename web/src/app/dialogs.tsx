@@ -6,6 +6,7 @@ import { Help } from "./help";
 import { NoticeList } from "./notice_list";
 import { Palette } from "./palette";
 import { PictureDialog } from "./picture_dialog";
+import { SaveDialog } from "./save_dialog";
 import type { Shell } from "./shell";
 import { LinkDialog } from "./view_link_dialog";
 
@@ -15,5 +16,6 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   if (dialog === "help") return <Help shell={shell} />;
   if (dialog === "picture") return <PictureDialog shell={shell} />;
   if (dialog === "link") return <LinkDialog shell={shell} />;
+  if (dialog === "save") return <SaveDialog shell={shell} />;
   return dialog === "notices" ? <NoticeList shell={shell} /> : null;
 }

@@ -21,8 +21,9 @@ const REFRESH = 1000; // ms; rates
 export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element {
   const { page } = shell;
   const { displays } = page;
-  const adding = useSignal<boolean | null>(null); // until a person says: where no file says what to show
-  const isAdding = adding.value ?? (page.session.rviz === null && page.session.kind !== "simulation" && displays.offers.value.length > 0);
+  const adding = useSignal<boolean | null>(null); // until a person says: where no file says what to show and there is room
+  const isOffering = page.session.rviz === null && page.session.kind !== "simulation" && !shell.layout.isPhone.value;
+  const isAdding = adding.value ?? (isOffering && displays.offers.value.length > 0);
   const renaming = useSignal<Display | null>(null);
   useRates();
   const selected = shell.display.value;

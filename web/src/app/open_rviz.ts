@@ -32,6 +32,6 @@ async function open(shell: Shell, file: File | undefined): Promise<void> {
   const text = await file.text();
   shell.display.value = null;
   for (const fault of displays.load(text)) shell.notices.report(file.name, fault, "warn");
-  shell.opened.value = file.name;
+  shell.ownFile.value = { name: file.name, writable: false };
   shell.layout.open("displays");
 }

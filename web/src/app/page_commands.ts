@@ -4,7 +4,7 @@ import { toggleFollowing } from "./following";
 import { frameSelection } from "./framing";
 import { chooseRviz } from "./open_rviz";
 import type { Command } from "./page";
-import { save } from "./rviz_foot";
+import { download, rvizFile, save } from "./rviz_foot";
 import type { Shell } from "./shell";
 import { SIDE_PAGES } from "./side_pages";
 import { switchTheme } from "./theme";
@@ -37,7 +37,9 @@ export function pageCommands(shell: Shell): readonly Command[] {
     { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
     { ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"), enabled: () => undo.redoTitle.peek() !== null },
     command("open_rviz", "Displays", "Open an .rviz file", () => chooseRviz(shell)),
-    command("save_rviz", "Displays", page.session.rviz?.writable === true ? "Save the .rviz file" : "Download as .rviz", () => save(shell)),
+    { ...command("save_rviz", "Displays", "Save the .rviz file", () => save(shell)), enabled: () => rvizFile(shell)?.writable === true },
+    command("save_rviz_as", "Displays", "Save as .rviz", () => (dialog.value = "save")),
+    command("download_rviz", "Displays", "Download as .rviz", () => download(shell)),
     command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
     command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),
     command("notices", "Page", "List what is missing", () => (dialog.value = "notices")),

@@ -44,8 +44,8 @@ export function PictureDialog({ shell }: { readonly shell: Shell }): JSX.Element
     </label>
   );
   return (
-    <Dialog title="Save a picture" class="form" onClose={close}>
-      <div class="rows">
+    <Dialog title="Save a picture" class="save" onClose={close}>
+      <div class="form">
         {field("Width", width, (value) => (size.value = [value, height]))}
         {field("Height", height, (value) => (size.value = [width, value]))}
         <div class="sides">

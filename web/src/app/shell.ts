@@ -13,7 +13,14 @@ import type { Page } from "./page";
 import { ViewVideo } from "./view_video";
 import { isBoolean, recall, remember } from "./storage";
 
-export type Dialog = "palette" | "help" | "notices" | "picture" | "link" | null;
+export type Dialog = "palette" | "help" | "notices" | "save" | "picture" | "link" | null;
+
+/** An .rviz file that is shown. */
+export interface RvizFileInfo {
+  readonly name: string;
+  /** False: it can only be downloaded or saved as another one. */
+  readonly writable: boolean;
+}
 
 export class Shell {
   readonly layout: Layout;
@@ -22,8 +29,8 @@ export class Shell {
   readonly dialog = signal<Dialog>(null);
   /** The display that is selected in its panel. */
   readonly display = signal<Display | null>(null);
-  /** Name of an .rviz file of the person's own that took the place of the session's; null: none did. */
-  readonly opened = signal<string | null>(null);
+  /** The .rviz file that took the place of the session's: opened or saved by the person; null: none did. */
+  readonly ownFile = signal<RvizFileInfo | null>(null);
   readonly showsCameras = signal(recall("cameras", true, isBoolean));
   /** Name of the robot: the session's, else that of the robot description. */
   readonly robot = computed(() => {

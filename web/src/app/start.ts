@@ -49,14 +49,14 @@ export function startDisplays(shell: Shell): void {
 }
 
 /** Take the file and the fixed frame that the session asks for later, unless a person has changed what is shown. */
-function followSession({ page, notices, opened }: Shell): void {
+function followSession({ page, notices, ownFile }: Shell): void {
   let shown = page.session;
   effect(() => {
     const next = page.session;
     untracked(() => {
       const { displays } = page;
       const { rviz, fixed_frame } = next;
-      const isOther = rviz !== null && opened.value === null && rviz.text !== shown.rviz?.text && displays.changes.value === 0 && displays.save() !== rviz.text;
+      const isOther = rviz !== null && ownFile.value === null && rviz.text !== shown.rviz?.text && displays.changes.value === 0 && displays.save() !== rviz.text;
       if (isOther) for (const fault of displays.load(rviz.text)) notices.report(rviz.name, fault, "warn");
       if (fixed_frame !== null && (isOther || fixed_frame !== shown.fixed_frame)) displays.fixedFrameSetting.value = fixed_frame;
       shown = next;

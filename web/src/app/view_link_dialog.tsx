@@ -19,8 +19,8 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
     void navigator.clipboard.writeText(link).then(() => (copied.value = true), () => undefined);
   };
   return (
-    <Dialog title="Link to this view" class="form" onClose={() => (shell.dialog.value = null)}>
-      <div class="rows">
+    <Dialog title="Link to this view" class="save" onClose={() => (shell.dialog.value = null)}>
+      <div class="form">
         <p class="t2">Whoever can open this page sees it from here.</p>
         <label class="field">
           <input ref={field} aria-label="Link" readOnly value={link} autoFocus onFocus={(event) => event.currentTarget.select()} />

@@ -38,7 +38,8 @@ export class DisplayStore implements DisplayList {
   private readonly context: DisplayContext;
   private file = RvizFile.parse(DEFAULT_FILE);
   private readonly edits: Edits;
-  private readonly savedLook = signal("");
+  /** From where one looked when the file was loaded or saved; null without a file, whose look is the page's own. */
+  private readonly savedLook = signal<string | null>(null);
 
   constructor(private readonly parts: DisplayStoreParts) {
     const { connection, names, frames, scene } = parts;
@@ -54,8 +55,9 @@ export class DisplayStore implements DisplayList {
       return findOffers(connection.topics.value.values(), shown);
     });
     this.edits = new Edits(parts.undo);
-    this.changes = computed(() => this.edits.count.value + Number(this.lookText() !== this.savedLook.value));
+    this.changes = computed(() => this.edits.count.value + Number(this.savedLook.value !== null && this.lookText() !== this.savedLook.value));
     this.load(DEFAULT_FILE);
+    this.savedLook.value = null;
     this.root.start();
   }
 

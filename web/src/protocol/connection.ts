@@ -96,6 +96,8 @@ export interface Connection {
   fetchAsset(uri: string): Promise<ArrayBuffer>;
   /** A request to what started the page; rejects with its sentence. */
   request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<void>;
+  /** Save an .rviz file below the folder where Trundle was started; false: one of that name is there, and stays. */
+  saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean>;
   drive(topic: string, linear: number, angular: number): void;
   release(topic: string): void;
 }

@@ -54,7 +54,7 @@ export type ServerText =
   | { readonly op: "parameterValues"; readonly parameters: readonly Parameter[] }
   | ({ readonly op: "connectionGraphUpdate" } & GraphUpdate)
   | { readonly op: "serviceCallFailure"; readonly callId: number; readonly message: string }
-  | { readonly op: "trundle/response"; readonly id: number; readonly ok: true; readonly definition?: string }
+  | { readonly op: "trundle/response"; readonly id: number; readonly ok: true; readonly definition?: string; readonly saved?: boolean }
   | { readonly op: "trundle/response"; readonly id: number; readonly ok: false; readonly error: string };
 
 /** Binary frames of the server. */

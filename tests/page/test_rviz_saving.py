@@ -1,0 +1,94 @@
+"""An .rviz file is saved below the folder where Trundle was started, and never over another one unasked."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.page_client import ProtocolClient
+
+from trundle.page import PageServer, Session
+from trundle.page_address import PageAddress
+
+TEXT = "Panels: []\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("place") / "started"
+    (folder / "rviz").mkdir(parents=True)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def client(folder: Path) -> Iterator[ProtocolClient]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        page = PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0))
+    with page, ProtocolClient(page.url) as client:
+        yield client
+
+
+def _save(client: ProtocolClient, name: str, text: str = TEXT, **more: Any) -> dict[str, Any]:
+    count = len(client.jsons)
+    client.send("trundle/request", id=count, request="save_rviz_as", name=name, text=text, **more)
+    client.until(lambda: client.jsons[count:] and client.last("trundle/response")["id"] == count)
+    return client.last("trundle/response")
+
+
+@pytest.mark.parametrize("name", ["car.rviz", "rviz/car.rviz", ".car.rviz", "ein Wägelchen.rviz"])
+def test_it_is_written_where_it_is_asked_for(client: ProtocolClient, folder: Path, name: str) -> None:
+    assert _save(client, name)["saved"] is True
+    assert (folder / name).read_text() == TEXT
+
+
+def test_a_file_that_is_there_is_replaced_only_when_that_is_asked_for(client: ProtocolClient, folder: Path) -> None:
+    path = folder / "mine.rviz"
+    path.write_text("mine")
+    path.chmod(0o600)
+
+    assert _save(client, "mine.rviz")["saved"] is False
+    assert path.read_text() == "mine"
+    assert _save(client, "mine.rviz", replace=True)["saved"] is True
+    assert (path.read_text(), path.stat().st_mode & 0o777) == (TEXT, 0o600)
+
+
+@pytest.mark.parametrize("replace", [False, True])
+def test_nothing_is_written_elsewhere(client: ProtocolClient, folder: Path, replace: bool) -> None:
+    outside = folder.parent / "outside.rviz"
+    outside.write_text("mine")
+    for link, target in (("link.rviz", outside), ("out", folder.parent)):
+        if not (folder / link).is_symlink():
+            (folder / link).symlink_to(target)
+    refusals = {
+        "../outside.rviz": "not below the folder",
+        "rviz/../../outside.rviz": "not below the folder",
+        str(outside): "not below the folder",
+        "link.rviz": "not below the folder",
+        "out/outside.rviz": "not below the folder",
+        "out/new.rviz": "not below the folder",
+        "none/car.rviz": "there is no folder none",
+        "car.yaml": "ends with .rviz",
+        "car.rviz\n.rviz": "ends with .rviz",
+        "car\0.rviz": "ends with .rviz",
+        "rviz/.rviz": "ends with .rviz",
+        "": "ends with .rviz",
+        "x" * 300 + ".rviz": "cannot write",
+    }
+    before = sorted(folder.parent.rglob("*"))
+
+    answers = {name: _save(client, name, replace=replace) for name in refusals}
+
+    assert [name for name, reason in refusals.items() if reason not in answers[name].get("error", "")] == []
+    assert outside.read_text() == "mine"
+    assert sorted(folder.parent.rglob("*")) == before
+
+
+@pytest.mark.parametrize("replace", [False, True])
+def test_a_folder_and_a_loop_of_links_are_no_files(client: ProtocolClient, folder: Path, replace: bool) -> None:
+    (folder / "folder.rviz").mkdir(exist_ok=True)
+    if not (folder / "loop.rviz").is_symlink():
+        (folder / "loop.rviz").symlink_to("loop.rviz")
+
+    assert _save(client, "folder.rviz", replace=replace)["error"] == "folder.rviz is a folder"
+    assert _save(client, "loop.rviz", replace=replace).get("saved") is not True
