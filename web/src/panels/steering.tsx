@@ -10,7 +10,7 @@ import { NumberField } from "../theme/number_field";
 import { Slider } from "../theme/slider";
 import type { Panel, PanelProps } from "./panel";
 
-function Steering({ page: { drive } }: PanelProps): JSX.Element {
+function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
   const topic = drive.topic.value;
   const isHeld = drive.command.value !== null;
   return (
@@ -29,7 +29,7 @@ function Steering({ page: { drive } }: PanelProps): JSX.Element {
         <Axis drive={drive} which="angular" name="Turning, w" unit="rad/s" />
         <div class={isHeld ? "sm held" : "sm t2"} role="status">
           {isHeld && `Driving ${topic ?? ""}. Let go to stop.`}
-          {!isHeld && (topic === null ? "Nothing here listens to velocities: choose a topic." : "Hold a slider to drive; let go to stop.")}
+          {!isHeld && (topic === null ? `Nothing listens to ${session.drive_topic ?? "velocities"} yet.` : "Hold a slider to drive; let go to stop.")}
         </div>
       </div>
     </div>

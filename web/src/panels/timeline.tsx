@@ -157,8 +157,9 @@ function MarkFlag({ state, mark, left }: { readonly state: TimelineState; readon
   );
 }
 
-function Actions({ page }: PanelProps): JSX.Element {
+function Actions({ page }: PanelProps): JSX.Element | null {
   const state = timelineState(page);
+  if (state.span() === null) return null;
   const world = page.world.state.value;
   const isPaused = world?.paused ?? true;
   const speed = Object.entries(SPEEDS).find(([, factor]) => factor === (world?.speed ?? null))?.[0] ?? `${world?.speed ?? 1}×`;

@@ -31,3 +31,15 @@ test("layers follow the arrows, without overlaps, loops too", () => {
   expect(x("c") - x("b")).toBeGreaterThan(80);
   expect(paths.every((path) => /^M[\d.-]+ [\d.-]+[LQ]/.test(path))).toBe(true);
 });
+
+test("lays boxes without arrows out in rows below the others, none over another", () => {
+  const boxes = Array.from({ length: 20 }, (_, index) => ({ id: `n${index}`, width: 90, height: 26 }));
+  const { boxes: placed, width, height } = layered(boxes, [{ from: "n0", to: "n1" }], "LR");
+  const centres = [...placed.values()];
+  expect(centres).toHaveLength(20);
+  for (const [index, [x, y]] of centres.entries()) {
+    expect([x >= 45, x <= width - 45, y >= 13, y <= height - 13]).toEqual([true, true, true, true]);
+    for (const [u, v] of centres.slice(index + 1)) expect(Math.abs(u - x) >= 90 || Math.abs(v - y) >= 26).toBe(true);
+  }
+  expect(width / height).toBeGreaterThan(2);
+});

@@ -24,10 +24,35 @@ export interface Placed {
 
 const MARGIN = 8;
 
-/** Lay boxes out from left to right, or from top to bottom. */
+const BETWEEN = 14; // px
+/** Boxes without arrows fill rows at least this wide [px]. */
+const ROW_WIDTH = 560;
+
+/** Lay boxes out from left to right, or from top to bottom; those without arrows in rows below the others. */
 export function layered(boxes: readonly Box[], arrows: readonly Arrow[], direction: "LR" | "TB"): Placed {
+  const joined = new Set(arrows.flatMap(({ from, to }) => [from, to]));
+  const drawing = arranged(boxes.filter(({ id }) => joined.has(id)), arrows, direction);
+  return withRows(drawing, boxes.filter(({ id }) => !joined.has(id)));
+}
+
+function withRows(drawing: Placed, lone: readonly Box[]): Placed {
+  const centres = new Map(drawing.boxes);
+  const widest = Math.max(ROW_WIDTH, drawing.width);
+  let [x, y, width] = [MARGIN, drawing.boxes.size > 0 ? drawing.height : MARGIN, drawing.width];
+  let row = 0; // height of the highest box [px]
+  for (const box of lone) {
+    if (x > MARGIN && x + box.width + MARGIN > widest) [x, y, row] = [MARGIN, y + row + BETWEEN, 0];
+    centres.set(box.id, [x + box.width / 2, y + box.height / 2]);
+    width = Math.max(width, x + box.width + MARGIN);
+    row = Math.max(row, box.height);
+    x += box.width + BETWEEN;
+  }
+  return { ...drawing, boxes: centres, width, height: lone.length > 0 ? y + row + MARGIN : drawing.height };
+}
+
+function arranged(boxes: readonly Box[], arrows: readonly Arrow[], direction: "LR" | "TB"): Placed {
   const graph = new Graph({ multigraph: true });
-  graph.setGraph({ rankdir: direction, nodesep: 14, ranksep: 44, edgesep: 8, marginx: MARGIN, marginy: MARGIN });
+  graph.setGraph({ rankdir: direction, nodesep: BETWEEN, ranksep: 44, edgesep: 8, marginx: MARGIN, marginy: MARGIN });
   graph.setDefaultEdgeLabel(() => ({}));
   for (const { id, width, height } of boxes) graph.setNode(id, { width, height });
   arrows.forEach(({ from, to }, index) => graph.setEdge(from, to, {}, String(index)));

@@ -1,0 +1,113 @@
+"""A person plots two fields of very different size: two axes, a zoom, a pause, a file of both."""
+
+import csv
+import io
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image, ImageColor
+from tests.graphs import Graph, running_graph
+from tests.page.panel_user import PanelUser
+
+from trundle.page import GraphAddress, PageServer, Session
+from trundle.page.client_files import CLIENT
+from trundle.page_address import PageAddress
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+SMALL, LARGE = "/small/point/x", "/large/point/x"
+SECONDS = 20
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
+    """Plot two ramps: one of 0 to 1, one of 1000 to 2000."""
+    node = graph.node("tester")
+    small, large = (node.advertise(f"/{name}", "geometry_msgs/PointStamped") for name in ("small", "large"))
+    session = Session(title="t", kind="graph", panels=("rqt_plot",), plots=(SMALL,))
+    address = GraphAddress(master_uri=graph.core.uri)
+    with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
+        user = PanelUser(chromium, server.url)
+        user.button("Add curve").first.click()
+        path = user.page.get_by_role("combobox", name="Path of a curve")
+        path.fill(LARGE)
+        path.press("Enter")
+        user.button("Close").click()
+        graph.until(lambda: small.has_subscribers and large.has_subscribers)
+        for second in range(SECONDS + 1):
+            share = second / SECONDS
+            for publisher, value in ((small, share), (large, 1000.0 + 1000.0 * share)):
+                publisher.publish({"header": {"stamp": {"secs": 100 + second, "nsecs": 0}}, "point": {"x": value}})
+            user.page.wait_for_timeout(20)
+        for value in ("1.000", "2000"):
+            user.page.locator(".legend b", has_text=value).wait_for()
+        yield user
+        user.close()
+
+
+def _height(user: PanelUser, path: str) -> int:
+    """Pixels from the lowest to the highest of a curve."""
+    row = user.page.locator(".legend li").filter(has=user.page.locator(f'[title="{path}"]'))
+    colour = row.evaluate(
+        "one => getComputedStyle(document.documentElement).getPropertyValue(one.style.getPropertyValue('--c').slice(4, -1))"
+    )
+    png = user.page.get_by_role("img", name=f"Plot of {SMALL}").screenshot()
+    picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)
+    rows = np.nonzero((np.abs(picture - ImageColor.getrgb(colour.strip())) < 16).all(axis=-1))[0]
+    return 0 if len(rows) == 0 else int(np.ptp(rows))
+
+
+def test_a_curve_has_an_axis_of_its_own(user: PanelUser) -> None:
+    """Beside 2000, 1 is flat; on an axis of its own it is as high as the other."""
+    user.until(lambda: _height(user, LARGE) > 30, what="for the curves")
+    assert _height(user, SMALL) < 10
+    user.button(f"Curve {LARGE}").click()
+    user.page.get_by_role("menuitemradio", name="Right axis").click()
+    user.until(lambda: _height(user, SMALL) > 60 and _height(user, LARGE) > 60, what="for two axes")
+
+
+def test_a_drag_zooms_in_and_a_button_goes_back(user: PanelUser) -> None:
+    area = user.page.locator(".u-over")
+    box = area.bounding_box()
+    y = box["y"] + box["height"] / 2
+
+    def time_at(share: float) -> float:
+        user.page.mouse.move(box["x"] + share * box["width"], y)
+        minutes, seconds = user.page.locator(".dock .cursor").inner_text().rsplit(":", 1)
+        return 60 * int(minutes) + float(seconds)
+
+    first, last = time_at(0.5), time_at(0.75)
+    user.page.mouse.move(box["x"] + 0.5 * box["width"], y)
+    user.page.mouse.down()
+    user.page.mouse.move(box["x"] + 0.75 * box["width"], y, steps=5)
+    user.page.mouse.up()
+    to_now = user.button("To now")
+    to_now.wait_for()
+    user.page.wait_for_timeout(200)  # some drawings
+    assert time_at(0.02) == pytest.approx(first, abs=1.0)
+    assert time_at(0.98) == pytest.approx(last, abs=1.0)
+    to_now.click()
+    user.page.wait_for_timeout(200)
+    assert time_at(0.5) == pytest.approx(first, abs=0.5)
+
+
+def test_all_curves_are_in_one_file(user: PanelUser) -> None:
+    with user.page.expect_download() as download:
+        user.button("CSV").click()
+    head, *rows = csv.reader(download.value.path().read_text().splitlines())
+
+    assert head == ["time", SMALL, LARGE]
+    assert [float(row[0]) for row in rows] == sorted({float(row[0]) for row in rows})  # one row for both
+    assert [float(value) for value in rows[-1]] == [120.0, 1.0, 2000.0]
+    assert all(float(large) == 1000.0 + 1000.0 * float(small) for _, small, large in rows if small and large)
