@@ -1,8 +1,13 @@
-from .edit_requests import EDITS as EDITS
 from .edit_requests import ApplyWrench as ApplyWrench
+from .edit_requests import Carry as Carry
 from .edit_requests import DeleteModel as DeleteModel
 from .edit_requests import EditAction as EditAction
+from .edit_requests import Hold as Hold
+from .edit_requests import LetGo as LetGo
 from .edit_requests import MoveJoint as MoveJoint
+from .edit_requests import PlaceJoint as PlaceJoint
+from .edit_requests import PlaceLight as PlaceLight
+from .edit_requests import Pull as Pull
 from .edit_requests import SetFriction as SetFriction
 from .edit_requests import SetLight as SetLight
 from .edit_requests import SetMass as SetMass

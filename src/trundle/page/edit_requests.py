@@ -33,6 +33,14 @@ class MoveJoint(Action, frozen=True, tag="joint"):
             raise ValueError("give one of 'position', 'velocity' and 'effort'")
 
 
+_Quaternion: TypeAlias = tuple[_Number, _Number, _Number, _Number]
+
+
+def _check_direction(quaternion: _Quaternion) -> None:
+    if sum(part * part for part in quaternion) < 1e-12:
+        raise ValueError("the quaternion of an orientation is not zero")
+
+
 class SetPose(Action, frozen=True, tag="pose"):
     """Move a model so that one of its links has this pose."""
 
@@ -40,13 +48,49 @@ class SetPose(Action, frozen=True, tag="pose"):
     link: Name
     position: Triple
     """In the world [m]."""
-    orientation: tuple[_Number, _Number, _Number, _Number]
+    orientation: _Quaternion
     """Quaternion wxyz, of any length but zero."""
 
     def __post_init__(self) -> None:
         """Check that the quaternion has a direction."""
-        if sum(part * part for part in self.orientation) < 1e-12:
-            raise ValueError("the quaternion of an orientation is not zero")
+        _check_direction(self.orientation)
+
+
+class Carry(SetPose, frozen=True, tag="carry"):
+    """Carry a model, at rest, so that one of its links has this pose; to be renewed within a second, until `let_go`."""
+
+
+class Pull(Action, frozen=True, tag="pull"):
+    """Pull a point of a link to a place by a spring; to be renewed within a second, until `let_go`."""
+
+    model: Name
+    link: Name
+    point: Triple
+    """In the link's frame [m]."""
+    target: Triple
+    """In the world [m]."""
+
+
+class LetGo(Action, frozen=True, tag="let_go"):
+    """Let a model go that is carried or pulled."""
+
+    model: Name
+
+
+class Hold(Action, frozen=True, tag="hold"):
+    """Fix a model's base where it is, in the air too, or free it again."""
+
+    model: Name
+    on: bool
+
+
+class PlaceJoint(Action, frozen=True, tag="place_joint"):
+    """Set the position of a joint at once; its velocity stays, and no motor is switched."""
+
+    model: Name
+    joint: Name
+    position: _Number
+    """[rad or m]"""
 
 
 class SetTwist(Action, frozen=True, tag="twist"):
@@ -86,6 +130,20 @@ class SetLight(Action, frozen=True, tag="light"):
     intensity: Annotated[float, msgspec.Meta(ge=0, le=1e6)]
 
 
+class PlaceLight(Action, frozen=True, tag="place_light"):
+    """Move a light of the world itself."""
+
+    light: Name
+    position: Triple
+    """In the world [m]."""
+    orientation: _Quaternion
+    """Quaternion wxyz, of any length but zero."""
+
+    def __post_init__(self) -> None:
+        """Check that the quaternion has a direction."""
+        _check_direction(self.orientation)
+
+
 class SetPhysics(Action, frozen=True, tag="physics"):
     """Set what is given of gravity, wind and time step."""
 
@@ -117,6 +175,19 @@ class DeleteModel(Action, frozen=True, tag="delete"):
 
 
 EditAction: TypeAlias = (
-    MoveJoint | SetPose | SetTwist | SetMass | SetFriction | SetLight | SetPhysics | ApplyWrench | DeleteModel
+    MoveJoint
+    | PlaceJoint
+    | SetPose
+    | Carry
+    | Pull
+    | LetGo
+    | Hold
+    | SetTwist
+    | SetMass
+    | SetFriction
+    | SetLight
+    | PlaceLight
+    | SetPhysics
+    | ApplyWrench
+    | DeleteModel
 )
-EDITS = (MoveJoint, SetPose, SetTwist, SetMass, SetFriction, SetLight, SetPhysics, ApplyWrench, DeleteModel)

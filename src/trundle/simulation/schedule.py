@@ -32,6 +32,11 @@ class Schedule(Generic[WorldT]):
             if scheduled.hook is hook:
                 scheduled.retime(period_ns, now_ns=now_ns)
 
+    @property
+    def hooks(self) -> list[object]:
+        """Hooks in order of registration."""
+        return [scheduled.hook for scheduled in self._hooks]
+
     def remove(self, hook: object) -> None:
         """Remove a hook."""
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]

@@ -200,6 +200,11 @@ class Simulation:
         """Change a hook's period [ns] from now on; it keeps its place in the order."""
         self._schedule.retime(hook, period_ns, now_ns=self.time_ns)
 
+    @property
+    def hooks(self) -> list[object]:
+        """Hooks in order of registration."""
+        return self._schedule.hooks
+
     def remove_hook(self, hook: object) -> None:
         """Remove a hook."""
         self._schedule.remove(hook)

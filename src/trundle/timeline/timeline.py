@@ -89,6 +89,11 @@ class Timeline:
         return max(self._end_ns, self._simulation.time_ns)
 
     @property
+    def is_repeating(self) -> bool:
+        """True while commands of the first time are still to come again."""
+        return self._next < len(self._commands)
+
+    @property
     def lost(self) -> set[type]:
         """Types of objects whose progress cannot be saved; what follows a seek may then differ."""
         return self._keyframes[-1].objects.lost

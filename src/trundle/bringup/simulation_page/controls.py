@@ -1,15 +1,19 @@
 """Requests of the page to a running simulation: time, joints and recording."""
 
+import time
 from collections.abc import Callable
 from functools import partial
 from typing import Protocol
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.page import (
-    EDITS,
+    Carry,
+    EditAction,
+    LetGo,
     PageAction,
     Pause,
     Play,
+    Pull,
     Record,
     Reload,
     Reset,
@@ -21,8 +25,11 @@ from trundle.simulation import Simulation
 from trundle.timeline import Timeline
 
 from ..realtime_pacer import RealtimePacer
-from .edits import edit
+from .edits import edit, find_model
+from .handling import handled_models
 
+_PATIENCE_NS = 1_000_000_000
+"""Wall time after which a model is let go that nobody carries or pulls on [ns]."""
 _STEPS_AT_ONCE = 100
 """Steps between two looks at the requests."""
 
@@ -47,14 +54,25 @@ class Recorder(Protocol):
 class SimulationControls:
     """State of the controls: paused or not, and the steps that are still to do."""
 
-    def __init__(self, simulation: Simulation, recorder: Recorder | None, timeline: Timeline | None = None) -> None:
+    def __init__(
+        self,
+        simulation: Simulation,
+        recorder: Recorder | None,
+        timeline: Timeline | None = None,
+        *,
+        wall_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
         """Prepare.
 
         Args:
             simulation: the running one.
             recorder: None: it cannot be recorded.
             timeline: None: it cannot go back.
+            wall_ns: the wall clock [ns].
         """
+        self._wall_ns = wall_ns
+        self._handled_ns: dict[str, int] = {}
+        """Model that is carried or pulled → wall time of the last request to [ns]."""
         self._simulation = simulation
         self.recorder = recorder
         self.timeline = timeline
@@ -79,8 +97,10 @@ class SimulationControls:
                 pacer.restart()
             case SetSpeed(factor):
                 pacer.set_speed(factor)
-            case _ if isinstance(action, EDITS):
+            case _ if isinstance(action, EditAction):
                 self._do(partial(edit, action))
+                if isinstance(action, Carry | Pull):
+                    self._handled_ns[find_model(self._simulation, action.model).name] = self._wall_ns()
             case Seek(time_ns) if self.timeline is not None:
                 paused, self._steps = True, 0
                 self.timeline.seek(time_ns)
@@ -105,6 +125,15 @@ class SimulationControls:
             advance(simulation.time_ns + count * simulation.step_ns)
             pacer.restart()
         return count > 0
+
+    def let_lapsed_go(self) -> None:
+        """Let models go whose person has fallen silent, such as one whose connection is lost."""
+        if self.timeline is not None and self.timeline.is_repeating:
+            return
+        since_ns = self._wall_ns() - _PATIENCE_NS
+        for model in handled_models(self._simulation):
+            if self._handled_ns.get(model, since_ns) <= since_ns:
+                self._do(partial(edit, LetGo(model)))
 
     def _do(self, command: Callable[[Simulation], None]) -> None:
         if self.timeline is None:

@@ -8,9 +8,15 @@ from trundle.diagnostics import UsageError
 from trundle.model import Light, Link, Model, World
 from trundle.page import (
     ApplyWrench,
+    Carry,
     DeleteModel,
     EditAction,
+    Hold,
+    LetGo,
     MoveJoint,
+    PlaceJoint,
+    PlaceLight,
+    Pull,
     SetFriction,
     SetLight,
     SetMass,
@@ -18,8 +24,10 @@ from trundle.page import (
     SetPose,
     SetTwist,
 )
-from trundle.simulation import LinkHandle, ModelHandle, Simulation
-from trundle.spatial import Pose, Twist, Wrench
+from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
+from trundle.spatial import Pose, Quaternion, Twist, Vector3, Wrench
+
+from .handling import carry, hold, let_go, pull, put
 
 _JOINT_EFFORT = 10.0
 """Effort limit of a joint without one of its own that the page moves [N·m or N]."""
@@ -34,8 +42,19 @@ def edit(action: EditAction, simulation: Simulation) -> None:
     match action:
         case MoveJoint():
             _move_joint(action, simulation)
+        case PlaceJoint(model, joint, position):
+            _find_joint(simulation, model, joint).set_position(position)
+        case Carry():
+            carry(simulation, find_model(simulation, action.model), _model_pose(action, simulation))
         case SetPose():
-            _set_pose(action, simulation)
+            put(simulation, find_model(simulation, action.model), _model_pose(action, simulation))
+        case Pull(model, link, point, target):
+            pulled = _find_link(simulation, model, link)
+            pull(simulation, find_model(simulation, model), pulled, point=point, target=target)
+        case LetGo(model):
+            let_go(simulation, find_model(simulation, model).name)
+        case Hold(model, on):
+            hold(simulation, find_model(simulation, model), on=on)
         case SetTwist(model, linear, angular):
             find_model(simulation, model).set_twist(Twist(linear, angular))
         case SetMass():
@@ -44,6 +63,8 @@ def edit(action: EditAction, simulation: Simulation) -> None:
             _set_friction(action, simulation)
         case SetLight():
             simulation.edit(_with_light(simulation.world, action))
+        case PlaceLight():
+            simulation.edit(_with_light_at(simulation.world, action))
         case SetPhysics():
             simulation.edit(_with_physics(simulation.world, action))
         case ApplyWrench(model, link, force, torque, duration_s):
@@ -68,9 +89,13 @@ def _find_link(simulation: Simulation, scope: str, name: str) -> LinkHandle:
     return model.link(_inner_name(model, scope, name))
 
 
+def _find_joint(simulation: Simulation, scope: str, name: str) -> JointHandle:
+    model = find_model(simulation, scope)
+    return model.joint(_inner_name(model, scope, name))
+
+
 def _move_joint(move: MoveJoint, simulation: Simulation) -> None:
-    model = find_model(simulation, move.model)
-    joint = model.joint(_inner_name(model, move.model, move.joint))
+    joint = _find_joint(simulation, move.model, move.joint)
     axis = joint.joint.axis
     effort = math.inf if axis is not None and math.isfinite(axis.effort) else _JOINT_EFFORT
     if move.position is not None:
@@ -81,14 +106,17 @@ def _move_joint(move: MoveJoint, simulation: Simulation) -> None:
         joint.command_effort(move.effort)
 
 
-def _set_pose(move: SetPose, simulation: Simulation) -> None:
-    """Move the whole model rigidly, joints as they are."""
-    model = find_model(simulation, move.model)
+def _model_pose(move: SetPose, simulation: Simulation) -> Pose:
+    """Return where a model is when one of its links has a pose, with its joints as they are."""
     link = _find_link(simulation, move.model, move.link)
-    length = math.hypot(*move.orientation)
-    qw, qx, qy, qz = (part / length for part in move.orientation)
-    there = Pose(move.position, (qw, qx, qy, qz))
-    model.set_pose(there @ link.pose.inverse() @ model.pose)
+    return _pose(move.position, move.orientation) @ link.pose.inverse() @ find_model(simulation, move.model).pose
+
+
+def _pose(position: Vector3, orientation: Quaternion) -> Pose:
+    """Return the pose of a position and a quaternion of any length."""
+    length = math.hypot(*orientation)
+    qw, qx, qy, qz = (part / length for part in orientation)
+    return Pose(position, (qw, qx, qy, qz))
 
 
 def _set_mass(change: SetMass, simulation: Simulation) -> None:
@@ -132,6 +160,15 @@ def _with_physics(world: World, change: SetPhysics) -> World:
     step_s = physics.max_step_size_s if change.step is None else change.step
     wind = world.wind if change.wind is None else change.wind
     return replace(world, wind=wind, physics=replace(physics, gravity=gravity, max_step_size_s=step_s))
+
+
+def _with_light_at(world: World, change: PlaceLight) -> World:
+    names = [light.name for light in world.lights]
+    if change.light not in names:
+        raise UsageError(f"the world has no light {change.light!r}; it has: {', '.join(map(repr, names)) or 'none'}")
+    there = _pose(change.position, change.orientation)
+    lights = [replace(each, world_from_light=there) if each.name == change.light else each for each in world.lights]
+    return replace(world, lights=tuple(lights))
 
 
 def _with_light(world: World, change: SetLight) -> World:

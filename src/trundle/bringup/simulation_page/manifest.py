@@ -15,6 +15,7 @@ from trundle.simulation import Simulation
 from trundle.spatial import Pose, rpy_from_quaternion
 
 from .body_numbers import BodyNumbers
+from .handling import is_held
 
 _IMAGE = "sensor_msgs/Image"
 _Json = dict[str, Any]
@@ -38,10 +39,13 @@ def world_manifest(
         "scene": _scene(world),
         "physics": {"gravity": world.physics.gravity, "wind": world.wind, "step": world.physics.max_step_size_s},
         "robot": _robot(world, bodies),
-        "models": [_nested(_model(model, bodies, live, indices)) for model in world.models],
-        "lights": [_light(light, "") for light in world.lights]
+        "models": [
+            _nested(_model(model, bodies, live, indices) | {"held": is_held(simulation, model.name)})
+            for model in world.models
+        ],
+        "lights": [_light(light, "", None) for light in world.lights]
         + [
-            _light(light, f"{model.name}::{link.name}::")
+            _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
             for model in world.models
             for link in model.links
             for light in link.lights
@@ -114,7 +118,7 @@ def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str,
         "static": model.static,
         "source": _source(model.at),
         "links": [_link(model, link, bodies, live) for link in model.links],
-        "joints": [_joint(joint, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints],
+        "joints": [_joint(joint, model, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints],
         "plugins": [{"name": tag.name, "filename": tag.filename} for tag in model.plugins],
         "models": [],
     }
@@ -130,7 +134,7 @@ def _nested(flat: _Json) -> _Json:
             if not separator:
                 own[kind].append(part)
                 continue
-            empty = {"links": [], "joints": [], "plugins": [], "models": []}
+            empty = {"held": False, "links": [], "joints": [], "plugins": [], "models": []}
             model = inner.setdefault(scope, {"name": scope, "static": flat["static"], "source": None} | empty)
             ends = {end: part[end].removeprefix(f"{scope}::") for end in ("parent", "child") if end in part}
             model[kind].append(part | {"name": name} | ends)
@@ -168,8 +172,9 @@ def _friction(collisions: Iterable[Collision]) -> list[float] | None:
     return None if first is None else [first.surface.mu, first.surface.mu2]
 
 
-def _joint(joint: Joint, index: int | None) -> _Json:
+def _joint(joint: Joint, model: Model, index: int | None) -> _Json:
     axis = joint.axis
+    child = next((link.model_from_link for link in model.links if link.name == joint.child), Pose())
     return {
         "name": joint.name,
         "type": joint.type.value,
@@ -177,15 +182,20 @@ def _joint(joint: Joint, index: int | None) -> _Json:
         "child": joint.child,
         "lower": axis.lower if axis is not None and math.isfinite(axis.lower) else None,
         "upper": axis.upper if axis is not None and math.isfinite(axis.upper) else None,
+        "pose": _six(joint.child_from_joint),
+        "axes": [child.inverse().transform_vector(each.direction) for each in (axis, joint.axis2) if each is not None],
         "index": index,
         "source": _source(joint.at),
     }
 
 
-def _light(light: Light, prefix: str) -> _Json:
+def _light(light: Light, prefix: str, body: int | None) -> _Json:
     return {
         "name": f"{prefix}{light.name}",
         "type": light.type,
+        "body": body,
+        "pose": _six(light.world_from_light),
+        "direction": light.direction,
         "diffuse": light.diffuse[:3],
         "intensity": light.intensity,
     }

@@ -60,6 +60,7 @@ class SimulationPage:
         self.on_reload: Callable[[], None] | None = None
         """Loads the world again, and calls `show`; None: it cannot be."""
         self._page = page
+        self._wall_ns = wall_ns
         self._warning: str | None = None
         source = Path(simulation.world.at.file)
         if page.session.rviz is None and page.session.fixed_frame is None:
@@ -96,7 +97,7 @@ class SimulationPage:
         timeline: Timeline | None,
     ) -> None:
         self._simulation = simulation
-        self._controls = SimulationControls(simulation, recorder, timeline)
+        self._controls = SimulationControls(simulation, recorder, timeline, wall_ns=self._wall_ns)
         self._streams.show(simulation, sensors, recorder, timeline)
 
     def _set_titles(self, simulation: Simulation) -> None:
@@ -138,6 +139,7 @@ class SimulationPage:
                 self._server.respond(request.id, reason_of(error))
             else:
                 self._server.respond(request.id)
+        self._controls.let_lapsed_go()
         if self._controls.step(pacer) or requests:
             self.update(pacer, paused=paused, at_once=True)
         return paused
