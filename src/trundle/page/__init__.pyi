@@ -2,7 +2,7 @@ from .edit_requests import ApplyWrench as ApplyWrench
 from .edit_requests import Carry as Carry
 from .edit_requests import DeleteModel as DeleteModel
 from .edit_requests import EditAction as EditAction
-from .edit_requests import Hold as Hold
+from .edit_requests import HoldModel as HoldModel
 from .edit_requests import LetGo as LetGo
 from .edit_requests import MoveJoint as MoveJoint
 from .edit_requests import PlaceJoint as PlaceJoint

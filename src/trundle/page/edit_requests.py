@@ -77,7 +77,7 @@ class LetGo(Action, frozen=True, tag="let_go"):
     model: Name
 
 
-class Hold(Action, frozen=True, tag="hold"):
+class HoldModel(Action, frozen=True, tag="hold"):
     """Fix a model's base where it is, in the air too, or free it again."""
 
     model: Name
@@ -181,7 +181,7 @@ EditAction: TypeAlias = (
     | Carry
     | Pull
     | LetGo
-    | Hold
+    | HoldModel
     | SetTwist
     | SetMass
     | SetFriction

@@ -10,7 +10,7 @@ from trundle.bringup.simulation_page.controls import SimulationControls
 from trundle.bringup.simulation_page.edits import edit
 from trundle.bringup.simulation_page.handling import handled_models, is_held
 from trundle.diagnostics import UsageError
-from trundle.page import Carry, EditAction, Hold, LetGo, PlaceJoint, PlaceLight, Pull, SetPose
+from trundle.page import Carry, EditAction, HoldModel, LetGo, PlaceJoint, PlaceLight, Pull, SetPose
 from trundle.simulation import Simulation
 from trundle.timeline import Timeline
 
@@ -18,7 +18,8 @@ _UPRIGHT = (1, 0, 0, 0)
 _WORLD = """<light name="lamp" type="point"><pose>0 0 3 0 0 0</pose></light>
 <model name="cart"><pose>0 0 5 0 0 0</pose><link name="base">
 <inertial><mass>2</mass><inertia><ixx>0.2</ixx><iyy>0.3</iyy><izz>0.4</izz></inertia></inertial></link>
-<link name="arm"><pose>0 0 1 0 0 0</pose><inertial><mass>0.1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz>
+<link name="arm"><pose>0 0 1 0 0 0</pose><inertial><mass>0.1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy>
+<izz>0.01</izz>
 </inertia></inertial></link><joint name="lift" type="prismatic"><parent>base</parent><child>arm</child>
 <axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint></model>
 <model name="wall"><static>1</static><pose>9 0 0 0 0 0</pose><link name="l"/></model>"""
@@ -77,17 +78,17 @@ def test_what_is_fixed_cannot_be_pulled(sim: Simulation) -> None:
 
 def test_what_is_held_stays_in_the_air_and_its_joints_move(sim: Simulation) -> None:
     """It can be moved, and is freed again."""
-    edit(Hold("cart", on=True), sim)
+    edit(HoldModel("cart", on=True), sim)
     edit(SetPose("cart", "base", (0, 0, 4), _UPRIGHT), sim)
     assert is_held(sim, "cart")
     sim.run(1.0)
     assert sim["cart"].pose.position == pytest.approx((0, 0, 4))
     assert sim["cart"].joint("lift").position == pytest.approx(-1.0, abs=0.01)
-    edit(Hold("cart", on=False), sim)
+    edit(HoldModel("cart", on=False), sim)
     sim.run(0.5)
     assert sim["cart"].pose.position[2] < 3.0
     with pytest.raises(UsageError, match="'wall' is fixed already"):
-        edit(Hold("wall", on=True), sim)
+        edit(HoldModel("wall", on=True), sim)
 
 
 def test_a_joint_and_a_light_are_placed(sim: Simulation) -> None:

@@ -26,6 +26,8 @@ import { liveSession, type Session } from "./session";
 import { startDisplays, startView } from "./start";
 import { makeTheme } from "./theme";
 import { UndoHistory } from "./undo";
+import type { Shell } from "./shell";
+import { makeEditor } from "./world_edits";
 
 /** Fetch what the page is for; throws a sentence. */
 export async function fetchSession(address: string): Promise<Session> {
@@ -56,7 +58,8 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   feedTransforms(frames, view, names);
   const world = new WorldFeed(connection, scene, frames, fixedFrame);
   const views: ViewList = new ViewList(scene, (target) => targetPose(page, target));
-  const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered });
+  const editor = first.kind !== "simulation" ? null : makeEditor(world, () => shell);
+  const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered, editor });
   const displays: DisplayStore = new DisplayStore({ connection: view, names, frames, scene, undo, views, tools });
   const drive = new Drive({
     connection,
@@ -81,7 +84,7 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   });
   new SelectionOutline(scene, world, () => outlinedBodies(page));
   scene.onTick((elapsed) => displays.update(view.now(), elapsed));
-  const shell = mount(root, { page, panels, commands, sceneHost, frozen });
+  const shell: Shell = mount(root, { page, panels, commands, sceneHost, frozen });
   startDisplays(shell);
   startView(shell);
 }

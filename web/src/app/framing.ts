@@ -8,17 +8,17 @@ import type { JointInfo, LinkInfo, ModelInfo } from "../scene/simulated_world";
 import type { Page, Selection } from "./page";
 import { allModels, bodiesOf, type ScopedModel } from "./world_nodes";
 
-export function findModel(page: Page, name: string): ModelInfo | null {
+export function findModel(page: Pick<Page, "world">, name: string): ModelInfo | null {
   return allModels(page.world.manifest.value?.models ?? []).find((each) => each.name === name)?.model ?? null;
 }
 
-export function findLink(page: Page, model: string, link: string): LinkInfo | null {
+export function findLink(page: Pick<Page, "world">, model: string, link: string): LinkInfo | null {
   const scoped = `${model}::${link}`; // a joint's child may be in a nested model, `inner::link`
   const at = scoped.lastIndexOf("::");
   return findModel(page, scoped.slice(0, at))?.links.find((each) => each.name === scoped.slice(at + 2)) ?? null;
 }
 
-export function findJoint(page: Page, model: string, joint: string): JointInfo | null {
+export function findJoint(page: Pick<Page, "world">, model: string, joint: string): JointInfo | null {
   return findModel(page, model)?.joints.find((each) => each.name === joint) ?? null;
 }
 

@@ -2,6 +2,8 @@
 
 import { Euler, Quaternion, type Vector3 } from "three";
 
+import type { SimulatedWorld } from "../scene/simulated_world";
+import type { WorldEditor } from "../tools/world_editor";
 import type { Page } from "./page";
 import type { Shell } from "./shell";
 
@@ -22,6 +24,22 @@ export async function editWorld(shell: Shell, title: string, request: string, af
   }
   const send = (fields: Fields) => (): void => shell.request(title, request, fields);
   shell.page.undo.record(title, send(after), send(before));
+}
+
+/** What the tools change the world by; `shell` is there once the page is drawn. */
+export function makeEditor(world: SimulatedWorld, shell: () => Shell): WorldEditor {
+  return {
+    world,
+    ask: (title, request, fields) =>
+      shell().page.connection.request(request, fields).then(
+        () => true,
+        (error: unknown) => {
+          shell().notices.report(title, error instanceof Error ? error.message : String(error));
+          return false;
+        },
+      ),
+    edit: (...edit) => editWorld(shell(), ...edit),
+  };
 }
 
 /** True if what is shown is simulated now, and can be changed. */

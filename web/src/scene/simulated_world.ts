@@ -34,6 +34,10 @@ export interface JointInfo {
   readonly child: string;
   readonly lower: number | null;
   readonly upper: number | null;
+  /** Its frame in the child's. */
+  readonly pose: SixNumbers;
+  /** Directions of its axes in the child's frame. */
+  readonly axes: readonly Triple[];
   readonly index: number | null;
   readonly source: string | null;
 }
@@ -41,6 +45,8 @@ export interface JointInfo {
 export interface ModelInfo {
   readonly name: string;
   readonly static: boolean;
+  /** True if its base is fixed where it is, until it is freed. */
+  readonly held: boolean;
   readonly source: string | null;
   readonly links: readonly LinkInfo[];
   readonly joints: readonly JointInfo[];
@@ -51,6 +57,11 @@ export interface ModelInfo {
 export interface LightInfo {
   readonly name: string;
   readonly type: string;
+  /** The body it is on, in whose frame its pose is; null: the world's. */
+  readonly body: number | null;
+  readonly pose: SixNumbers;
+  /** Where it shines, in its own frame. */
+  readonly direction: Triple;
   readonly diffuse: Colour;
   readonly intensity: number;
 }

@@ -10,6 +10,7 @@ import type { RosMessage, RosTime } from "../protocol/ros_types";
 import type { SceneView } from "../scene/scene_view";
 import type { Views } from "../scene/view_controller";
 import type { PointerInput, Tool } from "./tool";
+import type { WorldEditor } from "./world_editor";
 
 /** What tools work with. */
 export interface ToolContext {
@@ -20,6 +21,8 @@ export interface ToolContext {
   readonly fixedFrame: ReadonlySignal<string>;
   readonly selection: Signal<Selection | null>;
   readonly hovered: Signal<Selection | null>;
+  /** Null where no world can be changed. */
+  readonly editor: WorldEditor | null;
 }
 
 export abstract class BaseTool implements Tool {

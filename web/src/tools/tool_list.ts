@@ -8,7 +8,9 @@ import { FocusCamera } from "./focus_camera";
 import { Interact } from "./interact";
 import { Measure } from "./measure";
 import { MoveCamera } from "./move_camera";
+import { MoveModel } from "./move_model";
 import { PublishPoint } from "./publish_point";
+import { RotateModel } from "./rotate_model";
 import { Select } from "./select";
 import { SetGoal } from "./set_goal";
 import { SetInitialPose } from "./set_initial_pose";
@@ -19,7 +21,7 @@ const CLASSES = [Interact, MoveCamera, Select, FocusCamera, Measure, SetInitialP
 /** ROS 2's classes have rviz's names; that of its goal is another. */
 const ALIASES: Readonly<Record<string, string>> = { SetGoal2D: "SetGoal" };
 /** Tools that stay on; the others go back to the one of these that was on last. */
-const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Select"];
+const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Select", "trundle/Move", "trundle/Rotate"];
 
 export class ToolList implements ToolBox {
   readonly tools: readonly BaseTool[];
@@ -29,10 +31,12 @@ export class ToolList implements ToolBox {
   private entries: readonly YamlMapping[] = [];
 
   constructor(context: ToolContext) {
-    const tools = CLASSES.map((Class) => new Class(context, () => this.use(this.lasting)));
-    const [interact] = tools;
+    const back = (): void => this.use(this.lasting);
+    const [interact, ...others] = CLASSES.map((Class) => new Class(context, back));
     if (interact === undefined) throw new Error("there are no tools");
-    this.tools = tools;
+    const { editor } = context;
+    const handling = editor === null ? [] : [MoveModel, RotateModel].map((Class) => new Class(context, back, editor));
+    this.tools = [interact, ...handling, ...others];
     this.chosen = signal<BaseTool>(interact);
     this.start(interact);
   }
@@ -57,7 +61,8 @@ export class ToolList implements ToolBox {
   save(): readonly YamlMapping[] {
     const inFile = this.entries.map((entry) => this.find(classOf(entry)));
     const saved = this.entries.map((entry, i): YamlMapping => ({ ...entry, ...inFile[i]?.save(), Class: classOf(entry) }));
-    return [...saved, ...this.tools.filter((tool) => !inFile.includes(tool)).map((tool) => tool.save())];
+    const more = this.tools.filter((tool) => !inFile.includes(tool) && tool.className.startsWith("rviz/")); // rviz has no others
+    return [...saved, ...more.map((tool) => tool.save())];
   }
 
   load(yaml: readonly YamlMapping[]): string[] {

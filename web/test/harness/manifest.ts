@@ -12,11 +12,11 @@ function link(name: string, mass: number, ...sensors: SensorInfo[]): LinkInfo {
 }
 
 function joint(name: string, type: string, index: number | null, limit: number | null, parent: string, child: string): JointInfo {
-  return { name, type, parent, child, lower: limit === null ? null : -limit, upper: limit, index, source: "rp2w/model.sdf:80" };
+  return { name, type, parent, child, lower: limit === null ? null : -limit, upper: limit, pose: [0, 0, 0, 0, 0, 0], axes: [[0, 0, 1]], index, source: "rp2w/model.sdf:80" };
 }
 
 function model(name: string, links: LinkInfo[], isStatic: boolean, extra: Partial<ModelInfo> = {}): ModelInfo {
-  return { name, static: isStatic, source: null, links, joints: [], plugins: [], models: [], ...extra };
+  return { name, static: isStatic, held: false, source: null, links, joints: [], plugins: [], models: [], ...extra };
 }
 
 const camera = (name: string): SensorInfo => ({ name, type: "camera", rate: 30, topic: `/${name}/image_raw` });
@@ -56,8 +56,8 @@ export const MANIFEST: Manifest = {
   robot: 1,
   models: [robot, model("living_room", [link("walls", 0), link("sofa", 0)], true), model("ball", [link("link", 0.3)], false), model("ground_plane", [link("link", 0)], true)],
   lights: [
-    { name: "sun", type: "directional", diffuse: [1, 1, 1], intensity: 1 },
-    { name: "lamp", type: "point", diffuse: [1, 0.9, 0.8], intensity: 1 },
+    { name: "sun", type: "directional", body: null, pose: [0, 0, 5, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 1, 1], intensity: 1 },
+    { name: "lamp", type: "point", body: null, pose: [1, 0, 2, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 0.9, 0.8], intensity: 1 },
   ],
   cameras: ["netbook_webcam", "my_sensor"].map((name) => ({
     name, topic: `/${name}/image_raw`, body: 2, pose: [0, 0, 0, 0, 0, 0], horizontal_fov: 1, width: 320, height: 240, rate: 30,

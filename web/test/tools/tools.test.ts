@@ -44,7 +44,7 @@ function setUp() {
   const selection = signal<Selection | null>(null);
   const hovered = signal<Selection | null>(null);
   const views = { focus: (point: Vector3) => void focused.push(point) };
-  const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered });
+  const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered, editor: null });
   const point = (kind: PointerInput["kind"], x: number, y: number, button = 0): boolean =>
     tools.pointer({ x, y, button, shift: false, control: false, kind });
   const drag = (...places: readonly (readonly [number, number])[]): void => {

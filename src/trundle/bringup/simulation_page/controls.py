@@ -29,7 +29,7 @@ from .edits import edit, find_model
 from .handling import handled_models
 
 _PATIENCE_NS = 1_000_000_000
-"""Wall time after which a model is let go that nobody carries or pulls on [ns]."""
+"""Wall time from the last request to carry or pull a model until it is let go [ns]."""
 _STEPS_AT_ONCE = 100
 """Steps between two looks at the requests."""
 

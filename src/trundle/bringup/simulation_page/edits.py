@@ -11,7 +11,7 @@ from trundle.page import (
     Carry,
     DeleteModel,
     EditAction,
-    Hold,
+    HoldModel,
     LetGo,
     MoveJoint,
     PlaceJoint,
@@ -53,7 +53,7 @@ def edit(action: EditAction, simulation: Simulation) -> None:
             pull(simulation, find_model(simulation, model), pulled, point=point, target=target)
         case LetGo(model):
             let_go(simulation, find_model(simulation, model).name)
-        case Hold(model, on):
+        case HoldModel(model, on):
             hold(simulation, find_model(simulation, model), on=on)
         case SetTwist(model, linear, angular):
             find_model(simulation, model).set_twist(Twist(linear, angular))

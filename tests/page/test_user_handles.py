@@ -1,0 +1,133 @@
+"""A person moves, turns, snaps, undoes, pulls and holds models in the 3D view; the simulation's state is checked."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from tests.page.world_user import WorldUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+
+def _box(name: str, place: str, size: str, inside: str = "", *, static: bool = False) -> str:
+    """Return a model of a box with a collision and a visual."""
+    shape = f"<geometry><box><size>{size}</size></box></geometry>"
+    link = f'<link name="base"><collision name="c">{shape}</collision><visual name="v">{shape}</visual></link>'
+    return f'<model name="{name}"><static>{int(static)}</static><pose>{place}</pose>{link}{inside}</model>'
+
+
+_FLAP = """<link name="flap"><pose>0 0.5 0.1 0 0 0</pose><visual name="v"><geometry><box><size>0.2 0.4 0.1</size></box>
+</geometry></visual></link><joint name="hinge" type="revolute"><parent>base</parent><child>flap</child>
+<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper><effort>9</effort></limit></axis></joint>"""
+WORLD = f"""<sdf version="1.6"><world name="yard"><light name="lamp" type="point"><pose>0.5 -1 3 0 0 0</pose></light>
+{_box("floor", "0 0 -0.1 0 0 0", "20 20 0.2", static=True)}{_box("table", "0 1 0.25 0 0 0", "0.8 0.8 0.5", static=True)}
+{_box("crate", "-1 0 0.2 0 0 0", "0.4 0.4 0.4")}{_box("gate", "1.5 0 0.2 0 0 0", "0.4 0.4 0.4", _FLAP)}</world></sdf>"""
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[WorldUser]:
+    folder = tmp_path_factory.mktemp("yard")
+    (folder / "yard.sdf").write_text(WORLD)
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
+    with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
+        user = WorldUser(chromium, url)
+        user.look_down()
+        yield user
+        user.close()
+
+
+def near(a: tuple[float, ...], b: tuple[float, ...], within: float = 0.03) -> bool:
+    return math.dist(a, b) < within
+
+
+def test_an_arrow_moves_a_model_and_undo_takes_it_back(user: WorldUser) -> None:
+    """Paused; the arrow along x is 1.1 m long in a picture of a centimetre a pixel."""
+    user.pick("crate")
+    user.tool("Move")
+    user.drag((-0.2, 0), (-0.2, 0.3), (0.4, 0.3))
+    user.until(lambda: near(user.place("crate"), (-0.4, 0, 0.2)), what=f"at {user.place('crate')}")
+    user.button("Undo: Pose of crate").click()
+    user.until(lambda: near(user.place("crate"), (-1, 0, 0.2)))
+    user.button("Redo: Pose of crate").click()
+    user.until(lambda: near(user.place("crate"), (-0.4, 0, 0.2)))
+    user.button("Undo: Pose of crate").click()
+    user.until(lambda: near(user.place("crate"), (-1, 0, 0.2)))
+
+
+def test_control_snaps_to_the_grid(user: WorldUser) -> None:
+    user.page.keyboard.down("Control")
+    user.drag((-0.2, 0), (0.43, 0))
+    user.page.keyboard.up("Control")
+    user.until(lambda: near(user.place("crate"), (-0.4, 0, 0.2), within=1e-4))
+    user.button("Undo: Pose of crate").click()
+    user.until(lambda: near(user.place("crate"), (-1, 0, 0.2)))
+
+
+def test_shift_puts_a_model_on_what_is_under_the_pointer(user: WorldUser) -> None:
+    """By itself, without a handle."""
+    user.page.keyboard.down("Shift")
+    user.drag((-1.15, -0.15), (0.2, 1.1))
+    user.page.keyboard.up("Shift")
+    user.until(lambda: near(user.place("crate"), (0.2, 1.1, 0.7)), what=f"on the table, not {user.place('crate')}")
+    user.button("Undo: Pose of crate").click()
+    user.until(lambda: near(user.place("crate"), (-1, 0, 0.2)))
+
+
+def _yaw(pose: tuple[float, ...] | None) -> float:
+    assert pose is not None
+    return 2 * math.atan2(pose[5], pose[6])
+
+
+def test_a_ring_turns_a_model(user: WorldUser) -> None:
+    """By a quarter, in steps with Control; it stays where it is."""
+    user.tool("Rotate")
+    user.page.keyboard.down("Control")
+    user.drag((-0.34, 0.66), (-1, 0.94), (-1.64, 0.68))
+    user.page.keyboard.up("Control")
+    user.until(lambda: abs(_yaw(user.pose("crate")) - math.pi / 2) < 1e-3)
+    assert near(user.place("crate"), (-1, 0, 0.2))
+
+
+def test_a_joint_has_a_ring_about_its_axis(user: WorldUser) -> None:
+    """At rest, where no motor would move it; beyond its limit of a radian it does not go."""
+    user.pick("hinge")
+    user.drag((1.5 + 0.935, 0.5), (1.5 + 0.66, 1.16))
+    user.until(lambda: abs(_yaw(user.pose("gate", 1)) - math.pi / 4) < 0.03, what=f"{user.pose('gate', 1)}")
+    user.drag((1.5 + 0.66, 1.16), (1.5 - 0.66, 1.16))
+    user.until(lambda: abs(_yaw(user.pose("gate", 1)) - 1) < 1e-3)
+    user.button("Undo: Joint hinge").click()
+    user.until(lambda: abs(_yaw(user.pose("gate", 1)) - math.pi / 4) < 0.03)
+
+
+def test_a_light_is_moved(user: WorldUser) -> None:
+    user.tool("Move")
+    user.pick("lamp")
+    user.drag((1.2, -1), (0.7, -1))
+    user.until(lambda: near(user.manifest()["lights"][0]["pose"][:3], (0, -1, 3)))
+
+
+def test_what_is_dragged_while_time_runs_stays_at_the_pointer(user: WorldUser) -> None:
+    """Over the table's edge it does not fall, until it is let go."""
+    user.pick("crate")
+    user.page.get_by_role("banner").get_by_role("button", name="Play", exact=True).click()
+    user.page.keyboard.down("Shift")
+    user.page.mouse.move(*user.at((-1.15, -0.15)))
+    user.page.mouse.down()
+    user.page.mouse.move(*user.at((0.35, 0.7)), steps=5)
+    user.until(lambda: near(user.place("crate"), (0.35, 0.7, 0.7)))
+    user.page.wait_for_timeout(1500)
+    assert near(user.place("crate"), (0.35, 0.7, 0.7))
+    user.page.keyboard.up("Shift")
+    user.page.mouse.move(*user.at((1.2, -1.0)), steps=5)
+    user.until(lambda: near(user.place("crate"), (1.35, -0.85, 0.2), within=0.05), what=f"{user.place('crate')}")
+    user.page.mouse.up()
+    user.page.get_by_role("banner").get_by_role("button", name="Pause", exact=True).click()
+    user.button("Undo: Pose of crate").click()
+    user.until(lambda: near(user.place("crate"), (-1, 0, 0.2)))

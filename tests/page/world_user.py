@@ -1,0 +1,85 @@
+"""A person who handles a simulated world in the 3D view; what the simulation has is read over the page's protocol."""
+
+import json
+import struct
+from typing import Any
+
+from tests.page.scene_user import PX_PER_M, Point, SceneUser
+from tests.page_client import ProtocolClient
+
+Point3 = tuple[float, float, float]
+Pose = tuple[float, ...]
+"""x y z [m], quaternion x y z w."""
+
+
+class WorldUser(SceneUser):
+    """Look straight down at a simulated world: a pixel is a centimetre."""
+
+    def __init__(self, browser: Any, url: str) -> None:
+        """Open the page and wait for the world."""
+        super().__init__(browser, url)
+        self._client = ProtocolClient(url)
+        for topic in ("trundle/world", "trundle/poses", "trundle/state"):
+            self._client.subscribe(topic)
+        self._poses: dict[int, Pose] = {}
+        self.until(lambda: self.manifest() and self._poses, what="for the world")
+
+    def look_down(self) -> None:
+        self.side("Views")
+        self.page.get_by_label("Type of view").select_option("TopDownOrtho")
+        for name, value in (("Scale [px/m]", PX_PER_M), ("X [m]", 0), ("Y [m]", 0), ("Angle [rad]", 0)):
+            self.set(name, str(value))
+        self.side("Inspector")
+
+    def drag(self, *points: Point) -> None:
+        """Press at the first point, go over the others, let go at the last."""
+        self.page.mouse.move(*self.at(points[0]))
+        self.page.mouse.down()
+        for point in points[1:]:
+            self.page.mouse.move(*self.at(point), steps=2)
+        self.page.mouse.up()
+
+    def manifest(self) -> dict[str, Any]:
+        return self._last("trundle/world")
+
+    @property
+    def is_paused(self) -> bool:
+        return bool(self._last("trundle/state")["paused"])
+
+    def model(self, name: str) -> dict[str, Any] | None:
+        return next((model for model in self.manifest().get("models", []) if model["name"] == name), None)
+
+    def pose(self, model: str, link: int = 0) -> Pose | None:
+        """Return the newest pose of a model's link; None: there is none."""
+        self._read()
+        found = self.model(model)
+        return None if found is None else self._poses.get(found["links"][link]["body"])
+
+    def place(self, model: str, link: int = 0) -> Point3:
+        pose = self.pose(model, link)
+        assert pose is not None, model
+        return pose[0], pose[1], pose[2]
+
+    def pick(self, name: str) -> None:
+        """Select something in the tree."""
+        self.page.get_by_role("treeitem").get_by_text(name, exact=True).first.click()
+
+    def close(self) -> None:
+        self._client.socket.close()
+        super().close()
+
+    def _last(self, topic: str) -> dict[str, Any]:
+        self._read()
+        payloads = self._client.payloads(topic)
+        return json.loads(payloads[-1]) if payloads else {}
+
+    def _read(self) -> None:
+        while self._client.read(0.001):
+            pass
+        for payload in self._client.payloads("trundle/poses"):
+            _, _, count = struct.unpack_from("<QII", payload)
+            bodies = struct.unpack_from(f"<{count}I", payload, 16)
+            numbers = struct.unpack_from(f"<{7 * count}f", payload, 16 + 4 * count)
+            self._poses |= {body: numbers[7 * i : 7 * i + 7] for i, body in enumerate(bodies)}
+        kept = {topic: index for index, (topic, _, _) in enumerate(self._client.messages)}
+        self._client.messages = [self._client.messages[i] for t, i in sorted(kept.items()) if t != "trundle/poses"]

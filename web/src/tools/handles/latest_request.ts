@@ -1,0 +1,31 @@
+/** Requests that come faster than they are answered: one at a time, of those that wait only the newest. */
+
+export class LatestRequest {
+  private waiting: (() => Promise<boolean>) | null = null;
+  private isBusy = false;
+
+  /** `onRefused`: the server refused one; those after it are dropped. */
+  constructor(private readonly onRefused: () => void) {}
+
+  send(ask: () => Promise<boolean>): void {
+    this.waiting = ask;
+    if (!this.isBusy) void this.drain();
+  }
+
+  /** Forget what waits. */
+  clear(): void {
+    this.waiting = null;
+  }
+
+  private async drain(): Promise<void> {
+    this.isBusy = true;
+    while (this.waiting !== null) {
+      const ask = this.waiting;
+      this.waiting = null;
+      if (await ask()) continue;
+      this.waiting = null;
+      this.onRefused();
+    }
+    this.isBusy = false;
+  }
+}
