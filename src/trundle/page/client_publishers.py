@@ -159,7 +159,7 @@ class ClientPublishers:
         task.add_done_callback(self._tasks.discard)
 
     async def _connect(self, topic: str, publisher: Publisher, expected: set[str]) -> None:
-        """HoldModel a topic's first messages until its subscribers are connected: a goal is sent only once."""
+        """Hold a topic's first messages until its subscribers are connected: a goal is sent only once."""
         end = time.monotonic() + _CONNECT_S
         while time.monotonic() < end and not expected <= {str(name) for _, name, *_ in publisher.connections()}:
             await asyncio.sleep(_POLL_S)

@@ -24,7 +24,7 @@ class Play(Action, frozen=True):
 
 
 class Pause(Action, frozen=True):
-    """HoldModel time."""
+    """Stop time."""
 
 
 class Step(Action, frozen=True):
