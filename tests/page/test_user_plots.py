@@ -59,9 +59,8 @@ def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
 def _height(user: PanelUser, path: str) -> int:
     """Pixels from the lowest to the highest of a curve."""
     row = user.page.locator(".legend li").filter(has=user.page.locator(f'[title="{path}"]'))
-    colour = row.evaluate(
-        "one => getComputedStyle(document.documentElement).getPropertyValue(one.style.getPropertyValue('--c').slice(4, -1))"
-    )
+    style = "getComputedStyle(document.documentElement)"
+    colour = row.evaluate(f"one => {style}.getPropertyValue(one.style.getPropertyValue('--c').slice(4, -1))")
     png = user.page.get_by_role("img", name=f"Plot of {SMALL}").screenshot()
     picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)
     rows = np.nonzero((np.abs(picture - ImageColor.getrgb(colour.strip())) < 16).all(axis=-1))[0]
