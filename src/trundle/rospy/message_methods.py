@@ -11,6 +11,8 @@ import genpy
 from trundle.ros import _message_codec
 from trundle.ros.messages.codec import ENCODING_ERRORS
 
+from .message_spec import PRIMITIVES
+
 _NUMBER_FORMATS = {
     "bool": "B", "byte": "b", "char": "B", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
     "uint32": "I", "int64": "q", "uint64": "Q", "float32": "f", "float64": "d",
@@ -39,6 +41,21 @@ def numpy_codec(cls: Any) -> _message_codec.MessageCodec:
     if found is None:
         found = cls._numpy_codec = _compile(cls, plain_arrays=False)
     return found
+
+
+def is_plain(cls: Any) -> bool:
+    """True if a class deserializes as made here."""
+    return getattr(cls, "deserialize", None) is METHODS["deserialize"]
+
+
+def has_only_bytes(cls: Any) -> bool:
+    """True if a class is made here and its arrays of numbers are bytes, as in images and clouds of points."""
+    if not is_plain(cls):
+        return False
+    fields = cls._spec.fields
+    return all(field.base in ("uint8", "char") for field in fields if field.array and field.base in PRIMITIVES) and all(
+        has_only_bytes(cls._inner[field.base]) for field in fields if field.is_message
+    )
 
 
 def encode(message: Any) -> bytes:

@@ -3,7 +3,7 @@
 import asyncio
 import contextlib
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Any, Protocol
 
 from .. import _message_codec
 from ..errors import MessageError, WireError
@@ -35,6 +35,10 @@ class MessageReceiver(Protocol):
 
     def receive(self, message: Message, *, from_outside: bool = False) -> None:
         """Receive a message."""
+        ...
+
+    def copy(self, view: memoryview, /) -> Any:
+        """Copy a serialized message that will be overwritten; `receive_data` takes the copy."""
         ...
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:
@@ -81,7 +85,7 @@ class SubscriberLink(FrameProtocol):
                 self._shared_ring = SharedRingReader(self.transport.get_extra_info("socket"), note)
                 self.out.send([(self._shared_ring.seen_note(),)], None)
             return None
-        content, answer = self._shared_ring.read(note)
+        content, answer = self._shared_ring.read(note, self._subscription.copy)
         if answer is not None:
             self.out.send([(answer,)], None)
         self.bytes_received += len(content)

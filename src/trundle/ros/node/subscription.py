@@ -122,6 +122,10 @@ class Subscription:
         elif self._deliver is not None and not replaced:
             self._deliver(self._call_next)
 
+    def copy(self, view: memoryview) -> Any:
+        """Copy a serialized message that will be overwritten; `receive_data` takes the copy."""
+        return bytes(view)
+
     def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
         """Receive a serialized message from a publisher of this process."""
         definition = publisher.definition if self.is_raw else ""

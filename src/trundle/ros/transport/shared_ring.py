@@ -9,6 +9,7 @@ import mmap
 import os
 import socket
 import struct
+from collections.abc import Callable
 from typing import Any, Final
 
 from ..errors import WireError
@@ -111,6 +112,7 @@ class SharedRingReader:
         try:
             _check_seals(file, self._size)
             self._memory = mmap.mmap(file, self._size, access=mmap.ACCESS_READ)
+            self._view = memoryview(self._memory)
         finally:
             os.close(file)
         self._acknowledged = 0
@@ -119,8 +121,12 @@ class SharedRingReader:
         """Acknowledgement after which the publisher uses the ring."""
         return encode_note(_READ.pack(0))
 
-    def read(self, note: bytes | memoryview) -> tuple[bytes, bytes | None]:
+    def read(self, note: bytes | memoryview, copy: Callable[[memoryview], Any] = bytes) -> tuple[Any, bytes | None]:
         """Copy a frame's content; the second value is the acknowledgement to send, if one is due.
+
+        Args:
+            note: publisher's.
+            copy: returns the copy of a view, which is overwritten later.
 
         Raises:
             WireError: the position is outside the ring.
@@ -128,7 +134,8 @@ class SharedRingReader:
         start, size, end = _unpacked(_WRITTEN, note)
         if start + size > self._size:
             raise WireError("a frame is announced outside of the shared memory")
-        content = self._memory[start + LENGTH.size : start + size]
+        with self._view[start + LENGTH.size : start + size] as view:
+            content = copy(view)
         if end - self._acknowledged < self._size // 2:
             return content, None
         self._acknowledged = end
@@ -136,6 +143,7 @@ class SharedRingReader:
 
     def close(self) -> None:
         """Unmap the memory."""
+        self._view.release()
         self._memory.close()
 
 
