@@ -175,6 +175,13 @@ def test_a_node_and_the_modules_of_its_package_run_on_a_graph(tmp_path: Path) ->
         "pub.publish('%s %d' % (WORD, say(7)))\nprint rospy.get_name()\nrospy.spin()\n"
     )
     node.chmod(0o755)
+    launch = package / "all.launch"
+    launch.write_text(
+        "<launch>"
+        "<node name='one' pkg='old_robot' type='talk.py'/><node name='two' pkg='old_robot' type='talk.py'/>"
+        "<node name='rosout' pkg='rosout' type='rosout'/>"
+        "</launch>"
+    )
     command = [sys.executable, "-m", "trundle", "exec", "old_robot", "talk.py"]
     with running_graph() as graph:
         env = {**os.environ, "ROS_MASTER_URI": graph.core.uri, "ROS_PACKAGE_PATH": str(tmp_path / "src")}
@@ -184,10 +191,15 @@ def test_a_node_and_the_modules_of_its_package_run_on_a_graph(tmp_path: Path) ->
             lines = [program.stdout.readline() for _ in range(3)]
             program.terminate()
             _, errors = program.communicate(timeout=PATIENCE_S)
-        shown = subprocess.run(
-            [*command[:4], "--show-translation", *command[4:]], env=env, capture_output=True, text=True, check=True
+        shown, of_launch = (
+            subprocess.run([*command[:3], *words], env=env, capture_output=True, text=True, check=True).stdout
+            for words in (
+                ["exec", "--show-translation", *command[4:]],
+                ["launch", "--show-translation", str(launch)],
+            )
         )
     assert lines == ["near\n", "from the package 3\n", "/talk\n"], errors
     assert errors.count("is Python 2: translated") == 1
-    assert "+print(rospy.get_name())" in shown.stdout
+    assert "+print(rospy.get_name())" in shown
+    assert of_launch == shown
     assert not list(package.rglob("near*.pyc")) + list(package.rglob("words*.pyc"))

@@ -66,6 +66,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     only.add_argument("--files", action="store_const", dest="only", const="files", help="all launch files read")
     only.add_argument("--ros-args", action="store_const", dest="only", const="arguments", help="the file's arguments")
     only.add_argument("--dump-params", action="store_const", dest="only", const="params", help="the parameters as YAML")
+    only.add_argument(
+        "--show-translation",
+        action="store_const",
+        dest="only",
+        const="translation",
+        help="how the nodes' Python 2 programs are translated",
+    )
     child = parser.add_argument_group(
         "as a child of a roslaunch on another machine",
         'The <machine>\'s env-loader is a script of two lines: shift; exec trundle launch --host 0.0.0.0 "$@"',

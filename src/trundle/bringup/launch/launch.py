@@ -142,6 +142,8 @@ def _printed(options: LaunchOptions, plan: LaunchPlan, packages: Packages, env: 
             return printing.file_names(plan)
         case "find-node":
             return printing.node_file(plan, options.node)
+        case "translation":
+            return printing.translations(plan, packages, env)
         case _:
             return printing.node_command(plan, options.node, packages, env)
 

@@ -43,7 +43,7 @@ class LaunchOptions:
     """Simulated seconds per second of wall time; None: flat out."""
     record: Path | None = None
     """Bag of every topic."""
-    only: Literal["nodes", "files", "find-node", "args", "arguments", "params"] | None = None
+    only: Literal["nodes", "files", "find-node", "args", "arguments", "params", "translation"] | None = None
     """Part of the launch to print instead of starting it."""
     node: str = ""
     """Node of `find-node` and `args`."""

@@ -2,6 +2,7 @@
 
 import shlex
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import yaml
 
@@ -53,6 +54,20 @@ def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[s
     words = [*shlex.split(node.launch_prefix), program, *shlex.split(node.arguments)]
     words += [f"{there}:={here}" for there, here in node.remappings]
     return " ".join([*(f'{key}="{value}"' for key, value in variables), *words, f"__name:={node.name}"])
+
+
+def translations(plan: LaunchPlan, packages: Packages, env: Mapping[str, str]) -> str:
+    """`--show-translation`: what is changed in the Python 2 programs of the nodes."""
+    from trundle.nodes import Executable, find_node
+    from trundle.rospy.python2.cache import changes
+
+    programs: dict[Path, None] = {}
+    for node in _nodes(plan):
+        found = find_node(node.package, node.type, packages.find_package, env=env, arguments=node.arguments)
+        if isinstance(found, Executable):
+            programs[found.path] = None
+    texts = [text for program in programs if (text := changes(program))]
+    return "\n".join(texts) or "no node of this launch is a Python 2 program"
 
 
 def parameters(params: Sequence[LaunchParam]) -> str:
