@@ -1,5 +1,7 @@
 """Nodelets: those we have run, the others are named."""
 
+from pathlib import Path
+
 from tests.nodes.conftest import PATIENCE_S
 
 from trundle.nodes import BuiltinReplacement, MissingNode, find_node
@@ -25,8 +27,19 @@ def test_another_is_named_before_anything_starts(stage, capsys) -> None:
     found = find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=words)
     assert isinstance(found, MissingNode)
     assert found.why.startswith(why)
+    assert found.why.endswith(
+        "apt-get install -y ros-noetic-image-proc && rosrun nodelet nodelet standalone image_proc/rectify'"
+    )
     for there in ("manager", "load pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet m", "unload x m"):
         assert isinstance(find_node("nodelet", "nodelet", lambda _: None, env={}, arguments=there), BuiltinReplacement)
+
+
+def test_one_of_a_package_here_is_compiled_in_the_container(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text("project(near)")
+    found = find_node("nodelet", "nodelet", lambda _: tmp_path, env={}, arguments="load near/Blur manager")
+    assert isinstance(found, MissingNode)
+    assert f"-v {tmp_path}:/ws/src/{tmp_path.name}:ro " in found.why
+    assert found.why.endswith("catkin_make && . devel/setup.sh && rosrun nodelet nodelet standalone near/Blur'")
 
 
 def test_a_wrong_command_line_is_said(stage, capsys) -> None:

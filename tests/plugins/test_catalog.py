@@ -54,6 +54,22 @@ def test_a_missing_plugin_says_where_was_looked(tmp_path: Path) -> None:
     )
 
 
+def test_a_missing_plugin_of_a_package_names_its_source(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>spinning</name></package>")
+    cmake = tmp_path / "CMakeLists.txt"
+    cmake.write_text("project(spinning)\nadd_library(spin SHARED src/spin.cc)\nadd_library(other src/other.cc)\n")
+
+    with pytest.raises(DescriptionError) as error:
+        find_plugin(tag(tmp_path), {"ROS_MASTER_URI": "http://here:1"})
+
+    place, _, command = str(error.value).partition("; it is C++ that ")[2].partition(" in place of `trundle run`: ")
+    assert place == f"{cmake}:2 builds from src/spin.cc; Gazebo itself, with it, in a container"
+    assert command.startswith(f"docker run --rm -it --network host -v {tmp_path}:/ws/src/{tmp_path.name}:ro ")
+    assert command.endswith("catkin_make && . devel/setup.sh && rosrun gazebo_ros gzserver'")
+    assert "ROS_MASTER_URI=http://here:1 " in command
+    assert " ros-noetic-gazebo-ros " in command
+
+
 def test_a_plugin_of_sensors_that_a_model_has_says_where_it_belongs(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError) as error:
         find_plugin(tag(tmp_path, "libgazebo_ros_laser.so"), {})

@@ -2,16 +2,16 @@
 
 import importlib
 import os
+import shlex
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, cast
 
-from trundle.packages import cmake_programs, program_folders
+from trundle.packages import cmake_programs, package_in_container, program_folders, source_in_container
 from trundle.ros import Node
 
 from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
-from .container import package_in_container, source_in_container
 from .host import BuiltinNode, NodeHost
 from .python_interpreter import can_run
 from .unsupported_nodes import ALTERNATIVES, OVER_THE_WIRE
@@ -81,9 +81,8 @@ def find_node(
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
-        return (
-            _nodelet(arguments) or BuiltinReplacement(target) if type_name == "nodelet" else BuiltinReplacement(target)
-        )
+        missing = _nodelet(arguments, find_package, env) if type_name == "nodelet" else None
+        return missing or BuiltinReplacement(target)
     built = None if folder is None else _built(package, type_name, folder, env)
     if built is not None:
         return Executable(built)
@@ -91,7 +90,7 @@ def find_node(
         return MissingNode(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
     if way_out.endswith(OVER_THE_WIRE):
-        way_out = f"{way_out}: {package_in_container(package, type_name, env)}"
+        way_out = f"{way_out}: {package_in_container(package, f'rosrun {package} {type_name}', env)}"
     if folder is not None:
         why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
         return MissingNode(f"{why}{_to_compile(folder, package, type_name, env)}{way_out}")
@@ -107,22 +106,31 @@ def _to_compile(folder: Path, package: str, name: str, env: Mapping[str, str]) -
         return ""
     sources = ", ".join(program.sources[:_SOURCES_NAMED]) + (", …" if len(program.sources) > _SOURCES_NAMED else "")
     target = f" (target {program.target!r})" if program.target != name else ""
-    line = source_in_container(folder, package, name, env)
+    line = source_in_container(folder, f"rosrun {package} {name}", env)
     where = f"{program.file}:{program.line}"
     built = f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
     return f"{built}, here or in a container: {line}"
 
 
-def missing_nodelet(name: str) -> str:
-    """Error message for a nodelet without replacement."""
-    return f"nodelet {name}: compiled code without a stand-in; available: {', '.join(NODELETS)}"
+def missing_nodelet(name: str, find_package: FindPackage, env: Mapping[str, str]) -> str:
+    """Error message for a nodelet without replacement; `find_package` and `env` are those of `find_node`."""
+    what = f"nodelet {name}: compiled code without a stand-in; available: {', '.join(NODELETS)}"
+    package, slash, _ = name.partition("/")
+    if not slash:
+        return what
+    folder, command = find_package(package), f"rosrun nodelet nodelet standalone {shlex.quote(name)}"
+    if folder is None or not os.path.isfile(folder / "CMakeLists.txt"):
+        line = package_in_container(package, command, env)
+    else:
+        line = source_in_container(folder, command, env, needs="nodelet")
+    return f"{what}; {OVER_THE_WIRE}: {line}"
 
 
-def _nodelet(arguments: str) -> MissingNode | None:
+def _nodelet(arguments: str, find_package: FindPackage, env: Mapping[str, str]) -> MissingNode | None:
     """Missing nodelet class of a nodelet command line; None if it is available."""
     match arguments.split():
         case ["load" | "standalone", name, *_] if name not in NODELETS:
-            return MissingNode(missing_nodelet(name))
+            return MissingNode(missing_nodelet(name, find_package, env))
         case _:
             return None
 

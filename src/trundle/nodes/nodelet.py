@@ -1,5 +1,9 @@
 """nodelet/nodelet: idle managers, and nodelets with a built-in replacement."""
 
+import os
+from pathlib import Path
+
+from trundle.packages import Packages
 from trundle.ros import Node
 
 from .catalog import NODELETS
@@ -25,7 +29,8 @@ class Nodelet:
             case ["load", name, _, *rest] | ["standalone", name, *rest]:
                 if name in NODELETS:
                     return await BuiltinReplacement(NODELETS[name]).load()(node, rest, self._host).run()
-                node.log.error(missing_nodelet(name))
+                env = {**os.environ, **self._host.env}
+                node.log.error(missing_nodelet(name, Packages(env, start=Path.cwd()).find_package, env))
                 return 1
             case ["unload", *_]:
                 return 0

@@ -218,8 +218,14 @@ def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
     if filename in SENSOR_PLUGINS:
         raise _misplaced(tag, "sensor")
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
-    looked = ", ".join(map(str, folders))
-    raise DescriptionError(tag.at, f"{what}: looked for {python_file_name(filename)} in {looked}")
+    looked = f"looked for {python_file_name(filename)} in {', '.join(map(str, folders))}"
+    raise DescriptionError(tag.at, f"{what}: {looked}{_compiled(tag, environment)}")
+
+
+def _compiled(tag: PluginTag, environment: Mapping[str, str]) -> str:
+    from .compiled import compiled_plugin  # lazy: only for what is missing
+
+    return compiled_plugin(_base_name(tag), Path(tag.at.file), environment)
 
 
 def _of_kind(found: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
