@@ -51,6 +51,32 @@ def test_debians_own_python_is_left_to_the_script(tmp_path: Path, debian: Path, 
     assert _asked(tmp_path, "#!/usr/bin/env python3", debian, venv) == []
 
 
+@pytest.mark.parametrize(
+    ("text", "is_ours"),
+    [
+        ("from talking.words import WORD", True),
+        ("from talking.msg import Word", True),
+        ("from talking.cfg import VoiceConfig", True),
+        ("import near, numpy, json", False),
+    ],
+)
+def test_modules_of_a_workspace_that_debian_lacks_are_found_by_this_one(
+    tmp_path: Path, debian: Path, text: str, is_ours: bool
+) -> None:
+    package = tmp_path / "src" / "talking"
+    script = _program(package / "scripts" / "node.py", f"#!/usr/bin/env python3\nimport rospy\n{text}\n")
+    (package / "package.xml").write_text("<package><name>talking</name></package>")
+    (package / "scripts" / "near.py").write_text("")
+    (package / "src" / "talking").mkdir(parents=True)
+    (package / "src" / "talking" / "__init__.py").write_text("")
+
+    env = {"PATH": str(debian), "ROS_PACKAGE_PATH": str(tmp_path / "src")}
+    assert interpreter(script, env) == ([sys.executable] if is_ours else [])
+    if is_ours:  # built: on the path, as by devel/setup.sh
+        (tmp_path / "devel" / "talking").mkdir(parents=True)
+        assert interpreter(script, {**env, "PYTHONPATH": str(tmp_path / "devel")}) == []
+
+
 def test_a_rospy_of_the_environments_own_is_used(tmp_path: Path, debian: Path, venv: Path) -> None:
     (venv.parent / "lib" / "python3.11" / "site-packages" / "rospy").mkdir(parents=True)
 

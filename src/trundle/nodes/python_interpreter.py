@@ -5,19 +5,22 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from trundle.files import open_file
+from trundle.packages import Packages
 from trundle.rospy.environment import RUN_PYTHON2
+from trundle.rospy.package_folders import package_modules
 from trundle.rospy.python2.cache import is_python2_file
 
 _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MULTILINE)
 _IMPORTS_ROS = re.compile(
     rb"^\s*(?:import|from)\s+(?:ros\w+|actionlib|genpy|tf|tf2_\w+|\w+_(?:msgs|srvs)|\w+\.(?:msg|srv))\b", re.MULTILINE
 )
-_WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv)\b))", re.MULTILINE)
+_WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv|cfg)\b))", re.MULTILINE)
 """Modules of a ROS installation or a built workspace."""
+_IMPORTED = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(\w+)", re.MULTILINE)
 _ASKS = re.compile(
     rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python(?:2(?:\.\d)?|3)?|\S*/python(?:2(?:\.\d)?)?)\s*$", re.MULTILINE
 )
@@ -77,8 +80,9 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     """Return the interpreter command for a program; [] if its shebang suffices.
 
     A script with a generic Python shebang gets Debian's if it imports rospy and only that one has it, as in Trundle's
-    virtual environment. Without an installed rospy, and where there is no `python`, it gets this process's Python. A
-    Python 2 program is translated, and run by this process's Python, unless a ROS of its own is on PYTHONPATH.
+    virtual environment. Without an installed rospy, for modules and messages of a workspace that is not built, and
+    where there is no `python`, it gets this process's Python. A Python 2 program is translated, and run by this
+    process's Python, unless a ROS of its own is on PYTHONPATH.
     """
     beginning = _beginning(program)
     asked = _ASKS.match(beginning)
@@ -89,9 +93,12 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
         return [sys.executable, str(RUN_PYTHON2)]
     found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
     if _IMPORTS_ROS.search(beginning) and not has_rospy:
-        if found is not None and _brings_rospy(Path(found)):
+        is_debians = found is None or _is_debians(Path(found))
+        if found is not None and not is_debians and _brings_rospy(Path(found)):
             return []
-        return [_DEBIAN_PYTHON if _has_rospy(_DEBIAN_MODULES) else sys.executable]
+        if not _has_rospy(_DEBIAN_MODULES) or _needs_workspace(program, env):
+            return [sys.executable]
+        return [] if found is not None and is_debians else [_DEBIAN_PYTHON]
     return [] if found is not None else [sys.executable]
 
 
@@ -103,10 +110,30 @@ def _beginning(program: Path) -> bytes:
         return b""
 
 
+def _needs_workspace(program: Path, env: Mapping[str, str]) -> bool:
+    """True if a program imports what Debian's Python lacks, and Trundle's finds in the packages around it."""
+    if not can_run(program, env):
+        return True
+    names = {os.fsdecode(name) for name in _IMPORTED.findall(_beginning(program))} - sys.stdlib_module_names
+    folders = [_DEBIAN_MODULES, *_python_path(env), str(program.parent)]
+    lacking = {name for name in names if not any(map(os.path.exists, _module_files(name, folders)))}
+    if not lacking:
+        return False
+    packages = Packages(env, start=program).ros_packages().items()
+    return any(module in lacking for name, folder in packages for module, _ in package_modules(name, folder))
+
+
+def _module_files(name: str, folders: Iterable[str]) -> Iterator[str]:
+    for folder in folders:
+        yield from (os.path.join(folder, name), os.path.join(folder, f"{name}.py"))
+
+
+def _is_debians(python: Path) -> bool:
+    return python.parent.resolve() == Path(_DEBIAN_PYTHON).parent  # also the target of a virtual environment's link
+
+
 def _brings_rospy(python: Path) -> bool:
-    """True if a Python is Debian's, or has a rospy of its own."""
-    if python.parent.resolve() == Path(_DEBIAN_PYTHON).parent:  # also the target of a virtual environment's link
-        return _has_rospy(_DEBIAN_MODULES)
+    """True if a Python has a rospy of its own."""
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
 
