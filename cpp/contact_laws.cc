@@ -4,6 +4,8 @@
 // MuJoCo calls them by mjcb_control in every step of every model; a model without tables costs a comparison.
 // mjcb_sensor runs after the solver. Callbacks that were installed before are called first.
 #include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -22,6 +24,7 @@
 #include "plain_metric.h"
 #include "plane_cylinder.h"
 #include "restitution.h"
+#include "row_stepper.h"
 #include "surface_motion.h"
 #include "tunnelling.h"
 #include "velocity_damping.h"
@@ -154,6 +157,32 @@ void report(std::uintptr_t model, std::uintptr_t data) {
   report_efforts(each.laws, each.m, each.d);
 }
 
+using Addresses = std::vector<std::pair<std::uintptr_t, std::uintptr_t>>;
+template <typename Value>
+using Array = nb::ndarray<Value, nb::c_contig, nb::device::cpu>;
+
+RowStepper make_row_stepper(const Addresses& workers, std::vector<int> links, double max_speed, bool always_actuated) {
+  std::vector<std::pair<mjModel*, mjData*>> found;
+  for (const auto [model, data] : workers) {
+    const ModelData each(model, data);
+    found.emplace_back(const_cast<mjModel*>(each.m), each.d);
+  }
+  return {std::move(found), std::move(links), max_speed, always_actuated};
+}
+
+void step_rows(const RowStepper& stepper, const Array<const bool>& chosen, const Array<double>& states,
+               const Array<const double>& max_efforts, const Array<const double>& rates, const Array<bool>& unstable,
+               const Array<double>& poses, const Array<double>& twists, int steps) {
+  const std::size_t count = chosen.size();
+  const Rows rows{count,        chosen.data(),   states.data(), max_efforts.data(),
+                  rates.data(), unstable.data(), poses.data(),  twists.data()};
+  for (const std::size_t length :
+       {states.shape(0), max_efforts.shape(0), rates.shape(0), unstable.shape(0), poses.shape(0), twists.shape(0)})
+    if (length != count) throw std::invalid_argument("every array has one row for each world");
+  const nb::gil_scoped_release release;
+  stepper.step(rows, steps);
+}
+
 }  // namespace
 
 }  // namespace trundle
@@ -163,5 +192,11 @@ NB_MODULE(_contact_laws, module) {
   module.def("names", trundle::names);
   module.def("bind", trundle::bind, nb::arg("addresses"));
   module.def("install", trundle::install);
+  nb::class_<trundle::RowStepper>(module, "RowStepper")
+      .def("step", trundle::step_rows, nb::arg("chosen").noconvert(), nb::arg("states").noconvert(),
+           nb::arg("max_efforts").noconvert(), nb::arg("rates").noconvert(), nb::arg("unstable").noconvert(),
+           nb::arg("poses").noconvert(), nb::arg("twists").noconvert(), nb::arg("steps"));
+  module.def("make_row_stepper", trundle::make_row_stepper, nb::arg("workers"), nb::arg("links"), nb::arg("max_speed"),
+             nb::arg("always_actuated"));
   module.def("report_efforts", trundle::report, nb::arg("model"), nb::arg("data"));
 }

@@ -17,7 +17,7 @@ from .world_setup import LoadedWorld, load_built, load_world
 if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
     from trundle.description import Model, World
     from trundle.ros import Node
-    from trundle.sensors import CameraHandle, MountedSensors, SensorHandle
+    from trundle.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
 
     from .run.ros_interface import RosInterface
 
@@ -61,6 +61,14 @@ class LoadedSimulation(Simulation):
             UsageError: none or several; the message lists the names there are.
         """
         return self._sensors.sensor(name)
+
+    def range_sensor(self, name: str) -> "RangeSensor":
+        """Lidar or ray sensor itself by name, for readings with another noise than its own.
+
+        Raises:
+            UsageError: none or several, or of another type; the message lists the names there are.
+        """
+        return self._sensors.range_sensor(name)
 
     @property
     def camera_names(self) -> tuple[str, ...]:

@@ -3,6 +3,8 @@ from .compile.compiler import compile_world as compile_world
 from .compile.mjcf import compile_mjcf as compile_mjcf
 from .compile.wheels import report_wheels as report_wheels
 from .egl_renderer import EglRenderer as EglRenderer
+from .step.batch import Batch as Batch
+from .step.batch import WorldRow as WorldRow
 from .step.contact import Contact as Contact
 from .step.contact import Contacts as Contacts
 from .step.dynamics import Coordinates as Coordinates

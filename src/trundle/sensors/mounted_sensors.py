@@ -16,6 +16,7 @@ from .sensor_handle import SensorHandle
 
 if TYPE_CHECKING:
     from .mount_instruments import InstrumentSensor
+    from .range import RangeSensor
     from .ray_scene import RayScene
 
 
@@ -69,6 +70,14 @@ class MountedSensors:
         handle = SensorHandle(self._simulation, sensor, full)
         self._handles.append((sensor, handle))
         return handle
+
+    def range_sensor(self, name: str) -> "RangeSensor":
+        """Return a lidar or ray sensor by name; see `LoadedSimulation.range_sensor`."""
+        from .range import RangeSensor
+
+        _, sensor = _find(name, self._named(RangeSensor), "lidar")
+        assert isinstance(sensor, RangeSensor)
+        return sensor
 
     def names(self) -> tuple[str, ...]:
         """Return `model::link::sensor` of each sensor, in file order."""

@@ -44,8 +44,8 @@ class RangeSensor(LiveSensor[RangeReading]):
         self._noise = NoiseSource(mount.sensor.scan.noise, mount.random)
         self._directions = directions_of(mount.sensor.scan)
 
-    def measure(self, snapshot: Snapshot) -> RangeReading:
-        """Cast the scan from the sensor's pose."""
+    def measure(self, snapshot: Snapshot, *, noise: NoiseSource | None = None) -> RangeReading:
+        """Cast the scan from the sensor's pose; `noise` replaces the sensor's own."""
         scan = self.scan
         pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
         met = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
@@ -53,9 +53,10 @@ class RangeSensor(LiveSensor[RangeReading]):
         far, near = found >= scan.max_m, found <= scan.min_m
         found[far], found[near] = np.inf, -np.inf
         retros[far | near] = 0.0
-        if not self._noise.is_silent:
+        noise = noise or self._noise
+        if not noise.is_silent:
             seen = np.isfinite(found)
-            found[seen] = np.clip(self._noise.apply(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
+            found[seen] = np.clip(noise.apply(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
         shape = (scan.vertical.values, scan.horizontal.values)
         return RangeReading(
             time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape)

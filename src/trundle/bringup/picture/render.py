@@ -1,6 +1,5 @@
 """Pictures of a description, from one of its cameras or in a three-quarter view."""
 
-import math
 from collections.abc import Mapping
 from colorsys import hsv_to_rgb
 from dataclasses import dataclass
@@ -19,29 +18,21 @@ from trundle.packages import Packages
 from trundle.render import (
     Intrinsics,
     Picture,
-    Scene,
-    corners_of,
     report_unreadable_textures,
     scene_from_world,
     update_skins,
 )
 from trundle.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
 from trundle.simulation import Simulation, Snapshot
-from trundle.spatial import Pose, pose_from_row
+from trundle.spatial import pose_from_row
 
 from ..renderers import RENDERERS, RendererName
 from ..world_setup import load_world
 from .lowest_point import lowest_point
+from .three_quarter_view import BACKDROP, FIELD_OF_VIEW, STUDIO_LIGHT, scene_corners, three_quarter_pose
 from .urdf_preview import add_robot
 
 DEFAULT_SIZE = (800, 600)
-_FOV = 0.6
-"""Horizontal field of view [rad]: a long lens, with little perspective."""
-_FROM = (math.radians(-38.0), math.radians(16.0))
-"""Azimuth and elevation of the three-quarter view [rad]: on the side that Gazebo's sun shines on."""
-_MARGIN = 1.08
-_STUDIO_LIGHT, _BACKDROP = (0.6, 0.6, 0.6, 1.0), (0.95, 0.95, 0.95, 1.0)
-"""RGBA, brighter than most worlds; a camera of the file sees the world's own."""
 _SAMPLES = 2
 """Supersampling per axis, against jagged edges."""
 _MAX_PX = 3840 * 2160
@@ -99,12 +90,14 @@ class PictureRenderer:
             self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
             scene, self._written = add_robot(scene, robot, packages, report)
         if options.camera is None:
-            scene = replace(scene, ambient=_STUDIO_LIGHT, background=_BACKDROP)
+            scene = replace(scene, ambient=STUDIO_LIGHT, background=BACKDROP)
         self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
         report_unreadable_textures(scene, report)
         self._sensor: CameraSensor | None = None
         width, height = options.size or DEFAULT_SIZE
-        self._lens = Intrinsics(width_px=width, height_px=height, horizontal_fov_rad=_FOV, near_m=0.01, far_m=1000.0)
+        self._lens = Intrinsics(
+            width_px=width, height_px=height, horizontal_fov_rad=FIELD_OF_VIEW, near_m=0.01, far_m=1000.0
+        )
         if options.camera is not None:
             self._sensor = _camera(options.camera, mount_cameras(self.simulation, lambda _: self._renderer))
             self._lens = self._sensor.intrinsics
@@ -123,7 +116,7 @@ class PictureRenderer:
         added = [options.camera is None and model.added for model in stage.world.models for _ in model.links]
         self._ground = np.flatnonzero(added)
         self._sunk_m = 0.0
-        self._cloud = _corners(scene, self._poses(self.simulation.snapshot()))
+        self._cloud = scene_corners(scene, self._poses(self.simulation.snapshot()))
         rows = self._poses(self.simulation.snapshot())
         heights = [
             lowest_point(each.geometry, pose_from_row(rows[each.body]) @ each.body_from_shape) for each in scene.shapes
@@ -144,7 +137,7 @@ class PictureRenderer:
         if self._sensor is not None:
             eye = self._sensor.world_from_camera(snapshot)
         else:
-            eye = _good_side(self._cloud, self._lens, turned_rad)
+            eye = three_quarter_pose(self._cloud, self._lens, turned_rad)
         bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.projection
 
         def drawn(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
@@ -180,29 +173,3 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
             return camera
     there = ", ".join(repr(camera.name) for camera in cameras) or "none"
     raise UsageError(f"no camera {name!r}; cameras there: {there}")
-
-
-def _corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(N, 3) corners of all shapes but planes, in the world [m]."""
-    points = [
-        (pose_from_row(poses[shape.body]) @ shape.body_from_shape).transform_point(corner)
-        for shape in scene.shapes
-        for corner in corners_of(shape.geometry)
-    ]
-    return np.array(points or [(-1.0, -1.0, 0.0), (1.0, 1.0, 1.0)])
-
-
-def _good_side(cloud: NDArray[np.float64], lens: Intrinsics, turned_rad: float) -> Pose:
-    """Pose in the world of a camera whose three-quarter view holds all points."""
-    middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2
-    azimuth, elevation = _FROM[0] + turned_rad, _FROM[1]
-    away = np.array(
-        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
-    )
-    rotation = Pose.from_rpy(0.0, 0.0, 0.0, 0.0, elevation, azimuth + math.pi)
-    in_view = np.array([rotation.inverse().transform_vector((x, y, z)) for x, y, z in (cloud - middle).tolist()])
-    half_width = math.tan(lens.horizontal_fov_rad / 2)
-    half_height = half_width * lens.height_px / lens.width_px
-    needed = np.maximum(np.abs(in_view[:, 1]) / half_width, np.abs(in_view[:, 2]) / half_height) - in_view[:, 0]
-    x, y, z = (middle + away * float(needed.max()) * _MARGIN).tolist()
-    return Pose((x, y, z), rotation.quaternion)

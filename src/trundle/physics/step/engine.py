@@ -29,7 +29,8 @@ from .state_reader import StateReader
 from .state_transfer import transfer_state
 from .state_writer import StateWriter
 
-if TYPE_CHECKING:  # a world without belts does not load them
+if TYPE_CHECKING:  # a world without belts, or alone, does not load these
+    from .batch import Batch, WorldRow
     from .surface_motion import LinkGrip
 
 _DATA_BYTES = 450_000
@@ -258,6 +259,25 @@ class Engine:
             self.restore(state)
 
         return restore
+
+    def batch(self, rows: int, *, threads: int) -> "Batch":
+        """Return rows to step at once, each a state of this world."""
+        from .batch import Batch
+
+        return Batch(self.compiled, rows, threads, actuated=self._laws.is_active, max_speed=MAX_SPEED)
+
+    def world_row(self) -> "WorldRow":
+        """Return the current state as a row of a batch, without initial penetrations."""
+        from .batch import WorldRow
+
+        if self.writer.was_teleported:
+            self._separate()
+        return WorldRow(self._state(), self.motors.save())
+
+    def set_row_state(self, state: NDArray[np.float64]) -> None:
+        """Show the state of a row of a batch (mjSTATE_INTEGRATION); the motors stay."""
+        mujoco.mj_setState(self._model, self._data, state, STATE)
+        self.reader.invalidate()
 
     @property
     def checkpoint_bytes(self) -> int:

@@ -1,0 +1,25 @@
+"""Makers of the ready environments, as Gymnasium calls them."""
+
+from .make import make_task, make_vec_task
+from .ready_tasks import READY
+from .single_env import SimulationEnv
+from .vector_env import SimulationVectorEnv
+
+
+def make_ready(*, name: str, render_mode: str | None = None, camera: str | None = None) -> SimulationEnv:
+    """Make a ready environment; see `trundle.gym.make`."""
+    file, task = READY[name]
+    return make_task(file, task, render_mode=render_mode, camera=camera)
+
+
+def make_ready_vec(
+    *,
+    name: str,
+    num_envs: int = 1,
+    threads: int | None = None,
+    render_mode: str | None = None,
+    camera: str | None = None,
+) -> SimulationVectorEnv:
+    """Make many worlds of a ready environment; see `trundle.gym.make_vec`."""
+    file, task = READY[name]
+    return make_vec_task(file, task, num_envs=num_envs, threads=threads, render_mode=render_mode, camera=camera)

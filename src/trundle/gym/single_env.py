@@ -1,0 +1,54 @@
+"""Gymnasium environment of one world."""
+
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from .overview import Overview
+from .worlds import Observed, Worlds
+
+
+class SimulationEnv(gymnasium.Env[Observed, NDArray[np.float32]]):
+    """One world; made by `trundle.gym.make`."""
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"]}
+
+    def __init__(self, worlds: Worlds, *, render_mode: str | None = None, camera: str | None = None) -> None:
+        """Wrap the first row of worlds.
+
+        Args:
+            worlds: one row.
+            render_mode: "rgb_array" or None.
+            camera: name of the camera that `render` looks through; None: a three-quarter view.
+        """
+        self.worlds = worlds
+        self.metadata = self.metadata | {"render_fps": round(1.0 / worlds.task.period_s)}
+        self.render_mode = render_mode
+        self.observation_space = worlds.observation_space
+        self.action_space = worlds.action_space
+        self._overview = None if render_mode is None else Overview(worlds.states, camera)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observed, dict[str, Any]]:
+        """Begin an episode; the same seed gives the same bytes."""
+        super().reset(seed=seed, options=options)
+        self.worlds.random[0] = self.np_random
+        self.worlds.reset(0)
+        return self._observation(), {}
+
+    def step(self, action: NDArray[np.float32]) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
+        """Act for one period; unstable physics ends the episode, and info has "unstable"."""
+        step = self.worlds.step(np.asarray(action)[None])
+        info = {"unstable": True} if self.worlds.states.batch.unstable[0] else {}
+        return self._observation(), float(step.rewards[0]), bool(step.terminated[0]), bool(step.truncated[0]), info
+
+    def render(self) -> NDArray[np.uint8] | None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        """Return a picture (height, width, 3), or None without a render mode."""
+        return None if self._overview is None else self._overview.draw(0)
+
+    def _observation(self) -> Observed:
+        seen = self.worlds.observe()
+        return {name: rows[0] for name, rows in seen.items()} if isinstance(seen, dict) else seen[0]

@@ -1,0 +1,76 @@
+"""Twist for a robot with two driven wheels."""
+
+import numpy as np
+from gymnasium import spaces
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from trundle.control import DifferentialDrive
+from trundle.diagnostics import UsageError
+from trundle.model import Model
+from trundle.parameters import TagParameters
+
+from .actions import Apply
+from .states import WorldStates
+
+
+class _Wheels(Struct, frozen=True):
+    joints: tuple[str, str]
+    """Left and right."""
+    drive: DifferentialDrive
+    max_effort: float
+    """[N·m]"""
+
+
+class TwistAction:
+    """Forward speed [m/s] and yaw rate [rad/s] of a robot, by its plugin libgazebo_ros_diff_drive.so or like it.
+
+    The plugin's joints, wheel separation and diameter, and torque are used; its acceleration limit is not.
+    """
+
+    def __init__(self, model: str, *, max_forward: float, max_yaw_rate: float, backward: bool = True) -> None:
+        """Drive a model.
+
+        Args:
+            model: name.
+            max_forward: [m/s]
+            max_yaw_rate: [rad/s]
+            backward: drives backwards, too.
+        """
+        self.model = model
+        self.max_forward = max_forward
+        self.max_yaw_rate = max_yaw_rate
+        self.backward = backward
+
+    def bind(self, states: WorldStates) -> tuple[spaces.Box, Apply]:
+        """See `Action`."""
+        wheels = _wheels_of(states.simulation[self.model].model, states)
+        left, right = states.axes(*(f"{self.model}::{joint}" for joint in wheels.joints))
+        radius, half = wheels.drive.wheel_radius, wheels.drive.separation / 2
+
+        def apply(values: NDArray[np.float64]) -> None:
+            forward, turning = values[:, 0], values[:, 1]
+            states.batch.command_velocity(left, (forward - turning * half) / radius, wheels.max_effort)
+            states.batch.command_velocity(right, (forward + turning * half) / radius, wheels.max_effort)
+
+        high = np.array([self.max_forward, self.max_yaw_rate], dtype=np.float32)
+        low = -high * np.array([self.backward, 1], dtype=np.float32)
+        return spaces.Box(low, high, dtype=np.float32), apply
+
+
+def _wheels_of(model: Model, states: WorldStates) -> _Wheels:
+    """Read the plugin, with gazebo_ros' defaults."""
+    for plugin in model.plugins:
+        if "diff_drive" in plugin.filename or "differential_drive" in plugin.filename:
+            read = TagParameters(plugin.node, states.simulation.report)
+            return _Wheels(
+                joints=(read.text("leftJoint", "left_joint"), read.text("rightJoint", "right_joint")),
+                drive=DifferentialDrive(
+                    separation=read.number("wheelSeparation", 0.34), wheel_radius=read.number("wheelDiameter", 0.15) / 2
+                ),
+                max_effort=read.number("wheelTorque", 5.0),
+            )
+    raise UsageError(
+        f"model {model.name!r} has no plugin libgazebo_ros_diff_drive.so to drive it by; "
+        f"drive its wheels by VelocityAction"
+    )

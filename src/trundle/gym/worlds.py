@@ -1,0 +1,168 @@
+"""Worlds of an environment: one description, many states, a task."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+from gymnasium import spaces
+from msgspec import Struct
+from numpy.typing import ArrayLike, NDArray
+
+from trundle.bringup.loaded_simulation import LoadedSimulation
+from trundle.diagnostics import UsageError
+from trundle.spatial import NS_PER_S
+
+from .actions import Action, Apply
+from .observations import Observation, ObservationReader
+from .states import WorldStates
+
+_Array = NDArray[np.float64]
+Observations: TypeAlias = Observation | Sequence[Observation] | Mapping[str, Observation]
+Observed: TypeAlias = NDArray[np.generic] | dict[str, NDArray[np.generic]]
+"""With a row for each world."""
+
+
+class Task(Struct, frozen=True, kw_only=True):
+    """What is seen, done and rewarded; functions take all worlds at once, and return a value for each row."""
+
+    observations: Observations
+    """One, several joined to one array, or several by name."""
+    actions: Action | Sequence[Action]
+    reward: Callable[[WorldStates], _Array]
+    """(rows,) reward of the step."""
+    terminated: Callable[[WorldStates], NDArray[np.bool_]] | None = None
+    """(rows,) True ends the episode."""
+    reset: Callable[[LoadedSimulation, np.random.Generator], None] | None = None
+    """Changes one world as loaded, through its handles, at the beginning of an episode."""
+    max_steps: int | None = None
+    """Steps after which an episode is truncated."""
+    period_s: float = 0.02
+    """Simulated time of a step [s], a multiple of the world's time step."""
+
+
+class Step(Struct, frozen=True):
+    """Result of a step, each (rows,)."""
+
+    rewards: _Array
+    terminated: NDArray[np.bool_]
+    truncated: NDArray[np.bool_]
+
+
+class Worlds:
+    """States of one world and their task."""
+
+    def __init__(self, simulation: LoadedSimulation, task: Task, *, rows: int, threads: int) -> None:
+        """Set up the rows; `reset` begins their episodes.
+
+        Args:
+            simulation: as loaded.
+            task: to learn.
+            rows: number of worlds.
+            threads: number of threads.
+
+        Raises:
+            UsageError: a name in the task does not exist, or a setting is not possible.
+        """
+        self.task = task
+        self.steps = _steps_of(task.period_s, simulation.step_ns)
+        batch = simulation.engine.batch(rows, threads=threads)
+        self.states = WorldStates(simulation, batch)
+        actions = task.actions if isinstance(task.actions, Sequence) else [task.actions]
+        bound = [action.bind(self.states) for action in actions]
+        self.action_space = _joined([space for space, _ in bound])
+        self._applies: list[tuple[slice, Apply]] = []
+        first = 0
+        for space, apply in bound:
+            self._applies.append((slice(first, first + space.shape[0]), apply))
+            first += space.shape[0]
+        self.states.actions = np.zeros((rows, first))
+        self.random: list[np.random.Generator] = [np.random.default_rng(0) for _ in range(rows)]
+        self._readers = self._make_readers(task.observations)
+        self._elapsed = np.zeros(rows, dtype=np.intp)
+        self._loaded = simulation.engine.world_row()
+
+    def _make_readers(self, observations: Observations) -> dict[str, ObservationReader] | list[ObservationReader]:
+        if isinstance(observations, Mapping):
+            return {name: each.reader(self.states, self.random) for name, each in observations.items()}
+        several = observations if isinstance(observations, Sequence) else [observations]
+        readers = [each.reader(self.states, self.random) for each in several]
+        if len(readers) > 1 and any(reader.space.dtype == np.uint8 for reader in readers):
+            raise UsageError("a picture cannot be joined to other observations; name them: observations={'eye': …}")
+        return readers
+
+    @property
+    def observation_space(self) -> spaces.Space[Observed]:
+        """Space of one world's observation."""
+        readers = self._readers
+        if isinstance(readers, dict):
+            return spaces.Dict({name: reader.space for name, reader in readers.items()})
+        return readers[0].space if len(readers) == 1 else _joined([reader.space for reader in readers])
+
+    def observe(self) -> Observed:
+        """Return the observations of all worlds."""
+        if isinstance(self._readers, dict):
+            return {name: reader.read() for name, reader in self._readers.items()}
+        read = [reader.read() for reader in self._readers]
+        return read[0] if len(read) == 1 else np.concatenate(read, axis=1)
+
+    def reset(self, row: int) -> None:
+        """Begin an episode of a world, with the random numbers of `random`."""
+        simulation = self.states.simulation
+        started = self._loaded
+        if self.task.reset is not None:
+            simulation.reset()
+            self.task.reset(simulation, self.random[row])
+            started = simulation.engine.world_row()
+        self.states.batch.write_row(row, started)
+        self.states.actions[row] = 0.0
+        self._elapsed[row] = 0
+        for reader in self._readers.values() if isinstance(self._readers, dict) else self._readers:
+            reader.reset(row)
+
+    def step(self, actions: ArrayLike, *, chosen: NDArray[np.bool_] | None = None) -> Step:
+        """Act on worlds and step them.
+
+        Args:
+            actions: (rows, numbers)
+            chosen: (rows,) worlds to step; None: all.
+
+        Raises:
+            UsageError: an action has the wrong shape, or is not finite.
+        """
+        self.states.actions = self._checked(actions)
+        for part, apply in self._applies:
+            apply(self.states.actions[:, part])
+        self.states.batch.step(self.steps, chosen=chosen)
+        self._elapsed += 1
+        rewards = np.asarray(self.task.reward(self.states), dtype=np.float64)
+        rows = len(self.random)
+        if rewards.shape != (rows,):
+            raise UsageError(f"reward returns an array of shape {rewards.shape}, not ({rows},): a value for each world")
+        terminated = self.states.batch.unstable.copy()
+        if self.task.terminated is not None:
+            terminated |= self.task.terminated(self.states)
+        truncated = np.zeros(rows, dtype=np.bool_)
+        if self.task.max_steps is not None:
+            truncated = self._elapsed >= self.task.max_steps
+        return Step(rewards, terminated, truncated)
+
+    def _checked(self, actions: ArrayLike) -> _Array:
+        found, space = np.array(actions, dtype=np.float64), self.action_space
+        if found.shape != (shape := (len(self.random), *space.shape)):
+            raise UsageError(f"actions have shape {found.shape}, not {shape}")
+        if not np.isfinite(found).all():
+            raise UsageError("an action is not finite")
+        return np.clip(found, space.low, space.high)
+
+
+def _steps_of(period_s: float, step_ns: int) -> int:
+    period_ns = round(period_s * NS_PER_S)
+    if period_ns < step_ns or period_ns % step_ns:
+        raise UsageError(f"period_s={period_s:g} is no multiple of the world's time step, {step_ns / NS_PER_S:g} s")
+    return period_ns // step_ns
+
+
+def _joined(boxes: Sequence[spaces.Box]) -> spaces.Box:
+    return spaces.Box(
+        np.concatenate([box.low for box in boxes]), np.concatenate([box.high for box in boxes]), dtype=np.float32
+    )
