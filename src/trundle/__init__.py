@@ -9,13 +9,15 @@ print(sim["my_robot"].joint("body_camera_base").position)
 
 TYPE_CHECKING = False  # not from `typing`: its import is half of a light command's start
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from os import PathLike
 
     from trundle.bringup.loaded_simulation import LoadedSimulation
+    from trundle.bringup.sweep.sweep import SweepResult
     from trundle.description import Model, World
 
 __version__ = "0.1.0"
-__all__ = ["Model", "World", "__version__", "load"]
+__all__ = ["Model", "World", "__version__", "load", "sweep"]
 
 
 def load(
@@ -39,6 +41,32 @@ def load(
 
     read = fspath(file) if isinstance(file, str | PathLike) else file
     return load_simulation(read, seed=seed, plugins=plugins, ros=ros)
+
+
+def sweep(
+    plan: "str | PathLike[str] | Mapping[str, object]",
+    *,
+    output: "str | PathLike[str] | None" = None,
+    workers: int | None = None,
+) -> "SweepResult":
+    """Run a world many times with different values; needs the extra `sweep`.
+
+    A call for the same plan goes on where the last one stopped.
+
+    Args:
+        plan: a plan's file, or its content as a dictionary, whose relative paths start in the working directory.
+        output: folder of the results; None: beside the plan's file, or `plan.sweep` in the working directory.
+        workers: number of processes; None: one for each processor.
+
+    Raises:
+        TrundleError: one sentence with file and line.
+        KeyboardInterrupt: Ctrl-C; what has been run is kept.
+    """
+    from pathlib import Path
+
+    from trundle.bringup.sweep.sweep import sweep_plan
+
+    return sweep_plan(plan, output=None if output is None else Path(output), workers=workers)
 
 
 def __getattr__(name: str) -> object:

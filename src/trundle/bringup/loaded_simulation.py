@@ -16,6 +16,7 @@ from .world_setup import LoadedWorld, load_built, load_world
 
 if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
     from trundle.description import Model, World
+    from trundle.physics import CompiledWorld
     from trundle.ros import Node
     from trundle.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
 
@@ -28,15 +29,18 @@ class LoadedSimulation(Simulation):
     If it is part of a ROS graph, `close` it, or use it in a `with` statement.
     """
 
-    def __init__(self, stage: LoadedWorld, report: Diagnostics, *, seed: int = 0) -> None:
+    def __init__(
+        self, stage: LoadedWorld, report: Diagnostics, *, seed: int = 0, compiled: "CompiledWorld | None" = None
+    ) -> None:
         """Compile a world; time is zero.
 
         Args:
             stage: the world to compile.
             report: takes repairs by physics.
             seed: of all random numbers.
+            compiled: the world, compiled already.
         """
-        super().__init__(stage.world, report, seed=seed)
+        super().__init__(stage.world, report, seed=seed, compiled=compiled)
         self._stage = stage
         self._ros: RosInterface | None = None
 

@@ -1,7 +1,9 @@
 """Worlds to simulate, from any description."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -31,13 +33,27 @@ class LoadedWorld:
     """Expanded XML, for the parameter /robot_description."""
 
 
-def load_world(file: str, packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:
+def load_world(
+    file: str,
+    packages: Packages,
+    report: Diagnostics,
+    *,
+    seed: int = 0,
+    arguments: Mapping[str, str] = MappingProxyType({}),
+) -> LoadedWorld:
     """Read a file; a robot or model is put on a ground plane under a sun, a world is taken as it is.
+
+    Args:
+        file: as `trundle.description.load` takes it.
+        packages: resolves URIs.
+        report: takes all findings.
+        seed: of random placement in SDF.
+        arguments: of a xacro file.
 
     Raises:
         DescriptionError: the file cannot be read.
     """
-    return place(load(file, report, packages=packages, seed=seed), packages, report)
+    return place(load(file, report, packages=packages, seed=seed, arguments=arguments), packages, report)
 
 
 def load_built(built: "Model | World", packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:

@@ -147,6 +147,14 @@ def _launch_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> lis
     return [*FilesCompleter(("launch", "test", "xml"))(prefix), *sorted(packages.ros_packages())]
 
 
+def _sweep_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list[str]:
+    """Plans, and first the word `report`."""
+    from argcomplete.completers import FilesCompleter
+
+    plans = list(FilesCompleter(("yaml", "yml"))(prefix))
+    return plans if parsed_args.words else ["report", *plans]
+
+
 def _rule_files(prefix: str, **_: Any) -> list[str]:
     from argcomplete.completers import FilesCompleter
 
@@ -180,6 +188,7 @@ _BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
     ("bag", "rules"): _rule_files,
     ("exec", "executable"): _programs,
     ("launch", "words"): _launch_words,
+    ("sweep", "words"): _sweep_words,
     ("topic", "type"): _topic_type,
 }
 """(command, argument) → completions that depend on earlier arguments or the prefix."""

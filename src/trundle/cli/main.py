@@ -30,6 +30,7 @@ COMMANDS: dict[str, str] = {
     "check": "list what is wrong or not supported in a file",
     "convert": "convert a robot or world to SDF, URDF or MJCF",
     "render": "render an image or a video of a robot or a world",
+    "sweep": "run a world many times with different values",
     "xacro": "expand a xacro file",
     "core": "run the ROS master, parameter server and rosout",
     "topic": "list, print, measure and publish topics",
@@ -56,7 +57,7 @@ REMAPPED = ("bag", "service", "tf", "topic")
 """Commands that take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf in launch files."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Commands that exit with 0 on Ctrl-C, as their originals do."""
-_INTERMIXED = ("launch", "test", "xacro", "originals.catkin_create_pkg")
+_INTERMIXED = ("launch", "test", "sweep", "xacro", "originals.catkin_create_pkg")
 """Commands with options between arguments, as in roslaunch: `trundle launch robot.launch --headless gui:=false`."""
 _DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Errors when writing an open file."""

@@ -2,10 +2,12 @@
 
 import os
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from urllib.parse import unquote
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 from trundle.files import is_stream, read_stream, read_text
 from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_ros2, refuse_ros2_language, refuse_template
@@ -23,7 +25,14 @@ _INDIGO = re.compile(
 """Tags of Indigo's xacro, without prefix."""
 
 
-def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -> LoadedDescription:
+def load(
+    what: str,
+    report: Diagnostics,
+    *,
+    packages: Packages,
+    seed: int = 0,
+    arguments: Mapping[str, str] = MappingProxyType({}),
+) -> LoadedDescription:
     """Read a description: SDF, URDF or xacro.
 
     Args:
@@ -32,10 +41,11 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
         report: takes warnings and notes.
         packages: resolves URIs.
         seed: of random placement in SDF.
+        arguments: of a xacro file.
 
     Raises:
         DescriptionError: the description cannot be interpreted.
-        UsageError: no such model.
+        UsageError: no such model, or arguments for another kind of file.
     """
     path = _find(what, packages)
     if is_stream(path):
@@ -46,12 +56,16 @@ def load(what: str, report: Diagnostics, *, packages: Packages, seed: int = 0) -
     refuse_ros2_language(path, is_launch=False)
     packages = packages.around(path)
     if path.suffix == ".xacro":
-        return load_urdf(_expanded(path, packages, report), f"{path} (expanded)", path, packages, report)
+        text = _expanded(path, packages, report, arguments=arguments)
+        return load_urdf(text, f"{path} (expanded)", path, packages, report)
     root = read_xml(path, report=report, deepest=DEEPEST)
+    text = read_text(path) if root.tag == "robot" else ""
+    is_xacro = "xmlns:xacro" in text
+    if arguments and not is_xacro:
+        raise UsageError(f"{path} is not a xacro file, and takes no arguments: {', '.join(arguments)}")
     if root.tag == "robot":
-        text = read_text(path)
-        if "xmlns:xacro" in text:
-            text = _expanded(path, packages, report)
+        if is_xacro:
+            text = _expanded(path, packages, report, arguments=arguments)
         return load_urdf(text, str(path), path, packages, report)
     return load_sdf(root, path, packages, report, seed=seed)
 
@@ -148,10 +162,17 @@ def load_urdf(text: str, name: str, path: Path, packages: Packages, report: Diag
     return LoadedDescription(kind="urdf", world=world, robot=robot, urdf=text)
 
 
-def _expanded(path: Path, packages: Packages, report: Diagnostics, data: bytes | None = None) -> str:
+def _expanded(
+    path: Path,
+    packages: Packages,
+    report: Diagnostics,
+    data: bytes | None = None,
+    *,
+    arguments: Mapping[str, str] = MappingProxyType({}),
+) -> str:
     from .xacro.expand import expand_xacro
 
-    return expand_xacro(path, {}, packages=packages, report=report, data=data)
+    return expand_xacro(path, arguments, packages=packages, report=report, data=data)
 
 
 def _find(what: str, packages: Packages) -> Path:

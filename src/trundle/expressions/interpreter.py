@@ -77,6 +77,15 @@ class Interpreter:
         except (RecursionError, MemoryError):
             raise ExpressionError("an expression or a value nested too deeply") from None
 
+    def check(self, text: str) -> None:
+        """Compile an expression without evaluating it.
+
+        Raises:
+            ExpressionError: it is too long, or has a forbidden name.
+            SyntaxError: it is no expression.
+        """
+        self._compile(text)
+
     def _compile(self, text: str) -> _Compiled:
         if len(text) > _LONGEST:
             raise ExpressionError(f"an expression of more than {_LONGEST} characters")

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
-from trundle.physics import Contacts, Engine, compile_world
+from trundle.physics import CompiledWorld, Contacts, Engine, compile_world
 from trundle.spatial import NS_PER_S
 
 from .actors import ActorPlayer, with_actors
@@ -50,17 +50,20 @@ Repeat: TypeAlias = Callable[[], object]
 class Simulation:
     """World in motion."""
 
-    def __init__(self, world: World, report: Diagnostics, *, seed: int = 0) -> None:
+    def __init__(
+        self, world: World, report: Diagnostics, *, seed: int = 0, compiled: CompiledWorld | None = None
+    ) -> None:
         """Compile a world at time zero.
 
         Args:
             world: as read.
             report: takes the warnings of the compile.
             seed: of all random numbers.
+            compiled: the world, with its actors, compiled already; no other simulation may use it.
         """
         self.report = report
         self.seed = seed
-        self.engine = Engine(compile_world(with_actors(world, report), report))
+        self.engine = Engine(compiled or compile_world(with_actors(world, report), report))
         self.world = self.engine.compiled.world
         """World without nested models; their links and joints are the outer model's, named `inner::name`."""
         self.loads = AppliedLoads(self.engine)

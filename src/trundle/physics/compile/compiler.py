@@ -6,6 +6,7 @@ limits leave no freedom (the 0..0 of many published robots) is dropped: its chil
 
 import warnings
 from collections import Counter
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -90,16 +91,53 @@ class Compiler:
         Raises:
             DescriptionError: MuJoCo refuses the model.
         """
+        pair_params, model = self.compile_model()
+        return self.finish(model, pair_params)
+
+    def compile_model(self) -> tuple[dict[tuple[str, str], ContactParams], mujoco.MjModel]:
+        """Compile the specification; return the contact parameters of its shape pairs, and MuJoCo's model.
+
+        Raises:
+            DescriptionError: MuJoCo refuses the model.
+        """
         pair_params = self.fill()
         reserve_tables(self.spec, pair_params, self.shapes, self.world)
-        collisions = {shape.name: shape.collision for shape in self.shapes}
-        compiled = self.compile_spec()
-        choose_jacobian(compiled)
-        factors = set_compliance(compiled, pair_params)
-        world = index_world(self.world, self.tree, self.joints.axes, collisions, compiled)
-        fill_tables(compiled, pair_params, self.shapes, world.link_bodies.tolist(), self.world, factors)
-        enable_ccd(compiled, self.shapes)
-        return replace(world, initial_qpos=initial_positions(compiled, self.tree, self.joints.axes, self.report))
+        return pair_params, self.compile_spec()
+
+    def finish(
+        self,
+        model: mujoco.MjModel,
+        pair_params: dict[tuple[str, str], ContactParams],
+        *,
+        world: World | None = None,
+        shapes: Sequence[ShapeEntry] | None = None,
+        like: CompiledWorld | None = None,
+    ) -> CompiledWorld:
+        """Write to MuJoCo's model what MuJoCo does not compute, and index it.
+
+        Args:
+            model: as compiled.
+            pair_params: contact parameters of its shape pairs.
+            world: with other numbers; None: the one of this compiler.
+            shapes: with other surfaces; None: those of this compiler.
+            like: has the same index.
+        """
+        world, shapes = world or self.world, self.shapes if shapes is None else shapes
+        choose_jacobian(model)
+        factors = set_compliance(model, pair_params)
+        if like is None:
+            collisions = {shape.name: shape.collision for shape in self.shapes}
+            like = index_world(world, self.tree, self.joints.axes, collisions, model)
+            start = initial_positions(model, self.tree, self.joints.axes, self.report)
+            like = replace(like, initial_qpos=start)
+        fill_tables(model, pair_params, shapes, like.link_bodies.tolist(), world, factors)
+        enable_ccd(model, shapes)
+        return replace(like, world=world, model=model)
+
+    @property
+    def searches(self) -> bool:
+        """True if the contacts of some shapes are found without pairs."""
+        return any(shape.geom.contype or shape.geom.conaffinity for shape in self.shapes)
 
     def fill(self) -> dict[tuple[str, str], ContactParams]:
         """Add the world to the specification; return the contact parameters of its shape pairs."""
@@ -166,7 +204,7 @@ class Compiler:
 
     def _add_body(self, name: str, node: LinkNode, edge: JointEdge | None) -> mujoco.MjsBody:
         """Add a body for a link, or for its share of a split one, below the parent of `edge`."""
-        link, share = node.link, self.mass_share[node.name]
+        link, share = node.link, self.mass_factor(node)
         parent, world_from_parent = self.spec.worldbody, Pose()
         if edge is not None and edge.parent != WORLD:
             parent, world_from_parent = self.bodies[edge.parent], self.tree.links[edge.parent].world_from_link
@@ -175,13 +213,15 @@ class Compiler:
         body = parent.add_body(name=name, pos=pose.position, quat=pose.quaternion)
         if not node.fixed:
             mass, axes, moments = principal_inertia(link, self.report)
-            if link.kinematic:
-                share *= _KINEMATIC_MASS
             body.mass, body.inertia, body.explicitinertial = mass * share, [m * share for m in moments], True
             body.ipos, body.iquat = axes.position, axes.quaternion
         if not link.gravity or link.kinematic:
             body.gravcomp = 1.0
         return body
+
+    def mass_factor(self, node: LinkNode) -> float:
+        """Return the factor from a link's mass to that of its body."""
+        return self.mass_share[node.name] * (_KINEMATIC_MASS if node.link.kinematic else 1.0)
 
     def _add_collision(self, node: LinkNode, collision: Collision) -> None:
         fixed = node.name in self.tree.immobile

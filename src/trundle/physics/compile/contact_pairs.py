@@ -134,16 +134,21 @@ def _add_pairs(
 def _add_pair(spec: mujoco.MjSpec, a: ShapeEntry, b: ShapeEntry, params: ContactParams) -> None:
     h = spec.option.timestep
     pair = spec.add_pair(name=pair_name(a.name, b.name), geomname1=a.name, geomname2=b.name)
-    slides_freely = params.mu <= 0 and params.mu2 <= 0
-    pair.condim = 1 if slides_freely else 4 if params.torsion > 0 or params.patch > 0 else 3
-    # MuJoCo's first tangent on a horizontal floor is y, as ODE's without fdir1.
-    pair.friction = [max(params.mu, 1e-5), max(params.mu2, 1e-5), max(params.torsion, 1e-5), 0.0001, 0.0001]
+    pair.condim, pair.friction = pair_friction(params)
     pair.solref = limit_solref(h) if params.min_depth > 0 else contact_solref(h)
     pair.solreffriction = sliding_solref(h)
     pair.solimp = SOLIMP
     pair.margin = _TOUCHING
     if not params.has_force:
         pair.margin, pair.gap = -_NO_FORCE_DEPTH, _NO_FORCE_DEPTH
+
+
+def pair_friction(params: ContactParams) -> tuple[int, list[float]]:
+    """Return the dimension of a pair's contacts and its friction coefficients."""
+    slides_freely = params.mu <= 0 and params.mu2 <= 0
+    condim = 1 if slides_freely else 4 if params.torsion > 0 or params.patch > 0 else 3
+    # MuJoCo's first tangent on a horizontal floor is y, as ODE's without fdir1.
+    return condim, [max(params.mu, 1e-5), max(params.mu2, 1e-5), max(params.torsion, 1e-5), 0.0001, 0.0001]
 
 
 def _enable_search_of_fixed(

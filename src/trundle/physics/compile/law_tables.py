@@ -231,6 +231,11 @@ def _has_friction(params: ContactParams) -> bool:
     return _is_anisotropic(params) or _gives(params)
 
 
+def has_row(params: ContactParams, h: float) -> tuple[bool, bool, bool, bool]:
+    """Return which tables have a row for a pair: restitution, friction, compliance; and if it has a contact group."""
+    return _bounces(params), _has_friction(params), has_compliance(params, h), _gives(params)
+
+
 def _gives(params: ContactParams) -> bool:
     """True if the pair slips or its friction depends on the load."""
     return params.mu + params.mu2 > 0 and (any(params.slip) or params.patch > 0)

@@ -1,0 +1,1 @@
+"""Sweeps: a world run many times with different values."""

@@ -1,0 +1,15 @@
+from .extras import import_extra as import_extra
+from .lock import lock_folder as lock_folder
+from .plan import Event as Event
+from .plan import Formula as Formula
+from .plan import Measure as Measure
+from .plan import Plan as Plan
+from .plan import Value as Value
+from .plan_reader import load_plan as load_plan
+from .plan_reader import read_plan as read_plan
+from .property_path import ARGUMENTS as ARGUMENTS
+from .property_path import with_property as with_property
+from .results import Results as Results
+from .row_result import RowResult as RowResult
+from .rows import Row as Row
+from .rows import Rows as Rows
