@@ -12,6 +12,7 @@ import type {
   Subscription,
   TopicInfo,
   TopicStatistics,
+  RequestAnswer,
 } from "../src/protocol/connection";
 import type { RosMessage } from "../src/protocol/ros_types";
 
@@ -135,9 +136,9 @@ export class FakeConnection implements Connection {
     return bytes === undefined ? Promise.reject(new Error(`there is no ${uri}`)) : Promise.resolve(bytes);
   }
 
-  request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<void> {
+  request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<RequestAnswer> {
     this.requests.push({ name, fields });
-    return Promise.resolve();
+    return Promise.resolve({});
   }
 
   saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean> {

@@ -6,6 +6,8 @@ from .loaded import LoadedDescription as LoadedDescription
 from .read import load as load
 from .read import load_text as load_text
 from .read import load_urdf as load_urdf
+from .saving.save import SavedWorld as SavedWorld
+from .saving.save import save_world as save_world
 from .sdf import GAZEBO_MATERIALS as GAZEBO_MATERIALS
 from .sdf import read_extra_joint as read_extra_joint
 from .writing import UriOf as UriOf

@@ -50,3 +50,4 @@ from .web_server import SocketOptions as SocketOptions
 from .web_server import WebServer as WebServer
 from .wire import BagFile as BagFile
 from .wire import GraphAddress as GraphAddress
+from .world_requests import SaveWorld as SaveWorld

@@ -54,7 +54,7 @@ class Owner:
     def receive(self, answer: Respond) -> None:
         """Pass the owner's answer on to the client, if it is still there."""
         if (waiting := self._waiting.pop(answer.id, None)) is not None:
-            respond(*waiting, answer.error)
+            respond(*waiting, answer.error, **answer.fields)
         elif (picture := self._pictures.get(answer.id)) is not None and not picture.done():
             picture.set_result(answer)
 

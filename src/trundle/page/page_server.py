@@ -176,9 +176,9 @@ class PageServer:
                     taken.append(waiting.popleft())
         return taken if of_graph is not None else sorted(taken, key=lambda request: request.id)
 
-    def respond(self, request_id: int, error: str | None = None) -> None:
-        """Answer a request; `error` is a sentence that says why it was not done."""
-        self._send(Respond(request_id, error))
+    def respond(self, request_id: int, error: str | None = None, **fields: object) -> None:
+        """Answer a request; `error` is a sentence that says why it was not done, `fields` are further ones."""
+        self._send(Respond(request_id, error, fields=fields))
 
     def respond_picture(self, request_id: int, png: bytes) -> None:
         """Answer `RenderView` with a picture."""

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from .edit_requests import Action, EditAction
+from .world_requests import SaveWorld
 
 _MAX_STEPS = 1_000_000
 _MAX_TEXT = 4_000_000
@@ -121,7 +122,19 @@ class RenderView(Action, frozen=True, tag="camera"):
 
 
 ClientAction: TypeAlias = (
-    Play | Pause | Step | Reset | Reload | SetSpeed | Seek | EditAction | MoveSlider | MoveJoystick | SaveRviz | Record
+    Play
+    | Pause
+    | Step
+    | Reset
+    | Reload
+    | SetSpeed
+    | Seek
+    | EditAction
+    | SaveWorld
+    | MoveSlider
+    | MoveJoystick
+    | SaveRviz
+    | Record
 )
 """Requests that arrive over the page's socket."""
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz

@@ -5,7 +5,7 @@ only the newest counts, and they lie in mailboxes.
 """
 
 import struct
-from typing import IO, TypeAlias
+from typing import IO, Any, TypeAlias
 
 import msgspec
 
@@ -96,6 +96,8 @@ class Respond(msgspec.Struct, frozen=True, tag=True):
     error: str | None = None
     picture: bytes | None = None
     """PNG that answers `RenderView`."""
+    fields: dict[str, Any] = {}
+    """Further fields of the answer."""
 
 
 class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):

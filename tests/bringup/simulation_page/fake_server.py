@@ -19,6 +19,7 @@ class FakeServer:
         self.watched: set[str] | None = None
         self.pending: list[Request] = []
         self.answers: dict[int, str | None] = {}
+        self.fields: dict[int, dict[str, Any]] = {}
         self.worlds: list[tuple[dict[str, Any], dict[str, bytes]]] = []
         self.states: list[Any] = []
         self.poses: list[tuple[int, Any]] = []
@@ -44,7 +45,8 @@ class FakeServer:
     def set_notice(self, notice_id: str, text: str | None) -> None:
         self.notices.append((notice_id, text))
 
-    def respond(self, request_id: int, error: str | None = None) -> None:
+    def respond(self, request_id: int, error: str | None = None, **fields: object) -> None:
+        self.fields[request_id] = fields
         self.answers[request_id] = error
 
     def respond_picture(self, request_id: int, png: bytes) -> None:

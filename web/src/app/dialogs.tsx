@@ -7,6 +7,7 @@ import { NoticeList } from "./notice_list";
 import { Palette } from "./palette";
 import { PictureDialog } from "./picture_dialog";
 import { SaveDialog } from "./save_dialog";
+import { SaveWorld } from "./save_world";
 import type { Shell } from "./shell";
 import { LinkDialog } from "./view_link_dialog";
 
@@ -17,5 +18,6 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   if (dialog === "picture") return <PictureDialog shell={shell} />;
   if (dialog === "link") return <LinkDialog shell={shell} />;
   if (dialog === "save") return <SaveDialog shell={shell} />;
+  if (dialog === "save_world") return <SaveWorld shell={shell} />;
   return dialog === "notices" ? <NoticeList shell={shell} /> : null;
 }

@@ -21,6 +21,7 @@ import { acceptDroppedRviz } from "./open_rviz";
 import type { Page } from "./page";
 import { pageCommands } from "./page_commands";
 import { Shell } from "./shell";
+import { saveCommands } from "./save_world";
 import { simulationCommands } from "./simulation_commands";
 import { toolCommands } from "./tool_bar";
 
@@ -37,7 +38,7 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, panels, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...simulationCommands(shell), ...pageCommands(shell), ...toolCommands(shell));
+  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell));
   listenForKeys(commands);
   acceptDroppedRviz(shell);
   effect(() => {

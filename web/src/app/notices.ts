@@ -107,6 +107,7 @@ function summary(
   if (server.length === 1) parts.push(server[0]?.text ?? "");
   else if (server.length > 1) parts.push(count(server.length, "warning"));
   say(files.length, files[0]?.text ?? "", "warnings about the files");
-  const level = [...reports, ...server].some((notice) => notice.level === "error") ? "error" : "warn";
-  return { level, text: parts.join(" · ") };
+  const isDone = parts.length === 1 && reports.at(-1)?.level === "ok";
+  const isFault = [...reports, ...server].some((notice) => notice.level === "error");
+  return { level: isDone ? "ok" : isFault ? "error" : "warn", text: parts.join(" · ") };
 }

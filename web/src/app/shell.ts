@@ -13,7 +13,7 @@ import type { Page } from "./page";
 import { ViewVideo } from "./view_video";
 import { isBoolean, recall, remember } from "./storage";
 
-export type Dialog = "palette" | "help" | "notices" | "save" | "picture" | "link" | null;
+export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "picture" | "link" | null;
 
 /** An .rviz file that is shown. */
 export interface RvizFileInfo {

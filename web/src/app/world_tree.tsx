@@ -10,6 +10,8 @@ import { Tree, type TreeRow } from "../theme/tree";
 import { frameSelection } from "./framing";
 import { jointValue } from "./joint_values";
 import type { Shell } from "./shell";
+import { canEdit } from "./world_edits";
+import { WorldMenu } from "./world_menu";
 import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type WorldNode } from "./world_nodes";
 
 export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -27,7 +29,10 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const selected = keyOf(selection.value);
   return (
     <>
-      <Search shell={shell} onInput={(text) => (search.value = text)} />
+      <div class="search">
+        <Search shell={shell} onInput={(text) => (search.value = text)} />
+        {canEdit(shell) && <WorldMenu shell={shell} />}
+      </div>
       <div class="scroll">
         {seen.length === 0 && <p class="empty">Nothing is named so.</p>}
         <Tree

@@ -60,6 +60,21 @@ export interface Subscription {
 /** A dynamic parameter value as the protocol carries it. */
 export type ParameterValue = string | number | boolean | null | readonly ParameterValue[] | { readonly [key: string]: ParameterValue };
 
+/** What a request is answered with, by its kind. */
+export interface RequestAnswer {
+  readonly definition?: string;
+  /** File that a world was saved as. */
+  readonly file?: string;
+  /** File that is in the way. */
+  readonly exists?: string;
+  /** Text of a world. */
+  readonly sdf?: string;
+  /** What a saved world does not hold. */
+  readonly lost?: readonly string[];
+  /** True if an .rviz file was saved; false: one is in the way. */
+  readonly saved?: boolean;
+}
+
 export interface Connection {
   readonly state: ReadonlySignal<ConnectionState>;
   readonly topics: ReadonlySignal<ReadonlyMap<string, TopicInfo>>;
@@ -95,7 +110,7 @@ export interface Connection {
   /** Bytes of a `package://`, `model://` or `file://` file. */
   fetchAsset(uri: string): Promise<ArrayBuffer>;
   /** A request to what started the page; rejects with its sentence. */
-  request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<void>;
+  request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<RequestAnswer>;
   /** Save an .rviz file below the folder where Trundle was started; false: one of that name is there, and stays. */
   saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean>;
   drive(topic: string, linear: number, angular: number): void;

@@ -1,6 +1,6 @@
 /** The connection to the page's server. */
 
-import type { Connection, ParameterValue, Received, Subscription, TopicStatistics } from "./connection";
+import type { Connection, ParameterValue, Received, RequestAnswer, Subscription, TopicStatistics } from "./connection";
 import { Calls } from "./calls";
 import { Decoder, type DecodePort } from "./decoder";
 import { Notices } from "./notices";
@@ -107,8 +107,8 @@ export class FoxgloveConnection implements Connection {
     return this.#calls.fetchAsset(uri);
   }
 
-  async request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<void> {
-    await this.#calls.request(name, fields);
+  request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<RequestAnswer> {
+    return this.#calls.request(name, fields);
   }
 
   async saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean> {

@@ -1,6 +1,6 @@
 /** Frames of the Foxglove protocol (v1 of its published specification) and of `trundle.v1`. */
 
-import type { ParameterValue } from "./connection";
+import type { ParameterValue, RequestAnswer } from "./connection";
 
 export const SUBPROTOCOLS = ["trundle.v1", "foxglove.websocket.v1"];
 
@@ -54,7 +54,7 @@ export type ServerText =
   | { readonly op: "parameterValues"; readonly parameters: readonly Parameter[] }
   | ({ readonly op: "connectionGraphUpdate" } & GraphUpdate)
   | { readonly op: "serviceCallFailure"; readonly callId: number; readonly message: string }
-  | { readonly op: "trundle/response"; readonly id: number; readonly ok: true; readonly definition?: string; readonly saved?: boolean }
+  | ({ readonly op: "trundle/response"; readonly id: number; readonly ok: true } & RequestAnswer)
   | { readonly op: "trundle/response"; readonly id: number; readonly ok: false; readonly error: string };
 
 /** Binary frames of the server. */

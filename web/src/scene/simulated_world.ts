@@ -80,6 +80,8 @@ export interface CameraInfo {
 export interface Manifest {
   readonly generation: number;
   readonly name: string;
+  /** Path to save the world at; null: it cannot be written. */
+  readonly file: string | null;
   readonly files: readonly { readonly id: string; readonly url: string }[];
   readonly collisions: string | null;
   readonly scene: {

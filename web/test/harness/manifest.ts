@@ -47,6 +47,7 @@ const robot = model(
 );
 
 export const MANIFEST: Manifest = {
+  file: null,
   generation: 1,
   name: "rp2w_at_home",
   files: [],

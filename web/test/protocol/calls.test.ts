@@ -62,7 +62,7 @@ test("makes requests", async () => {
   server.socket.text({ op: "trundle/response", id: 0, ok: true });
   server.socket.text({ op: "trundle/response", id: 1, ok: false, error: "this run is not recorded" });
 
-  await expect(done).resolves.toBeUndefined();
+  await expect(done).resolves.toMatchObject({ ok: true });
   await expect(refused).rejects.toThrow("this run is not recorded");
 });
 

@@ -97,6 +97,7 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
         node=None if ros is None else ros.node,
         recorder=PageRecording(world.simulation, say),
         timeline=world.timeline,
+        packages=world.packages,
     )
 
     def reload() -> None:

@@ -60,8 +60,8 @@ class RunningWorld:
     def _read(self) -> tuple[LoadedWorld, Simulation]:
         options = self._options
         with no_garbage():
-            packages = Packages(self._environment, start=Path.cwd())
-            stage = load_world(self._file, packages, self._report, seed=options.seed)
+            self.packages = Packages(self._environment, start=Path.cwd())
+            stage = load_world(self._file, self.packages, self._report, seed=options.seed)
             return stage, Simulation(stage.world, self._report, seed=options.seed)
 
     def start(self) -> None:

@@ -1,5 +1,6 @@
 """Page of a running simulation: its life, and the requests of those who look at it."""
 
+import os
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -7,13 +8,8 @@ from typing import Self
 
 from trundle.bridge import WORLD_FRAME
 from trundle.diagnostics import TrundleError
-from trundle.page import (
-    Play,
-    Reload,
-    RenderView,
-    Reset,
-    Step,
-)
+from trundle.packages import Packages
+from trundle.page import Play, Reload, RenderView, Request, Reset, SaveWorld, Step
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -22,8 +18,10 @@ from trundle.timeline import Timeline
 from ..realtime_pacer import RealtimePacer
 from ..shared_page import SharedPage
 from .controls import Recorder, SimulationControls, reason_of
+from .current_world import current_world
 from .pictures import WorldPictures
 from .titles import page_names
+from .world_saver import WorldSaver
 from .world_streams import WorldStreams
 
 _WARNING = "simulation"
@@ -41,6 +39,7 @@ class SimulationPage:
         node: Node | None = None,
         recorder: Recorder | None = None,
         timeline: Timeline | None = None,
+        packages: Packages | None = None,
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
         """Serve the page, and show a simulation there.
@@ -52,6 +51,7 @@ class SimulationPage:
             node: publishes the stop of a robot that is driven when the page's server dies.
             recorder: records the run; None: it cannot be recorded.
             timeline: of the run; None: it cannot go back.
+            packages: of the run; None: those that os.environ names.
             wall_ns: the wall clock [ns].
 
         Raises:
@@ -67,7 +67,11 @@ class SimulationPage:
             page.change(fixed_frame=WORLD_FRAME)
         self._set_titles(simulation)
         self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
-        self._streams = WorldStreams(self._server, has_graph=page.has_graph, wall_ns=wall_ns)
+        here = Path.cwd()
+        self._saver = WorldSaver(self._server.respond, packages or Packages(os.environ, start=here), here)
+        self._streams = WorldStreams(
+            self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
+        )
         self._pictures = WorldPictures(self._server.respond_picture)
         self._set_simulation(simulation, sensors, recorder, timeline)
 
@@ -130,18 +134,26 @@ class SimulationPage:
             if isinstance(request.action, Play | Step | Reset | Reload):
                 self.warn(None)
             try:
-                if isinstance(request.action, Reload) and self.on_reload is not None:
-                    self.on_reload()
-                    pacer.restart()
-                else:
-                    paused = self._controls.handle(request.action, pacer, paused=paused)
+                paused = self._handle(request, pacer, paused=paused)
             except TrundleError as error:
                 self._server.respond(request.id, reason_of(error))
-            else:
-                self._server.respond(request.id)
         self._controls.let_lapsed_go()
         if self._controls.step(pacer) or requests:
             self.update(pacer, paused=paused, at_once=True)
+        return paused
+
+    def _handle(self, request: Request, pacer: RealtimePacer, *, paused: bool) -> bool:
+        """Handle one request; return True if the simulation is paused now."""
+        if isinstance(request.action, SaveWorld):
+            world = current_world(self._simulation)
+            self._saver.save(request.id, request.action, world, self._simulation.seed)
+            return paused
+        if isinstance(request.action, Reload) and self.on_reload is not None:
+            self.on_reload()
+            pacer.restart()
+        else:
+            paused = self._controls.handle(request.action, pacer, paused=paused)
+        self._server.respond(request.id)
         return paused
 
     def _draw(self, request_id: int, view: RenderView) -> None:
@@ -154,6 +166,7 @@ class SimulationPage:
         """Close the page."""
         self._streams.close()
         self._pictures.close()
+        self._saver.close()
         self._page.release(shows_world=True)
 
     def __enter__(self) -> Self:

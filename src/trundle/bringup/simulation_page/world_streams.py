@@ -8,6 +8,7 @@ import numpy as np
 from msgspec import UNSET
 from numpy.typing import NDArray
 
+from trundle.model import World
 from trundle.page import JOINTS, LINES, POSES, ClockState, PageServer, Recording, TimelineSpan
 from trundle.sensors import CameraReading, CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation, Snapshot
@@ -34,16 +35,25 @@ _SLOW_NS = 3 * _FRAME_NS
 class WorldStreams:
     """Sends the page what is watched; belongs to the simulation's thread."""
 
-    def __init__(self, server: PageServer, *, has_graph: bool, wall_ns: Callable[[], int] = time.monotonic_ns) -> None:
+    def __init__(
+        self,
+        server: PageServer,
+        *,
+        has_graph: bool,
+        offered_file: Callable[[World], str | None],
+        wall_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
         """Prepare; `show` sets the simulation.
 
         Args:
             server: the page's.
             has_graph: True if the page's server gets pictures from the ROS graph.
+            offered_file: returns the path to save a world at; None: it cannot be written.
             wall_ns: the wall clock [ns].
         """
         self._server = server
         self._has_graph = has_graph
+        self._offered_file = offered_file
         self._wall_ns = wall_ns
         self._rays = RayOverlay(lambda: server.is_watched(LINES))
         self._bodies = BodyNumbers()
@@ -88,7 +98,8 @@ class WorldStreams:
         self._bodies.update(bodies)
         self._axes = single_axes(simulation)
         self._generation += 1
-        manifest = world_manifest(simulation, sensors, self._bodies) | {"generation": self._generation}
+        manifest = world_manifest(simulation, sensors, self._bodies)
+        manifest |= {"generation": self._generation, "file": self._offered_file(simulation.world)}
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
         self._set_missing(missing_meshes(simulation.world))
         self._rays.set_sensors(sensors)

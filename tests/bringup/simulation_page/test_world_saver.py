@@ -1,0 +1,81 @@
+"""Where worlds are saved, and where they are not."""
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.bringup.simulation_page.worlds import loaded, model
+
+from trundle.bringup.simulation_page.current_world import current_world
+from trundle.bringup.simulation_page.world_saver import WorldSaver, find_target
+from trundle.diagnostics import UsageError
+from trundle.packages import Packages
+from trundle.page import SaveWorld
+from trundle.simulation import Simulation
+
+Ask = Callable[[Path, SaveWorld], dict[str, Any]]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../out.sdf", "a/../../out.sdf", "/tmp/out.sdf", "a//b.sdf", "./a.sdf", ".hidden.sdf", "a/.git/b.sdf", "a.txt",
+        "sdf",
+        "a.sdf ", "a\\b.sdf", "C:a.sdf", "a\n.sdf", "a\0.sdf", "x" * 150 + ".sdf", "file.sdf/", "dir.sdf",
+    ],
+)  # fmt: skip
+def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, name: str) -> None:
+    (tmp_path / "dir.sdf").mkdir()
+    with pytest.raises(UsageError):
+        find_target(tmp_path, name)
+
+
+def test_links_that_lead_out_are_refused(tmp_path: Path) -> None:
+    root, outside = tmp_path / "root", tmp_path / "outside"
+    root.mkdir()
+    outside.mkdir()
+    (root / "way").symlink_to(outside)
+    (root / "out.sdf").symlink_to(outside / "there.sdf")
+    for name in ("way/a.sdf", "way/deeper/a.sdf", "out.sdf"):
+        with pytest.raises(UsageError, match="a link leads elsewhere"):
+            find_target(root, name)
+    assert find_target(root, "new/a b.world") == root / "new" / "a b.world"
+
+
+@pytest.fixture
+def ask(tmp_path_factory: pytest.TempPathFactory) -> Ask:
+    simulation, _ = loaded(tmp_path_factory.mktemp("cart"), model("cart"))
+    return lambda root, request: _answer(simulation, root, request)
+
+
+def _answer(simulation: Simulation, root: Path, request: SaveWorld) -> dict[str, Any]:
+    answers: list[dict[str, Any]] = []
+    done = threading.Event()
+
+    def respond(request_id: int, error: str | None = None, **fields: object) -> None:
+        answers.append({"id": request_id, "error": error, **fields})
+        done.set()
+
+    saver = WorldSaver(respond, Packages({}, start=root), root)
+    saver.save(7, request, current_world(simulation), simulation.seed)
+    assert done.wait(60.0)
+    saver.close()
+    return answers[0]
+
+
+def test_a_file_is_replaced_only_when_a_person_agrees(tmp_path: Path, ask: Ask) -> None:
+    assert ask(tmp_path, SaveWorld("worlds/mine.sdf"))["file"] == "worlds/mine.sdf"
+    file = tmp_path / "worlds" / "mine.sdf"
+    file.write_text("precious")
+    assert ask(tmp_path, SaveWorld("worlds/mine.sdf"))["exists"] == "worlds/mine.sdf"
+    assert file.read_text() == "precious"
+    assert ask(tmp_path, SaveWorld("worlds/mine.sdf", replace=True))["file"] == "worlds/mine.sdf"
+    assert '<model name="cart"' in file.read_text()
+
+
+def test_a_refusal_says_why_and_a_download_writes_nothing(tmp_path: Path, ask: Ask) -> None:
+    assert "below the folder where Trundle was started" in ask(tmp_path, SaveWorld("../a.sdf"))["error"]
+    assert '<model name="cart"' in ask(tmp_path, SaveWorld(None))["sdf"]
+    assert list(tmp_path.iterdir()) == []
