@@ -28,14 +28,24 @@ class LinkTransforms:
             world: names the frames.
             start: the initial state.
         """
+        self._broadcaster = TransformBroadcaster(node)
+        self._static_broadcaster = static_broadcaster
+        self.set_world(world, start)
+
+    def set_world(self, world: World, now: Snapshot) -> None:
+        """Take the frames of a world that was changed, and send its static transforms.
+
+        Args:
+            world: names the frames.
+            now: the present state.
+        """
         frames = link_frames(world)
         self._moving = [frame for frame in frames if frame.is_moving]
         self._children = _children(self._moving)
         self._parents = _parents(self._moving)
-        self._broadcaster = TransformBroadcaster(node)
         fixed = [frame for frame in frames if not frame.is_moving]
-        poses = relative_poses(start.poses, _parents(fixed), _children(fixed))
-        static_broadcaster.send_transform(*_transforms(fixed, poses, start.time_ns))
+        poses = relative_poses(now.poses, _parents(fixed), _children(fixed))
+        self._static_broadcaster.send_transform(*_transforms(fixed, poses, now.time_ns))
 
     def enabled(self) -> bool:
         """True if there are moving frames and subscribers."""

@@ -32,6 +32,10 @@ def is_stand_in(path: Path) -> bool:
     return SHIPPED / "stand_ins" in path.parents
 
 
+_MAX_MODELS = 5000
+"""Most models of a list."""
+
+
 class GazeboPaths:
     """Gazebo paths of one environment and start file."""
 
@@ -76,6 +80,16 @@ class GazeboPaths:
         stand_in = SHIPPED / "stand_ins" / name
         candidates = (*along, *(each for each in near if os.path.isfile(each / "model.config")), stand_in)
         return next((each for each in candidates if os.path.isdir(each) and each not in self._cache.wide), None)
+
+    def models(self) -> dict[str, Path]:
+        """Return the folder of every model that `find_model` finds, by name; the first of each name."""
+        near = [folder / sub for folder in ancestor_folders(self._start) for sub in (".", "models")]
+        found: dict[str, Path] = {}
+        for home in (*self.model_folders, *near, SHIPPED / "stand_ins"):
+            for folder in [] if home in self._cache.wide else _folders(home):
+                if len(found) < _MAX_MODELS and os.path.isfile(folder / "model.config"):
+                    found.setdefault(folder.name, folder)
+        return found
 
     def find_resource(self, name: str) -> Path | None:
         """Return a file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""

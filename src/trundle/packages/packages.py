@@ -117,6 +117,10 @@ class Packages:
             raise UsageError(f"no model {_shown(name)!r}; {self._where_models_are()}")
         return folder
 
+    def models(self) -> Mapping[str, Path]:
+        """Return the folder of every model by name, as `find_model` finds it."""
+        return self._gazebo.models()
+
     def find_world(self, name: str) -> Path | None:
         """Return a world file on GAZEBO_RESOURCE_PATH or of Trundle, as `gazebo worlds/empty.world` finds it."""
         path = self._gazebo.find_resource(name)

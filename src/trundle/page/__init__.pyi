@@ -50,4 +50,10 @@ from .web_server import SocketOptions as SocketOptions
 from .web_server import WebServer as WebServer
 from .wire import BagFile as BagFile
 from .wire import GraphAddress as GraphAddress
+from .world_requests import DeleteLight as DeleteLight
+from .world_requests import InsertAction as InsertAction
+from .world_requests import InsertLight as InsertLight
+from .world_requests import InsertModel as InsertModel
+from .world_requests import ListModels as ListModels
+from .world_requests import RenderModel as RenderModel
 from .world_requests import SaveWorld as SaveWorld

@@ -19,6 +19,7 @@ from .outbox import CLOSE, PONG, Outbox
 from .owner import PictureError
 from .protocol import SUBPROTOCOLS, TRUNDLE
 from .requests import RenderView
+from .world_requests import RenderModel
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
 """Longest message of a client."""
@@ -43,6 +44,10 @@ class Page(Protocol):
 
     async def render(self, view: RenderView) -> bytes:
         """Return a picture of the scene as PNG; raises PictureError."""
+        ...
+
+    async def render_model(self, model: RenderModel) -> bytes:
+        """Return a picture of a model as PNG; raises PictureError."""
         ...
 
     def join(self, outbox: Outbox, *, is_own: bool) -> Connection:
@@ -73,6 +78,7 @@ class HttpServer:
         app.router.add_get("/session.json", self._session)
         app.router.add_get("/world/{name:.*}", self._world_file)
         app.router.add_get("/camera.png", self._camera)
+        app.router.add_get("/model.png", self._model_picture)
         app.router.add_get("/{path:.*}", self._root)
         runner = web.AppRunner(app, access_log=None, handle_signals=False)
         await runner.setup()
@@ -114,6 +120,17 @@ class HttpServer:
         except PictureError as error:
             raise web.HTTPServiceUnavailable(reason=" ".join(str(error).split())) from None
         return web.Response(body=picture, content_type="image/png", headers={"Cache-Control": "no-store"})
+
+    async def _model_picture(self, request: web.Request) -> web.StreamResponse:
+        try:
+            model = msgspec.convert(dict(request.query), RenderModel)
+            picture = await self._page.render_model(model)
+        except msgspec.ValidationError as error:
+            raise web.HTTPBadRequest(reason=f"not a model: {error}") from None
+        except PictureError as error:
+            raise web.HTTPNotFound(reason=" ".join(str(error).split())) from None
+        headers = {"Cache-Control": "private, max-age=60"}
+        return web.Response(body=picture, content_type="image/png", headers=headers)
 
     async def _root(self, request: web.Request) -> web.StreamResponse:
         path = request.match_info["path"]

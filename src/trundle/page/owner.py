@@ -6,6 +6,7 @@ from collections.abc import Callable
 from .connection import Connection
 from .requests import ClientAction, PageAction, RenderView, Request
 from .wire import Driven, FromServer, Respond, Watched
+from .world_requests import RenderModel
 
 MAX_IN_FLIGHT = 64
 """Requests of one client that wait for the owner."""
@@ -31,7 +32,7 @@ class Owner:
             return
         self._waiting[self._send(action)] = client, client_id
 
-    async def render(self, view: RenderView) -> bytes:
+    async def render(self, view: RenderView | RenderModel) -> bytes:
         """Have the owner draw a picture, and return the PNG.
 
         Raises:

@@ -38,6 +38,7 @@ from .session import Session
 from .session_channel import SessionChannel
 from .wire import AddFile, FromServer, OpenMailbox, Respond, SetNotice, SetSession, SetWorld, Start, ToServer
 from .world_channels import BoxChannel, PosesChannel, StateChannel, WorldChannel, joints_channel, lines_channel
+from .world_requests import RenderModel
 
 _NO_GRAPH = "this page has no ROS graph"
 _action_decoder = msgspec.json.Decoder(ClientAction | Definition | SaveRvizAs)
@@ -55,6 +56,7 @@ class Page:
         self._assets = assets
         self._owner = Owner(send)
         self._tasks: set[asyncio.Task[None]] = set()
+        self._model_pictures = asyncio.Semaphore(1)
         self._session_channel = SessionChannel(self.session_json)
         self._world = WorldChannel()
         self._state = StateChannel()
@@ -144,6 +146,17 @@ class Page:
         if self._bag is not None:
             raise PictureError("a bag is drawn by browsers with WebGL alone")
         return await self._owner.render(view)
+
+    async def render_model(self, model: RenderModel) -> bytes:
+        """Return a picture of a model as PNG, after those asked for before.
+
+        Raises:
+            PictureError: it cannot be drawn; the text says why.
+        """
+        if self._session.kind != "simulation":
+            raise PictureError("models are drawn where a world is simulated")
+        async with self._model_pictures:
+            return await self._owner.render(model)
 
     # -- for clients
 

@@ -181,7 +181,7 @@ class PageServer:
         self._send(Respond(request_id, error, fields=fields))
 
     def respond_picture(self, request_id: int, png: bytes) -> None:
-        """Answer `RenderView` with a picture."""
+        """Answer `RenderView` or `RenderModel` with a picture."""
         self._send(Respond(request_id, picture=png))
 
     def set_session(self, session: Session) -> None:

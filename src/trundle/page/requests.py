@@ -9,7 +9,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from .edit_requests import Action, EditAction
-from .world_requests import SaveWorld
+from .world_requests import InsertAction, RenderModel, SaveWorld
 
 _MAX_STEPS = 1_000_000
 _MAX_TEXT = 4_000_000
@@ -131,6 +131,7 @@ ClientAction: TypeAlias = (
     | Seek
     | EditAction
     | SaveWorld
+    | InsertAction
     | MoveSlider
     | MoveJoystick
     | SaveRviz
@@ -139,7 +140,7 @@ ClientAction: TypeAlias = (
 """Requests that arrive over the page's socket."""
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz
 """Requests to nodes of the graph; all others are to what the page shows."""
-PageAction: TypeAlias = ClientAction | RenderView
+PageAction: TypeAlias = ClientAction | RenderView | RenderModel
 
 
 class Request(msgspec.Struct, frozen=True, tag=True):

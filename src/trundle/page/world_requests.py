@@ -1,10 +1,10 @@
 """Requests that save a simulated world, or put something into it."""
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from .edit_requests import Action
+from .edit_requests import Action, Name, Triple
 
 FileName: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=300)]
 
@@ -16,3 +16,45 @@ class SaveWorld(Action, frozen=True, tag="save_world"):
     """Path below the folder where the simulation was started; None: answer with the text, `sdf`."""
     replace: bool = False
     """True if a person has agreed to replace the file."""
+
+
+class ListModels(Action, frozen=True, tag="models"):
+    """Ask for the models that can be inserted; answered with `models`."""
+
+
+class InsertModel(Action, frozen=True, tag="insert"):
+    """Put a model of the model path, or a simple shape, into the world; answered with its `name` there.
+
+    A model whose plugins are code is answered with that `code`, unless a person has agreed to run it.
+    """
+
+    model: FileName
+    """Name of its folder, or `box`, `sphere`, `cylinder` where `is_shape`."""
+    position: Triple
+    """Of the point on the floor [m]."""
+    is_shape: bool = False
+    runs_code: bool = False
+    """True if a person has agreed."""
+
+
+class InsertLight(Action, frozen=True, tag="insert_light"):
+    """Put a light above a point; answered with its `name`."""
+
+    type: Literal["point", "directional", "spot"]
+    position: Triple
+    """Of the point on the floor [m]."""
+
+
+class DeleteLight(Action, frozen=True, tag="delete_light"):
+    """Remove a light of the world."""
+
+    light: Name
+
+
+class RenderModel(Action, frozen=True, tag="model_picture"):
+    """Draw a model of the model path; answered by `PageServer.respond_picture`."""
+
+    model: FileName
+
+
+InsertAction: TypeAlias = ListModels | InsertModel | InsertLight | DeleteLight

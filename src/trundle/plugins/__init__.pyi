@@ -3,6 +3,7 @@ from .catalog import SENSOR_PLUGINS as SENSOR_PLUGINS
 from .catalog import find_model_sensor_plugin as find_model_sensor_plugin
 from .catalog import find_plugin as find_plugin
 from .catalog import find_sensor_plugin as find_sensor_plugin
+from .catalog import find_user_file as find_user_file
 from .catalog import find_visual_plugin as find_visual_plugin
 from .catalog import find_world_plugin as find_world_plugin
 from .catalog import is_cosmetic as is_cosmetic

@@ -151,6 +151,16 @@ def require_plugin(tag: PluginTag, environment: Mapping[str, str]) -> None:
         _python_file(tag, environment)
 
 
+def find_user_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | None:
+    """Return the user's Python file that a plugin would run; None for Trundle's, installed and missing ones."""
+    if _base_name(tag) in BUILTIN or _installed(_base_name(tag)):
+        return None
+    try:
+        return _python_file(tag, environment)
+    except DescriptionError:
+        return None
+
+
 def is_cosmetic(tag: PluginTag) -> bool:
     """True if a visual's plugin is one of Gazebo's that change only how it is drawn, and so is not run."""
     return _base_name(tag) in _COSMETIC

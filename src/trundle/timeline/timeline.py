@@ -157,6 +157,11 @@ class Timeline:
         finally:
             self._is_seeking = False
 
+    def restart(self, roots: Sequence[object]) -> None:
+        """Begin again at the present, after something came that has state of its own; `roots` as in the constructor."""
+        self._roots = roots
+        self._begin()
+
     def _begin(self) -> None:
         self._keyframes.clear()
         self._commands.clear()

@@ -7,8 +7,9 @@ from msgspec.structs import replace
 
 from trundle.bridge import ClockTopic
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import World
+from trundle.model import Model, World
 from trundle.packages import Packages
+from trundle.robot import Robot
 from trundle.ros import Clock, Deliver, Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -57,7 +58,8 @@ class GazeboContents:
             deliver: runs the plugins' callbacks on this thread.
             say: prints which plugins are loaded, and where logs are.
         """
-        self._packages, self._folder, self._report, self._say = packages, folder, report, say
+        self.packages, self.environment = packages, env
+        self._folder, self._report, self._say = folder, report, say
         self.simulation = Simulation(world, report)
         ClockTopic(node, rate_hz=clock_hz).attach(self.simulation)
         self._sensors = GazeboSensors(self.simulation, node, renderer, report)
@@ -84,11 +86,15 @@ class GazeboContents:
         if any(model.name == name for model in self.simulation.models):
             raise UsageError(f"Failure - model name {name} already exist.")
         model, robot = read_spawned(
-            xml, name=name, namespace=namespace, folder=self._folder, packages=self._packages, report=self._report
+            xml, name=name, namespace=namespace, folder=self._folder, packages=self.packages, report=self._report
         )
         pose = world_from_model @ model.world_from_model
-        self.simulation.spawn(replace(model, name=name, world_from_model=pose))
-        self._sensors.mount(name, robot=robot)
+        self.insert(replace(model, name=name, world_from_model=pose), robot)
+
+    def insert(self, model: Model, robot: Robot | None) -> None:
+        """Add a model, already read, with its sensors."""
+        self.simulation.spawn(model)
+        self._sensors.mount(model.name, robot=robot)
 
     def load_plugins(self, name: str) -> None:
         """Load the plugins of a spawned model."""

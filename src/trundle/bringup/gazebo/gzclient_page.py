@@ -9,6 +9,7 @@ from trundle.simulation import Simulation
 
 from ..realtime_pacer import RealtimePacer
 from ..shared_page import SharedPage
+from ..simulation_page.insertion import WorldContents
 from ..simulation_page.page import SimulationPage
 from ..state_logs import PageRecording
 
@@ -16,13 +17,15 @@ from ..state_logs import PageRecording
 class GzclientPage:
     """Page of the world behind /gazebo; all but `url` and `is_wanted` belongs to the simulation's thread."""
 
-    def __init__(self, shared: SharedPage | None, say: Callable[[str], None]) -> None:
+    def __init__(self, shared: SharedPage | None, say: Callable[[str], None], contents: WorldContents) -> None:
         """Prepare; `open` serves the page.
 
         Args:
             shared: page of the graph's windows; None: headless.
             say: prints a line.
+            contents: adds models with their sensors and plugins.
         """
+        self._contents = contents
         self._shared = shared
         self._say = say
         self._page: SimulationPage | None = None
@@ -43,7 +46,9 @@ class GzclientPage:
             return
         try:
             recorder = PageRecording(simulation, self._say)
-            self._page = SimulationPage(self._shared, simulation, sensors, node=node, recorder=recorder)
+            self._page = SimulationPage(
+                self._shared, simulation, sensors, node=node, recorder=recorder, contents=self._contents
+            )
         except TrundleError as error:
             node.log.error(str(error))
             self._shared = None

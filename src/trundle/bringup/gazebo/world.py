@@ -8,8 +8,9 @@ from pathlib import Path
 from trundle.bridge import clock_rate_hz
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import World
+from trundle.model import Model, World
 from trundle.packages import Packages
+from trundle.robot import Robot
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -67,7 +68,7 @@ class GazeboWorld:
         self._folder = folder
         self._say = say
         self._renderer: RendererName = renderer
-        self._window = GzclientPage(page, say)
+        self._window = GzclientPage(page, say, _Contents(self))
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
         self._stepper = GazeboStepper(graph.loop, self._thread, speed=speed, lockstep=steps, say=say)
@@ -173,6 +174,12 @@ class GazeboWorld:
         self._update_page()
         self.contents.load_plugins(name)
 
+    def insert(self, model: Model, robot: Robot | None) -> None:
+        """Add a model, already read."""
+        self.contents.insert(model, robot)
+        self._update_page()
+        self.contents.load_plugins(model.name)
+
     def delete(self, name: str) -> None:
         """Remove a model."""
         self.contents.delete(name)
@@ -227,3 +234,28 @@ class GazeboWorld:
     def _update_page(self) -> None:
         self._window.set_sensors(self.sensors)
         self._stepper.pacer.restart()
+
+
+class _Contents:
+    """World as the page inserts into it and deletes from it."""
+
+    def __init__(self, world: GazeboWorld) -> None:
+        self._world = world
+
+    @property
+    def packages(self) -> Packages:
+        """Finder of models."""
+        return self._world.contents.packages
+
+    @property
+    def environment(self) -> Mapping[str, str]:
+        """Variables that locate plugins."""
+        return self._world.contents.environment
+
+    def spawn(self, model: Model, robot: Robot | None) -> None:
+        """Add a model with its sensors and plugins."""
+        self._world.insert(model, robot)
+
+    def delete(self, name: str) -> None:
+        """Remove a model with its sensors and plugins."""
+        self._world.delete(name)

@@ -56,13 +56,12 @@ class RosInterface:
         loop.run(self.node.wait_registered())
         loop.run(self.node.params.set("/use_sim_time", True))
         ClockTopic(self.node).attach(simulation)
-        static_broadcaster = StaticTransformBroadcaster(self.node)
-        frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
+        self._static_broadcaster = StaticTransformBroadcaster(self.node)
+        frames = LinkTransforms(self.node, self._static_broadcaster, stage.world, simulation.snapshot())
+        simulation.on_change(lambda: frames.set_world(simulation.world, simulation.snapshot()))
         simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled)
-        report = simulation.report
-        names = FrameNames.from_world(stage.world, stage.robot)
-        make_camera_topics(self.node, static_broadcaster, attach_sensor_plugins(cameras, self.node, report), names)
-        make_sensor_topics(self.node, static_broadcaster, attach_sensor_plugins(sensors, self.node, report), names)
+        self._frame_names = FrameNames.from_world(stage.world, stage.robot)
+        self.advertise(cameras, sensors)
         if stage.urdf is not None:
             loop.run(self.node.params.set("/robot_description", stage.urdf))
             states = JointStatesTopic(self.node, simulation.models[0])
@@ -105,6 +104,12 @@ class RosInterface:
         )
         self._nodes.append(node)
         return node
+
+    def advertise(self, cameras: Sequence[CameraSensor], sensors: Sequence[InstrumentSensor]) -> None:
+        """Advertise the topics of sensors."""
+        node, report, names = self.node, self._simulation.report, self._frame_names
+        make_camera_topics(node, self._static_broadcaster, attach_sensor_plugins(cameras, node, report), names)
+        make_sensor_topics(node, self._static_broadcaster, attach_sensor_plugins(sensors, node, report), names)
 
     def settle(self) -> None:
         """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""

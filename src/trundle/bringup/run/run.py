@@ -97,8 +97,9 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
         node=None if ros is None else ros.node,
         recorder=PageRecording(world.simulation, say),
         timeline=world.timeline,
-        packages=world.packages,
+        contents=world,
     )
+    world.on_sensors = lambda: page.set_sensors((*world.cameras, *world.sensors))
 
     def reload() -> None:
         page.end_recording()

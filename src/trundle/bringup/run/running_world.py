@@ -1,6 +1,6 @@
 """World of a run: its simulation with sensors, ROS interface, recording and plugins; it can be loaded again."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Self
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.files import is_stream
 from trundle.garbage import no_garbage
+from trundle.model import Model
 from trundle.packages import Packages
 from trundle.sensors import mount_cameras, mount_sensors
 from trundle.simulation import Simulation
@@ -19,6 +20,7 @@ from ..world_setup import LoadedWorld, load_world
 from .run_options import RunOptions
 
 if TYPE_CHECKING:  # a run without a graph or a recording starts without their modules
+    from trundle.robot import Robot
     from trundle.sensors import CameraSensor, InstrumentSensor
     from trundle.timeline import Timeline
 
@@ -46,7 +48,7 @@ class RunningWorld:
         """
         self._file = file
         self._options = options
-        self._environment = environment
+        self.environment = environment
         self._report = report
         self._show = show
         self._open_things = ExitStack()
@@ -55,12 +57,14 @@ class RunningWorld:
         self.ros: RosInterface | None = None
         self.recorder: RunRecorder | None = None
         self.timeline: Timeline | None = None
+        self.on_sensors: Callable[[], None] | None = None
+        """Called after sensors came or went with a model."""
         self.stage, self.simulation = self._read()
 
     def _read(self) -> tuple[LoadedWorld, Simulation]:
         options = self._options
         with no_garbage():
-            self.packages = Packages(self._environment, start=Path.cwd())
+            self.packages = Packages(self.environment, start=Path.cwd())
             stage = load_world(self._file, self.packages, self._report, seed=options.seed)
             return stage, Simulation(stage.world, self._report, seed=options.seed)
 
@@ -108,7 +112,7 @@ class RunningWorld:
         from .ros_interface import RosInterface
 
         self.ros = RosInterface.open(
-            self.simulation, self.stage, self.cameras, self.sensors, self._environment, host=self._options.host
+            self.simulation, self.stage, self.cameras, self.sensors, self.environment, host=self._options.host
         )
         self._open_things.callback(lambda: self.ros is None or self.ros.close())
         if self.ros.graph.core is not None:
@@ -124,14 +128,58 @@ class RunningWorld:
 
     def _load_plugins(self) -> None:
         make_node = None if self.ros is None else self.ros.make_node
-        plugins = load_plugins(self.simulation, make_node, self._environment, say=self._show.line)
-        load_world_plugins(self.simulation, make_node, self._environment, say=self._show.line)
+        plugins = load_plugins(self.simulation, make_node, self.environment, say=self._show.line)
+        self._plugins = plugins
+        load_world_plugins(self.simulation, make_node, self.environment, say=self._show.line)
         self._show.findings()
         if self._options.timeline_mb and not self._options.headless:
             from trundle.timeline import Timeline
 
             limit_bytes = self._options.timeline_mb * 1_000_000
             self.timeline = Timeline(self.simulation, roots=plugins, limit_bytes=limit_bytes)
+
+    def spawn(self, model: Model, robot: Robot | None) -> None:
+        """Add a model with its sensors and plugins; with those, the timeline begins again.
+
+        Raises:
+            TrundleError: MuJoCo cannot simulate it; nothing has changed.
+        """
+        del robot  # joint states and the description are those of the robot that the run began with
+        has_sensors = any(link.sensors for link in model.links) or any(joint.sensors for joint in model.joints)
+        if self.timeline is not None and not (has_sensors or model.plugins):
+            self.timeline.do(lambda sim: sim.spawn(model))
+            return
+        handle = self.simulation.spawn(model)
+        if has_sensors and self._options.sensors:
+            self._mount_sensors_of(model.name)
+        make_node = None if self.ros is None else self.ros.make_node
+        self._plugins += load_plugins(
+            self.simulation, make_node, self.environment, say=self._show.line, models=[handle]
+        )
+        self._show.findings()
+        if self.timeline is not None:
+            self.timeline.restart(self._plugins)
+
+    def _mount_sensors_of(self, model: str) -> None:
+        simulation = self.simulation
+        renderer = RENDERERS[self._options.renderer]
+        cameras = mount_cameras(simulation, renderer, model=model, beside=self.cameras)
+        sensors = mount_sensors(simulation, model=model)
+        for sensor in (*cameras, *sensors):
+            sensor.start(simulation)
+        if self.ros is not None:
+            self.ros.advertise(cameras, sensors)
+        self.cameras += cameras
+        self.sensors += sensors
+        if self.on_sensors is not None:
+            self.on_sensors()
+
+    def delete(self, name: str) -> None:
+        """Remove a model; its sensors and plugins fall silent."""
+        if self.timeline is None:
+            self.simulation.delete(name)
+        else:
+            self.timeline.do(lambda sim: sim.delete(name))
 
     def advance(self, until_ns: int) -> None:
         """Simulate up to a time [ns]; see `Simulation.advance`."""

@@ -93,12 +93,12 @@ class SimulationControls:
             case Step(count):
                 paused, self._steps = True, self._steps + count
             case Reset(what):
-                self._do(lambda sim: sim.reset(time=what != "poses", poses=what != "time"))
+                self.do(lambda sim: sim.reset(time=what != "poses", poses=what != "time"))
                 pacer.restart()
             case SetSpeed(factor):
                 pacer.set_speed(factor)
             case _ if isinstance(action, EditAction):
-                self._do(partial(edit, action))
+                self.do(partial(edit, action))
                 if isinstance(action, Carry | Pull):
                     self._handled_ns[find_model(self._simulation, action.model).name] = self._wall_ns()
             case Seek(time_ns) if self.timeline is not None:
@@ -133,9 +133,10 @@ class SimulationControls:
         since_ns = self._wall_ns() - _PATIENCE_NS
         for model in handled_models(self._simulation):
             if self._handled_ns.get(model, since_ns) <= since_ns:
-                self._do(partial(edit, LetGo(model)))
+                self.do(partial(edit, LetGo(model)))
 
-    def _do(self, command: Callable[[Simulation], None]) -> None:
+    def do(self, command: Callable[[Simulation], None]) -> None:
+        """Give the simulation a command, which a timeline repeats."""
         if self.timeline is None:
             command(self._simulation)
         else:

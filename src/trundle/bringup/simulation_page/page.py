@@ -9,7 +9,18 @@ from typing import Self
 from trundle.bridge import WORLD_FRAME
 from trundle.diagnostics import TrundleError
 from trundle.packages import Packages
-from trundle.page import Play, Reload, RenderView, Request, Reset, SaveWorld, Step
+from trundle.page import (
+    DeleteModel,
+    InsertAction,
+    Play,
+    Reload,
+    RenderModel,
+    RenderView,
+    Request,
+    Reset,
+    SaveWorld,
+    Step,
+)
 from trundle.ros import Node
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
@@ -19,6 +30,9 @@ from ..realtime_pacer import RealtimePacer
 from ..shared_page import SharedPage
 from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
+from .edits import find_model
+from .insertion import Insertion, WorldContents
+from .model_pictures import ModelPictures
 from .pictures import WorldPictures
 from .titles import page_names
 from .world_saver import WorldSaver
@@ -39,7 +53,7 @@ class SimulationPage:
         node: Node | None = None,
         recorder: Recorder | None = None,
         timeline: Timeline | None = None,
-        packages: Packages | None = None,
+        contents: WorldContents | None = None,
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
         """Serve the page, and show a simulation there.
@@ -51,7 +65,7 @@ class SimulationPage:
             node: publishes the stop of a robot that is driven when the page's server dies.
             recorder: records the run; None: it cannot be recorded.
             timeline: of the run; None: it cannot go back.
-            packages: of the run; None: those that os.environ names.
+            contents: adds models with their sensors and plugins; None: nothing can be inserted.
             wall_ns: the wall clock [ns].
 
         Raises:
@@ -68,7 +82,10 @@ class SimulationPage:
         self._set_titles(simulation)
         self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
         here = Path.cwd()
-        self._saver = WorldSaver(self._server.respond, packages or Packages(os.environ, start=here), here)
+        self._contents = contents
+        packages = Packages(os.environ, start=here) if contents is None else contents.packages
+        self._saver = WorldSaver(self._server.respond, packages, here)
+        self._model_pictures = ModelPictures(self._respond_picture, packages)
         self._streams = WorldStreams(
             self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
         )
@@ -102,6 +119,9 @@ class SimulationPage:
     ) -> None:
         self._simulation = simulation
         self._controls = SimulationControls(simulation, recorder, timeline, wall_ns=self._wall_ns)
+        self._insertion: Insertion | None = None
+        if self._contents is not None:
+            self._insertion = Insertion(simulation, self._contents, self._controls.do)
         self._streams.show(simulation, sensors, recorder, timeline)
 
     def _set_titles(self, simulation: Simulation) -> None:
@@ -131,6 +151,9 @@ class SimulationPage:
             if isinstance(request.action, RenderView):
                 self._draw(request.id, request.action)
                 continue
+            if isinstance(request.action, RenderModel):
+                self._model_pictures.draw(request.id, request.action.model)
+                continue
             if isinstance(request.action, Play | Step | Reset | Reload):
                 self.warn(None)
             try:
@@ -148,13 +171,26 @@ class SimulationPage:
             world = current_world(self._simulation)
             self._saver.save(request.id, request.action, world, self._simulation.seed)
             return paused
-        if isinstance(request.action, Reload) and self.on_reload is not None:
+        if isinstance(request.action, InsertAction) and self._insertion is not None:
+            self._server.respond(request.id, **self._insertion.handle(request.action))
+            pacer.restart()
+            return paused
+        if isinstance(request.action, DeleteModel) and self._contents is not None:
+            self._contents.delete(find_model(self._simulation, request.action.model).name)
+        elif isinstance(request.action, Reload) and self.on_reload is not None:
             self.on_reload()
             pacer.restart()
         else:
             paused = self._controls.handle(request.action, pacer, paused=paused)
         self._server.respond(request.id)
         return paused
+
+    def _respond_picture(self, request_id: int, drawn: bytes | str) -> None:
+        """Answer with a picture, or with the reason why there is none."""
+        if isinstance(drawn, str):
+            self._server.respond(request_id, drawn)
+        else:
+            self._server.respond_picture(request_id, drawn)
 
     def _draw(self, request_id: int, view: RenderView) -> None:
         """Draw a picture around the robot, or the origin."""
@@ -167,6 +203,7 @@ class SimulationPage:
         self._streams.close()
         self._pictures.close()
         self._saver.close()
+        self._model_pictures.close()
         self._page.release(shows_world=True)
 
     def __enter__(self) -> Self:

@@ -91,7 +91,9 @@ class WorldStreams:
     def _show_world(self) -> None:
         """Show the world again after models came, went or changed; its files are made meanwhile."""
         self._is_changed = False
-        simulation, sensors = self._simulation, self._sensors
+        simulation = self._simulation
+        there = {model.name for model in simulation.models}
+        sensors = [sensor for sensor in self._sensors if sensor.model.name in there]
         simulation.lines_are_shown = True
         self._bones = ActorBones(simulation.world)
         bodies = (*simulation.engine.compiled.link_names, *self._bones.names)

@@ -1,0 +1,185 @@
+"""Models, simple shapes and lights that a person at the page puts into the running world."""
+
+import itertools
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from typing import Any, Protocol
+
+from msgspec.structs import replace
+
+from trundle.description import load, load_text
+from trundle.diagnostics import Diagnostics, TrundleError, UsageError
+from trundle.model import Light, Model, flattened
+from trundle.packages import Packages
+from trundle.page import DeleteLight, InsertAction, InsertLight, InsertModel, ListModels
+from trundle.plugins import find_user_file
+from trundle.robot import Robot
+from trundle.simulation import Simulation
+from trundle.spatial import Pose
+from trundle.xmlnode import read_xml
+
+Json = dict[str, Any]
+_SHAPES = {
+    "box": ("<box><size>1 1 1</size></box>", 1 / 6, 1 / 6),
+    "sphere": ("<sphere><radius>0.5</radius></sphere>", 0.1, 0.1),
+    "cylinder": ("<cylinder><radius>0.5</radius><length>1</length></cylinder>", 7 / 48, 1 / 8),
+}
+"""Geometry, and moments of inertia across and along z of 1 kg [kg·m²]; each is 1 m high, as Gazebo's."""
+_HALF_M = 0.5
+_LIGHT_HEIGHT_M = {"point": 2.0, "spot": 2.0, "directional": 5.0}
+_LIGHT_ANGLES = {"spot": {"inner_angle_rad": 0.6, "outer_angle_rad": 1.0, "falloff": 1.0}}
+
+
+class WorldContents(Protocol):
+    """Models of a world with their sensors and plugins; used on the simulation's thread."""
+
+    @property
+    def packages(self) -> Packages:
+        """Finder of models."""
+        ...
+
+    @property
+    def environment(self) -> Mapping[str, str]:
+        """Variables that locate plugins."""
+        ...
+
+    def spawn(self, model: Model, robot: Robot | None) -> None:
+        """Add a model with its sensors and plugins; `robot` is the URDF that it came from."""
+        ...
+
+    def delete(self, name: str) -> None:
+        """Remove a model with its sensors and plugins."""
+        ...
+
+
+class Insertion:
+    """Inserts into one simulation."""
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        contents: WorldContents,
+        do: Callable[[Callable[[Simulation], None]], None],
+    ) -> None:
+        """Prepare.
+
+        Args:
+            simulation: the running one.
+            contents: adds models with what belongs to them.
+            do: gives the simulation a command that a timeline can repeat.
+        """
+        self._simulation, self._contents, self._do = simulation, contents, do
+        self._packages = contents.packages
+
+    def handle(self, action: InsertAction) -> Json:
+        """Do what a person asks for; return the answer's fields.
+
+        Raises:
+            TrundleError: it cannot be done.
+        """
+        match action:
+            case ListModels():
+                return {"models": list_models(self._packages)}
+            case InsertModel():
+                return self._insert_model(action)
+            case InsertLight():
+                return self._insert_light(action)
+            case DeleteLight(name):
+                self._delete_light(name)
+                return {}
+
+    def _insert_model(self, action: InsertModel) -> Json:
+        model, robot = self._shape(action.model) if action.is_shape else self._read(action.model)
+        if not action.runs_code and (code := user_files(model, self._contents.environment)):
+            return {"code": code}
+        name = _free_name(model.name, {each.name for each in self._simulation.models})
+        pose = Pose(action.position) @ model.world_from_model
+        self._contents.spawn(replace(model, name=name, world_from_model=pose), robot)
+        return {"name": name}
+
+    def _read(self, name: str) -> tuple[Model, Robot | None]:
+        """Read a model of the model path."""
+        if name not in self._packages.models():
+            raise UsageError(f"no model {name!r} on the model path")
+        loaded = load(f"model://{name}", self._simulation.report, packages=self._packages)
+        models = flattened(loaded.world).models
+        if len(models) != 1:
+            raise UsageError(f"model {name!r}: its file has {len(models)} models; one can be inserted")
+        return models[0], loaded.robot
+
+    def _shape(self, kind: str) -> tuple[Model, None]:
+        if kind not in _SHAPES:
+            raise UsageError(f"no shape {kind!r}; there are: {', '.join(_SHAPES)}")
+        text, here = shape_sdf(kind), Path.cwd()
+        loaded = load_text(text, name=f"<{kind}>", folder=here, packages=self._packages, report=Diagnostics())
+        return loaded.world.models[0], None
+
+    def _insert_light(self, action: InsertLight) -> Json:
+        world = self._simulation.world
+        x, y, z = action.position
+        light = Light(
+            name=_free_name(f"{action.type}_light", {light.name for light in world.lights}),
+            type=action.type,
+            at=world.at,
+            world_from_light=Pose((x, y, z + _LIGHT_HEIGHT_M[action.type])),
+            range_m=20.0,
+            constant=0.5,
+            linear=0.01,
+            quadratic=0.001,
+            cast_shadows=action.type == "directional",
+        )
+        lit = replace(light, **_LIGHT_ANGLES.get(action.type, {}))
+        self._do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, lit))))
+        return {"name": light.name}
+
+    def _delete_light(self, name: str) -> None:
+        names = [light.name for light in self._simulation.world.lights]
+        if name not in names:
+            raise UsageError(f"the world has no light {name!r}; it has: {', '.join(map(repr, names)) or 'none'}")
+
+        def delete(sim: Simulation) -> None:
+            sim.edit(replace(sim.world, lights=tuple(each for each in sim.world.lights if each.name != name)))
+
+        self._do(delete)
+
+
+def list_models(packages: Packages) -> list[Json]:
+    """Return folder, title and description of every model that can be inserted, by title."""
+    models = [{"name": name, **_config(folder)} for name, folder in packages.models().items()]
+    return sorted(models, key=lambda each: (each["title"].lower(), each["name"]))
+
+
+def _config(folder: Path) -> Json:
+    """Return what a model.config says of its model."""
+    try:
+        root = read_xml(folder / "model.config", report=Diagnostics())
+    except TrundleError:
+        return {"title": folder.name, "description": ""}
+    title, description = root.string("name"), " ".join(root.string("description").split())
+    return {"title": (title or folder.name)[:100], "description": description[:300]}
+
+
+def user_files(model: Model, environment: Mapping[str, str]) -> list[str]:
+    """Return the Python files that a model's plugins would run."""
+    visuals = (visual for link in model.links for visual in link.visuals)
+    tags = (*model.plugins, *(tag for visual in visuals for tag in visual.plugins))
+    return [str(file) for tag in tags if (file := find_user_file(tag, environment)) is not None]
+
+
+def shape_sdf(kind: str) -> str:
+    """Return a simple shape of 1 kg as SDF."""
+    geometry, across, along = _SHAPES[kind]
+    inertia = f"<ixx>{across}</ixx><iyy>{across}</iyy><izz>{along}</izz>"
+    shape = f"<geometry>{geometry}</geometry>"
+    grey = "<material><ambient>0.3 0.3 0.3 1</ambient><diffuse>0.7 0.7 0.7 1</diffuse></material>"
+    return (
+        f'<sdf version="1.6"><model name="{kind}"><pose>0 0 {_HALF_M} 0 0 0</pose><link name="link">'
+        f"<inertial><mass>1</mass><inertia>{inertia}</inertia></inertial>"
+        f'<collision name="collision">{shape}</collision><visual name="visual">{shape}{grey}</visual>'
+        "</link></model></sdf>"
+    )
+
+
+def _free_name(name: str, taken: Collection[str]) -> str:
+    numbered = (f"{name}_{number}" for number in itertools.count())
+    return name if name not in taken else next(each for each in numbered if each not in taken)
