@@ -59,8 +59,8 @@ def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
 def _height(user: PanelUser, path: str) -> int:
     """Pixels from the lowest to the highest of a curve."""
     row = user.page.locator(".legend li").filter(has=user.page.locator(f'[title="{path}"]'))
-    style = "getComputedStyle(document.documentElement)"
-    colour = row.evaluate(f"one => {style}.getPropertyValue(one.style.getPropertyValue('--c').slice(4, -1))")
+    token = row.evaluate("one => one.style.getPropertyValue('--c')").removeprefix("var(").removesuffix(")")
+    colour = user.page.evaluate(f"getComputedStyle(document.documentElement).getPropertyValue('{token}')")
     png = user.page.get_by_role("img", name=f"Plot of {SMALL}").screenshot()
     picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)
     rows = np.nonzero((np.abs(picture - ImageColor.getrgb(colour.strip())) < 16).all(axis=-1))[0]

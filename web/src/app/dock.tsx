@@ -11,11 +11,14 @@ import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { Layout } from "./layout";
 import type { Page } from "./page";
-import { forEachNew } from "./session";
+import { forEachNew, type Session } from "./session";
 import { recall, remember } from "./storage";
 
 /** Panels that are open at first, in this order. */
 const FIRST = ["plots", "topics", "log", "graph", "timeline"];
+
+/** Panel in front at first. */
+const FRONT: Readonly<Record<Session["kind"], string>> = { simulation: "plots", graph: "topics", log: "timeline", bag: "timeline" };
 
 export class Dock {
   private api: DockviewApi | null = null;
@@ -86,7 +89,7 @@ export class Dock {
     }
     if (api.totalPanels === 0) {
       for (const id of FIRST) this.show(api, id);
-      this.show(api, this.page.session.kind === "graph" ? "topics" : "plots");
+      this.show(api, FRONT[this.page.session.kind]);
     }
   }
 

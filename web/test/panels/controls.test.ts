@@ -155,6 +155,18 @@ describe("the timeline", () => {
     expect(state.bands("/scan")).toEqual([[1, 1.75], [4, 4.25]]);
   });
 
+  test("lanes have no holes where a recording is short and its parts are shorter than the looks", () => {
+    const page = fakePage();
+    page.connection.advertise("/scan", "sensor_msgs/LaserScan");
+    const state = new TimelineState(page);
+    for (let tenths = 0; tenths <= 50; tenths += 2) {
+      page.world.state.value = { time_ns: tenths * 1e8, paused: false, real_time_factor: 1, speed: 1, timeline: { start_ns: 0, end_ns: 10e9 } };
+      page.connection.receive("/scan", {});
+      vi.advanceTimersByTime(200);
+    }
+    expect(state.bands("/scan").map(([start, end]) => [start, Number(end.toFixed(2))])).toEqual([[0, 5.05]]);
+  });
+
   test("marks are named, and removed by an empty name", () => {
     const state = new TimelineState(fakePage());
     state.mark();

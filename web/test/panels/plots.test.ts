@@ -48,6 +48,7 @@ describe("a curve", () => {
     const curve = new Curve(page, "rp2w::camera_base_camera.velocity");
     page.world.joints.value = [0, 1].map((value) => ({ position: value, velocity: value + 0.5, effort: 0 }));
     expect([curve.fault.value, curve.points.lastX, curve.points.lastY]).toEqual(["", 12.48, 1.5]);
+    expect([curve.name, curve.caption]).toEqual(["camera_base_camera.velocity", "rp2w"]);
   });
 });
 

@@ -43,21 +43,26 @@ export class Curve {
     });
   }
 
-  /** Last two steps, for the legend. */
+  /** Last two steps, or a joint without its model, for the legend. */
   get name(): string {
     const { steps } = this.split();
-    return steps.length === 0 ? this.path : stepsText(steps.slice(-2)).replace(/^\./, "");
+    return steps.length === 0 ? this.path.slice(this.modelEnd > 0 ? this.modelEnd + 2 : 0) : stepsText(steps.slice(-2)).replace(/^\./, "");
   }
 
   /** What the name leaves out. */
   get caption(): string {
     const { topic, steps } = this.split();
-    return `${topic} ${stepsText(steps.slice(0, -2)).replace(/^\./, "")}`.trim();
+    return steps.length === 0 ? this.path.slice(0, Math.max(0, this.modelEnd)) : `${topic} ${stepsText(steps.slice(0, -2)).replace(/^\./, "")}`.trim();
   }
 
   close(): void {
     this.dispose();
     this.subscription?.close();
+  }
+
+  /** Where the name of a joint's model ends: `outer::inner::joint.velocity`. */
+  private get modelEnd(): number {
+    return this.path.startsWith("/") ? -1 : this.path.lastIndexOf("::");
   }
 
   private split(): TopicPath {

@@ -39,7 +39,8 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
 /** Decimals by the size, so that a value that moves keeps its width. */
 function legendText(value: number): string {
   const size = Math.abs(value);
-  if (size !== 0 && (size < 0.001 || size >= 100_000)) return significant(value);
+  if (size !== 0 && size < 0.001) return significant(value, 2);
+  if (size >= 100_000) return significant(value);
   return fixed(value, size < 10 ? 3 : size < 1000 ? 2 : 0);
 }
 

@@ -18,7 +18,9 @@ interface PlotCanvasProps {
 
 const PERIOD = 40; // ms between drawings
 const DASH = [4, 3];
-const AXIS_WIDTH = 48;
+const AXIS_WIDTH = 48; // px, at least
+const DIGIT = 6.5; // px
+const GAP = 6; // px
 /* eslint-disable @typescript-eslint/no-unsafe-enum-assignment -- uPlot declares const enums, which are not there at run time */
 const FACETED: uPlot.Mode = 2;
 const LEFT: uPlot.Axis.Side = 3;
@@ -108,14 +110,14 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
     font: `11px ${style.fontFamily}`,
     grid: { stroke: colour("--line-soft"), width: 1 },
     ticks: { show: false },
-    gap: 6,
+    gap: GAP,
   };
   const hasRight = curves.some((curve) => curve.axis.peek() === "right");
   const value = (side: uPlot.Axis.Side, scale: "left" | "right"): uPlot.Axis => ({
     ...axis,
     side,
     scale,
-    size: AXIS_WIDTH,
+    size: (_plot, texts) => axisWidth(texts),
     grid: scale === "left" ? axis.grid : { show: false },
     show: scale === "left" || hasRight,
     values: (_plot, splits) => splits.map((split) => significant(split, 5)),
@@ -156,6 +158,11 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
       ],
     },
   };
+}
+
+/** Room for the longest text [px]; uPlot asks before there are texts, too. */
+function axisWidth(texts: readonly string[] | null): number {
+  return Math.max(AXIS_WIDTH, ...(texts ?? []).map((text) => Math.ceil(DIGIT * text.length + GAP)));
 }
 
 function series(curve: Curve, index: number, colour: (name: string) => string): uPlot.Series {

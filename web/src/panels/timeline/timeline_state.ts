@@ -26,6 +26,8 @@ export interface Span {
 const FUTURE = 1.2;
 const BUCKETS = 600;
 const PERIOD = 200; // ms between looks at what came
+/** Between two looks; what is longer is a jump [s]. */
+const LATE = 1;
 const NS = 1e9;
 
 export class TimelineState {
@@ -37,6 +39,7 @@ export class TimelineState {
   readonly lanes = new Map<string, Set<number>>();
   private readonly counts = new Map<string, number>();
   private bucket = 0.25; // s
+  private lookedAt = -Infinity; // bucket
   private markCount = 0;
   private asked: number | null = null;
   private isAsking = false;
@@ -102,21 +105,32 @@ export class TimelineState {
     return bands;
   }
 
-  /** Note which of the topics that something on the page shows had messages since the last look. */
+  /**
+   * Note which of the topics that something on the page shows had messages since the last look.
+   *
+   * Buckets may be shorter than the time between two looks: all of those between have what came.
+   */
   private look(): void {
     const span = this.span();
     if (span === null) return;
     const wanted = span.isSeekable ? Math.max(0.05, (span.end - span.start) / BUCKETS) : 0.25;
-    if (wanted !== this.bucket) this.lanes.clear();
+    if (wanted !== this.bucket) {
+      this.lanes.clear();
+      this.lookedAt = -Infinity;
+    }
     this.bucket = wanted;
     const at = Math.floor(this.now() / this.bucket);
+    const isLate = at > this.lookedAt && (at - this.lookedAt) * this.bucket <= LATE;
+    const first = isLate ? this.lookedAt + 1 : at;
+    this.lookedAt = at;
     for (const topic of this.page.connection.topics.peek().keys()) {
       const { count } = this.page.connection.statistics(topic);
       const before = this.counts.get(topic) ?? 0;
       this.counts.set(topic, count);
       if (count <= before) continue;
       const lane = this.lanes.get(topic) ?? new Set<number>();
-      this.lanes.set(topic, lane.add(at));
+      for (let each = first; each <= at; each += 1) lane.add(each);
+      this.lanes.set(topic, lane);
     }
   }
 
