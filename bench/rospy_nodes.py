@@ -20,8 +20,9 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from trundle.ros import Core, GraphLoop, MasterError, MasterProxy
-from trundle.rospy.environment import with_finder
+from trundle.ros import Core, GraphLoop, MasterProxy, RosError
+from trundle.rospy.environment import RUN_PYTHON2, with_finder
+from trundle.rospy.python2.cache import is_python2_file
 
 _NODE = re.compile(rb"^[^#\n]*rospy\.init_node\(|^[^#\n]*\binit_node\(", re.MULTILINE)
 _PYTHON = re.compile(rb"#!.*python")
@@ -52,10 +53,11 @@ def start_node(path: Path) -> str:
         loop.run(core.wait_ready(), 60)
         env = {name: value for name, value in os.environ.items() if not name.startswith("ROS")}
         env |= {"ROS_MASTER_URI": core.uri, "ROS_HOME": home, "MPLBACKEND": "Agg", "QT_QPA_PLATFORM": "offscreen"}
+        translated = [RUN_PYTHON2] if is_python2_file(path) else []
         terminal, keyboard = pty.openpty()  # nodes that read keys want one
         with tempfile.TemporaryFile() as output:
             process = subprocess.Popen(
-                [sys.executable, "-W", "ignore", path],
+                [sys.executable, "-W", "ignore", *translated, path],
                 env=with_finder(env), cwd=path.parent, stdin=keyboard, stdout=output, stderr=output,
             )  # fmt: skip
             try:
@@ -90,7 +92,7 @@ def _outcome(process: "subprocess.Popen[bytes]", uri: str, output: object) -> st
 def _registered(uri: str) -> bool:
     try:
         publishers, subscribers, services = MasterProxy(uri).call("getSystemState")
-    except MasterError:
+    except RosError:
         return False
     return any(node != "/rosout" for kind in (publishers, subscribers, services) for _, nodes in kind for node in nodes)
 
