@@ -5,7 +5,7 @@ distribution to the best of them.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from gymnasium import spaces
@@ -18,11 +18,13 @@ from trundle.diagnostics import UsageError
 from .linear_policy import LinearPolicy
 
 _Array = NDArray[np.float64]
-_Envs = VectorEnv[Any, Any, Any]
+_Envs: TypeAlias = "VectorEnv[Any, Any, Any]"
 _ELITE = 0.15
 """Part of the candidates that the distribution is fitted to."""
 _EXTRA = 0.3
-"""Extra standard deviation of the first generation, which decreases to none, against early narrowing."""
+"""Part of the first standard deviation that is added to that of the first generations, against early narrowing."""
+_SMALL = 0.1
+"""Magnitude of an observation below which its weights grow no further."""
 _SEEDS = 1 << 31
 
 
@@ -50,7 +52,8 @@ def train(envs: _Envs, *, generations: int, episodes: int = 2, seed: int = 0) ->
     """
     shape = _width(envs.single_action_space), _width(envs.single_observation_space) + 1
     random = np.random.default_rng(seed)
-    mean, spread = np.zeros(shape), np.ones(shape)
+    first = _first_spread(envs, seed)
+    mean, spread = np.zeros(shape), np.broadcast_to(first, shape)
     elite = max(2, round(_ELITE * envs.num_envs))
     for number in range(generations):
         candidates = mean + spread * random.standard_normal((envs.num_envs, *shape))
@@ -60,8 +63,15 @@ def train(envs: _Envs, *, generations: int, episodes: int = 2, seed: int = 0) ->
             scores += _returns(envs, _policies(envs, candidates), same) / episodes
         best = candidates[np.argsort(-scores, kind="stable")[:elite]]
         extra = _EXTRA * max(0.0, 1.0 - 2.0 * number / generations)
-        mean, spread = best.mean(axis=0), best.std(axis=0) + extra
+        mean, spread = best.mean(axis=0), best.std(axis=0) + extra * first
         yield Generation(number, _policy(envs, mean), scores)
+
+
+def _first_spread(envs: _Envs, seed: int) -> _Array:
+    """Return (observations + 1,) standard deviations of weights and bias that make actions of the whole range."""
+    observation = envs.reset(seed=seed)[0].astype(np.float64)
+    magnitude = np.sqrt(np.square(observation).mean(axis=0))
+    return np.append(1.0 / np.maximum(magnitude, _SMALL), 1.0) / np.sqrt(observation.shape[1])
 
 
 def score(envs: _Envs, policy: Callable[[Any], Any], *, seed: int = 0) -> _Array:
@@ -70,7 +80,8 @@ def score(envs: _Envs, policy: Callable[[Any], Any], *, seed: int = 0) -> _Array
 
 
 def _returns(envs: _Envs, policy: Callable[[Any], Any], seeds: Sequence[int]) -> _Array:
-    observation, _ = envs.reset(seed=list(seeds))
+    each: Any = list(seeds)  # Gymnasium's own take them, too; its types do not say so
+    observation, _ = envs.reset(seed=each)
     returns, running = np.zeros(envs.num_envs), np.ones(envs.num_envs, dtype=np.bool_)
     while running.any():
         observation, rewards, terminated, truncated, _ = envs.step(policy(observation))

@@ -1,7 +1,7 @@
 """Observations: what the agent of an environment sees of the state."""
 
 from collections.abc import Callable, Sequence
-from typing import Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from gymnasium import spaces
@@ -17,7 +17,10 @@ Generators: TypeAlias = Sequence[np.random.Generator]
 class ObservationReader(Protocol):
     """Reader of an observation of many worlds."""
 
-    space: spaces.Box
+    @property
+    def space(self) -> "spaces.Box[Any]":
+        """Bounds of one world's values."""
+        ...
 
     def read(self) -> NDArray[np.generic]:
         """Return the current values, with a row for each world."""
@@ -50,8 +53,7 @@ class StateReader:
     def __init__(self, call: _Function, states: WorldStates, low: ArrayLike, high: ArrayLike) -> None:
         self._call = call
         self._states = states
-        bounds = np.broadcast_arrays(np.asarray(low, dtype=np.float32), np.asarray(high, dtype=np.float32))
-        self.space = spaces.Box(*bounds, dtype=np.float32)
+        self.space = spaces.Box(np.asarray(low, dtype=np.float32), np.asarray(high, dtype=np.float32), dtype=np.float32)
 
     def read(self) -> NDArray[np.float32]:
         """Return the values within the bounds."""

@@ -75,8 +75,7 @@ def _place_goal_of_arm(simulation: Simulation, random: np.random.Generator) -> N
 
 ARM_REACH = Task(
     observations=[
-        LinkPosition("marker", relative_to="upper_arm"),
-        LinkPosition("marker", relative_to="forearm"),
+        LinkPosition("marker", relative_to="hand"),
         JointPositions("shoulder", "elbow"),
     ],
     actions=VelocityAction("shoulder", "elbow"),
@@ -120,7 +119,7 @@ def _place_goal_and_pillar(simulation: Simulation, random: np.random.Generator) 
     half, beside = distance * random.uniform(0.4, 0.6), random.uniform(-0.2, 0.2)
     cos, sin = math.cos(bearing), math.sin(bearing)
     simulation["goal"].set_pose(Pose((distance * cos, distance * sin, 0.02)))
-    simulation["pillar"].set_pose(Pose((half * cos - beside * sin, half * sin + beside * cos, 0.25)))
+    simulation["pillar"].set_pose(Pose((half * cos - beside * sin, half * sin + beside * cos, 0.26)))
     simulation["robot"].set_pose(Pose.from_rpy(0.0, 0.0, 0.08, 0.0, 0.0, heading))
 
 
@@ -130,8 +129,8 @@ DRIVE_TO_GOAL = Task(
     reward=_progress,
     terminated=lambda states: _has_arrived(states) | _has_crashed(states),
     reset=_place_goal_and_pillar,
-    max_steps=150,
-    period_s=0.1,
+    max_steps=40,
+    period_s=0.2,
 )
 
 READY = {

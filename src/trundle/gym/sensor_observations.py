@@ -5,6 +5,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from trundle.sensors import CameraHandle, NoiseSource, RangeSensor
+from trundle.spatial import pose_from_row
 
 from .observations import Generators, ObservationReader
 from .states import WorldStates
@@ -32,7 +33,7 @@ class _LidarReader:
         self._states = states
         self._random = random
         scan = sensor.scan
-        self._noise: list[NoiseSource | None] = [None] * states.rows
+        self._noise = [NoiseSource(scan.noise, each) for each in random]
         size = scan.vertical.values * scan.horizontal.values
         self.space = spaces.Box(np.float32(scan.min_m), np.float32(scan.max_m), (size,), dtype=np.float32)
 
@@ -46,8 +47,9 @@ class _LidarReader:
         self._noise[row] = NoiseSource(self._sensor.scan.noise, self._random[row])
 
     def _read(self, row: int) -> NDArray[np.float64]:
-        snapshot = self._states.show(row).snapshot()
-        return self._sensor.measure(snapshot, noise=self._noise[row]).ranges.ravel()
+        simulation = self._states.show(row)
+        link = pose_from_row(self._states.batch.poses[row, self._sensor.link_index])
+        return self._sensor.measure_from(link, simulation.time_ns, self._noise[row]).ranges.ravel()
 
 
 class CameraPicture:

@@ -1,6 +1,6 @@
 """Gymnasium environment of one world."""
 
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -10,10 +10,8 @@ from .overview import Overview
 from .worlds import Observed, Worlds
 
 
-class SimulationEnv(gymnasium.Env[Observed, NDArray[np.float32]]):
+class SimulationEnv(gymnasium.Env[Observed, Any]):
     """One world; made by `trundle.gym.make`."""
-
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"]}
 
     def __init__(self, worlds: Worlds, *, render_mode: str | None = None, camera: str | None = None) -> None:
         """Wrap the first row of worlds.
@@ -24,7 +22,7 @@ class SimulationEnv(gymnasium.Env[Observed, NDArray[np.float32]]):
             camera: name of the camera that `render` looks through; None: a three-quarter view.
         """
         self.worlds = worlds
-        self.metadata = self.metadata | {"render_fps": round(1.0 / worlds.task.period_s)}
+        self.metadata = {"render_modes": ["rgb_array"], "render_fps": round(1.0 / worlds.task.period_s)}
         self.render_mode = render_mode
         self.observation_space = worlds.observation_space
         self.action_space = worlds.action_space

@@ -1,7 +1,7 @@
 """Gymnasium vector environment of many worlds in one process."""
 
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from gymnasium.utils import seeding
@@ -23,12 +23,14 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
     A world whose episode has ended is reset by the next step, as in Gymnasium's own vector environments.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "autoreset_mode": AutoresetMode.NEXT_STEP}
-
     def __init__(self, worlds: Worlds, *, render_mode: str | None = None, camera: str | None = None) -> None:
         """Wrap worlds; see `SimulationEnv`."""
         self.worlds = worlds
-        self.metadata = self.metadata | {"render_fps": round(1.0 / worlds.task.period_s)}
+        self.metadata = {
+            "render_modes": ["rgb_array"],
+            "render_fps": round(1.0 / worlds.task.period_s),
+            "autoreset_mode": AutoresetMode.NEXT_STEP,
+        }
         self.num_envs = len(worlds.random)
         self.render_mode = render_mode
         self.single_observation_space = worlds.observation_space

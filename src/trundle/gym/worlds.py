@@ -1,7 +1,7 @@
 """Worlds of an environment: one description, many states, a task."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from gymnasium import spaces
@@ -91,7 +91,7 @@ class Worlds:
         return readers
 
     @property
-    def observation_space(self) -> spaces.Space[Observed]:
+    def observation_space(self) -> spaces.Space[Any]:
         """Space of one world's observation."""
         readers = self._readers
         if isinstance(readers, dict):
@@ -162,7 +162,7 @@ def _steps_of(period_s: float, step_ns: int) -> int:
     return period_ns // step_ns
 
 
-def _joined(boxes: Sequence[spaces.Box]) -> spaces.Box:
+def _joined(boxes: "Sequence[spaces.Box[Any]]") -> "spaces.Box[Any]":
     return spaces.Box(
         np.concatenate([box.low for box in boxes]), np.concatenate([box.high for box in boxes]), dtype=np.float32
     )

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from trundle.model import RangeScan, ScanAxis
 from trundle.simulation import Snapshot
-from trundle.spatial import rotate_vectors
+from trundle.spatial import Pose, rotate_vectors
 
 from .live_sensor import LiveSensor, SensorMount
 from .noise import NoiseSource
@@ -44,23 +44,30 @@ class RangeSensor(LiveSensor[RangeReading]):
         self._noise = NoiseSource(mount.sensor.scan.noise, mount.random)
         self._directions = directions_of(mount.sensor.scan)
 
-    def measure(self, snapshot: Snapshot, *, noise: NoiseSource | None = None) -> RangeReading:
-        """Cast the scan from the sensor's pose; `noise` replaces the sensor's own."""
+    def measure(self, snapshot: Snapshot) -> RangeReading:
+        """Cast the scan from the sensor's pose."""
+        return self.measure_from(self.world_from_link(snapshot), snapshot.time_ns, self._noise)
+
+    def measure_from(self, world_from_link: Pose, time_ns: int, noise: NoiseSource) -> RangeReading:
+        """Cast the scan in the simulation's current state.
+
+        Args:
+            world_from_link: pose of the carrying link.
+            time_ns: simulation time.
+            noise: in place of the sensor's own.
+        """
         scan = self.scan
-        pose = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
+        pose = world_from_link @ self.sensor.link_from_sensor
         met = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
         found, retros = met.distances, met.retros
         far, near = found >= scan.max_m, found <= scan.min_m
         found[far], found[near] = np.inf, -np.inf
         retros[far | near] = 0.0
-        noise = noise or self._noise
         if not noise.is_silent:
             seen = np.isfinite(found)
-            found[seen] = np.clip(noise.apply(found[seen], snapshot.time_ns), scan.min_m, scan.max_m)
+            found[seen] = np.clip(noise.apply(found[seen], time_ns), scan.min_m, scan.max_m)
         shape = (scan.vertical.values, scan.horizontal.values)
-        return RangeReading(
-            time_ns=snapshot.time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape)
-        )
+        return RangeReading(time_ns=time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape))
 
 
 def directions_of(scan: RangeScan) -> NDArray[np.float64]:
