@@ -1,4 +1,4 @@
-"""Run a world many times with different values."""
+"""Run a world many times with different values, and report what came out."""
 
 import argparse
 import sys
@@ -11,7 +11,9 @@ EXAMPLES = """
   trundle sweep plan.yaml                             every run of the plan; the same command goes on after a stop
   trundle sweep plan.yaml -o results --workers 4      results in another folder, four processes
   trundle sweep plan.yaml --row 4711                  one run again, in the browser
+  trundle sweep report plan.yaml                      distributions, what matters, the worst runs: one HTML file
 """
+_REPORT = "report"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,8 +39,13 @@ def main(args: argparse.Namespace) -> int:
     words: list[str] = args.words
     with quiet_imports():
         from trundle.trials import load_plan
-    if len(words) != 1:
-        print("trundle sweep: give one PLAN.yaml", file=sys.stderr)
+    if words[0] == _REPORT and len(words) == 2:
+        from trundle.bringup.sweep.report import write_report
+
+        print(write_report(load_plan(Path(words[1])), output=args.output))
+        return 0
+    if len(words) != 1 or words == [_REPORT]:
+        print("trundle sweep: give one PLAN.yaml, or report PLAN.yaml", file=sys.stderr)
         return 2
     plan = load_plan(Path(words[0]))
     if args.row is not None:

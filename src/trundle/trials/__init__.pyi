@@ -1,3 +1,6 @@
+from .analysis import numbers as numbers
+from .analysis import rank_correlation as rank_correlation
+from .analysis import worst_rows as worst_rows
 from .extras import import_extra as import_extra
 from .lock import lock_folder as lock_folder
 from .plan import Event as Event

@@ -1,13 +1,18 @@
 """Sweeps by the whole path: plan, processes, table."""
 
+import base64
+import io
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
+from PIL import Image
 
 import trundle
 from trundle.bringup.sweep.trial import TrialRunner
@@ -196,3 +201,31 @@ def test_twenty_kills_at_random_moments_change_nothing(plan: Path) -> None:
     tables = [plan.with_name(name) / "results.parquet" for name in ("whole", "plan.sweep")]
     assert tables[0].read_bytes() == tables[1].read_bytes()
     assert os.listdir(tables[1].parent) == os.listdir(tables[0].parent)
+
+
+def test_the_report_opens_alone_and_shows_what_matters(plan: Path) -> None:
+    plan.write_text(PLAN.replace("samples: 8", "samples: 4"))
+    visual = '<visual name="v"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></visual>'
+    plan.with_name("box.sdf").write_text(WORLD.replace("</inertial>", f"</inertial>{visual}"))
+    trundle.sweep(plan, workers=1)
+
+    done = subprocess.run([TRUNDLE, "sweep", "report", plan], capture_output=True, text=True, timeout=300, check=False)
+
+    assert done.returncode == 0, done.stderr
+    html = Path(done.stdout.strip()).read_text()
+    assert not re.search(r'(?:src|href)="(?!data:image/png)|url\(|@import', html), "it loads nothing"
+    ElementTree.fromstring(re.sub(r"<(meta[^>]*|img[^>]*)>", r"<\1/>", html.removeprefix("<!doctype html>")))
+    assert "12 runs of 1 s of box.sdf, seed 0" in html
+    for heading in ("Distributions", "What matters", "Worst runs"):
+        assert f"<h2>{heading}</h2>" in html
+    pictures = re.findall(r'src="data:image/png;base64,([^"]+)"', html)
+    assert len(pictures) == 6
+    first = Image.open(io.BytesIO(base64.b64decode(pictures[0])))
+    assert len(first.getcolors(1 << 20) or ()) > 20, "the box is seen"
+
+
+def test_there_is_no_report_before_the_first_run(plan: Path) -> None:
+    done = subprocess.run([TRUNDLE, "sweep", "report", plan], capture_output=True, text=True, timeout=300, check=False)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert f"no results; run `trundle sweep {plan}` first" in done.stderr
+    assert not plan.with_suffix(".sweep").exists()
