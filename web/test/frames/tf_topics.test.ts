@@ -38,6 +38,17 @@ test("when the time goes back, what moved is forgotten", () => {
   expect(tree.frames.value).toEqual(["laser", "map", "other"]);
 });
 
+test("a transform from before a jump that is decoded after it does not stay", () => {
+  const { connection, tree } = fed();
+  connection.time = 1_000_000_000n; // the clock is back
+  connection.receive("/tf", message("late", 51), { time: 51_000_000_000n });
+  connection.receive("/tf", message("base", 1), { time: 1_000_000_000n });
+  connection.receive("/tf_static", message("laser", 0), { time: 0n });
+  connection.receive("/tf", message("base", 2), { time: 2_000_000_000n });
+  expect(tree.frames.value).toEqual(["base", "laser", "map"]);
+  expect(tree.lookup("map", "base", 1_500_000_000n)).toMatchObject({ position: { x: 0 } });
+});
+
 test("in a new connection everything is forgotten", () => {
   const { connection, tree } = fed();
   connection.state.value = { kind: "lost", retryInSeconds: 1 };
