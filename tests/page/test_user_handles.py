@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from tests.page.scene_user import VIEW_CANVAS
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
@@ -131,3 +132,61 @@ def test_what_is_dragged_while_time_runs_stays_at_the_pointer(user: WorldUser) -
     user.page.get_by_role("banner").get_by_role("button", name="Pause", exact=True).click()
     user.button("Undo: Pose of crate").click()
     user.until(lambda: near(user.place("crate"), (-1, 0, 0.2)))
+
+
+def test_a_pull_drags_a_model_along_while_time_runs(user: WorldUser) -> None:
+    """By a spring; the tool is Push, and a drag with Control does the same with Interact."""
+    user.tool("Push")
+    user.page.get_by_role("banner").get_by_role("button", name="Play", exact=True).click()
+    for tool, way in (("Push", 1.0), ("Interact", -1.0)):
+        user.tool(tool)
+        x, y, _ = user.place("crate")
+        if tool == "Interact":
+            user.page.keyboard.down("Control")
+        user.page.mouse.move(*user.at((x, y)))
+        user.page.mouse.down()
+        user.page.mouse.move(*user.at((x, y - way)), steps=3)
+        user.until(lambda y=y, way=way: (y - user.place("crate")[1]) * way > 0.3, what=f"pulled by {tool}")
+        user.page.mouse.up()
+        user.page.keyboard.up("Control")
+        user.until_still(lambda: tuple(round(part, 3) for part in user.place("crate")))
+
+
+def test_a_typed_force_acts_for_a_time(user: WorldUser) -> None:
+    """50 N for 0.2 s on 1 kg that weighs 9.8 N: it slides."""
+    user.pick("crate")
+    user.page.get_by_role("treeitem").filter(has_text="crate").first.press("ArrowRight")
+    user.pick("base")
+    before = user.place("crate")
+    for name, value in (("force x", "-50"), ("duration [s]", "0.2")):
+        user.type(name, value)
+    user.button("Apply").click()
+    user.until(lambda: user.place("crate")[0] < before[0] - 0.3, what=f"{user.place('crate')}, was {before}")
+
+
+def test_what_is_held_does_not_fall(user: WorldUser) -> None:
+    """Lifted by typing, held, let go."""
+    user.pick("crate")
+    user.button("Hold in the air").click()
+    user.until(lambda: (user.model("crate") or {}).get("held"))
+    user.type("z [m]", "2")
+    user.until(lambda: abs(user.place("crate")[2] - 2) < 1e-3)
+    user.page.wait_for_timeout(1000)
+    assert abs(user.place("crate")[2] - 2) < 1e-3
+    user.button("Hold in the air").click()
+    user.until(lambda: user.place("crate")[2] < 0.5)
+
+
+def test_a_model_is_copied_and_deleted_by_keys_and_both_are_undone(user: WorldUser) -> None:
+    user.page.locator(VIEW_CANVAS).focus()
+    user.page.keyboard.press("Shift+C")
+    user.until(lambda: user.model("crate_0"))
+    user.page.get_by_role("heading", name="crate_0").wait_for()
+    assert user.place("crate_0")[0] == pytest.approx(user.place("crate")[0] + 0.5, abs=0.2)
+    user.page.locator(VIEW_CANVAS).focus()
+    user.page.keyboard.press("Delete")
+    user.until(lambda: not user.model("crate_0"))
+    user.button("Undo: Delete crate_0").click()
+    user.until(lambda: user.model("crate_0"))
+    user.button("Undo: Copy of crate").click()
+    user.until(lambda: not user.model("crate_0"))

@@ -1,5 +1,6 @@
 from .edit_requests import ApplyWrench as ApplyWrench
 from .edit_requests import Carry as Carry
+from .edit_requests import CopyModel as CopyModel
 from .edit_requests import DeleteModel as DeleteModel
 from .edit_requests import EditAction as EditAction
 from .edit_requests import HoldModel as HoldModel
@@ -8,6 +9,7 @@ from .edit_requests import MoveJoint as MoveJoint
 from .edit_requests import PlaceJoint as PlaceJoint
 from .edit_requests import PlaceLight as PlaceLight
 from .edit_requests import Pull as Pull
+from .edit_requests import RestoreModel as RestoreModel
 from .edit_requests import SetFriction as SetFriction
 from .edit_requests import SetLight as SetLight
 from .edit_requests import SetMass as SetMass

@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from .edit_requests import Action, EditAction
+from .edit_requests import Action, EditAction, RestoreModel
 from .world_requests import InsertAction, RenderModel, SaveWorld
 
 _MAX_STEPS = 1_000_000
@@ -132,6 +132,7 @@ ClientAction: TypeAlias = (
     | EditAction
     | SaveWorld
     | InsertAction
+    | RestoreModel
     | MoveSlider
     | MoveJoystick
     | SaveRviz

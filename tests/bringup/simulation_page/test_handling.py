@@ -10,7 +10,19 @@ from trundle.bringup.simulation_page.controls import SimulationControls
 from trundle.bringup.simulation_page.edits import edit
 from trundle.bringup.simulation_page.handling import handled_models, is_held
 from trundle.diagnostics import UsageError
-from trundle.page import Carry, EditAction, HoldModel, LetGo, PlaceJoint, PlaceLight, Pull, SetPose
+from trundle.page import (
+    Carry,
+    CopyModel,
+    DeleteModel,
+    EditAction,
+    HoldModel,
+    LetGo,
+    PlaceJoint,
+    PlaceLight,
+    Pull,
+    RestoreModel,
+    SetPose,
+)
 from trundle.simulation import Simulation
 from trundle.timeline import Timeline
 
@@ -143,3 +155,27 @@ def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
     timeline.advance(end_ns)
     assert sim.snapshot().poses.tobytes() == first
     assert handled_models(sim) == []
+
+
+def test_a_copy_is_in_the_state_of_the_model(sim: Simulation) -> None:
+    sim["cart"].joint("lift").set_position(0.25)
+    sim.run(0.3)
+    edit(CopyModel("cart", "cart_0", (2, 0, 0)), sim)
+
+    copy, cart = sim["cart_0"], sim["cart"]
+    assert copy.pose.position == pytest.approx((2, 0, cart.pose.position[2]))
+    assert copy.twist.linear == pytest.approx(cart.twist.linear)
+    assert copy.joint_positions == pytest.approx(cart.joint_positions)
+    sim.run(0.3)
+    assert copy.link("arm").pose.position[2] == pytest.approx(cart.link("arm").pose.position[2], abs=1e-6)
+
+
+def test_what_was_deleted_is_put_back_as_it_was(sim: Simulation) -> None:
+    controls, pacer = SimulationControls(sim, None, None), RealtimePacer(1.0)
+    sim.run(0.3)
+    before = sim.snapshot().poses.copy()
+    for action in (DeleteModel("cart"), RestoreModel("cart")):
+        controls.handle(action, pacer, paused=True)
+    assert sorted(sim.snapshot().poses.tolist()) == sorted(before.tolist())
+    with pytest.raises(UsageError, match="has deleted no model 'wall'"):
+        controls.handle(RestoreModel("wall"), pacer, paused=True)

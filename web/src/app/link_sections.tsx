@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 import type { Transform } from "../frames/transform";
 import type { LinkInfo, ModelInfo } from "../scene/simulated_world";
 import { count, fixed, plain } from "../theme/format";
+import { ModelButtons, WrenchSection } from "./handling_sections";
 import { PoseSection } from "./pose_section";
 import type { Shell } from "./shell";
 import type { Twist } from "./twist";
@@ -42,7 +43,8 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
         <h3>Model</h3>
         {!model.static && <KeyValue name="Mass" value={fixed(mass, 3)} unit="kg" />}
         <KeyValue name="Links" value={count(model.links.length, "link")} />
-        <KeyValue name="Moves" value={model.static ? "no, it is static" : "yes"} />
+        <KeyValue name="Moves" value={model.static ? "no, it is static" : model.held ? "no, it is held" : "yes"} />
+        {canEdit(shell) && <ModelButtons shell={shell} name={name} model={model} />}
       </section>
     </>
   );
@@ -70,6 +72,7 @@ export function LinkSections({ shell, model, link, isStatic }: LinkProps): JSX.E
       <PoseSection key={link.body} within="world" pose={() => page.world.pose(link.body)} onCommit={canEdit(shell) ? mover(shell, model, link) : undefined} />
       {!isStatic && <TwistSection key={`twist ${link.body}`} page={page} body={link.body} />}
       {!isStatic && <Inertia shell={shell} model={model} link={link} />}
+      {!isStatic && canEdit(shell) && <WrenchSection key={`force ${link.body}`} shell={shell} model={model} link={link.name} />}
       {link.friction !== null && <Friction shell={shell} model={model} link={link.name} friction={link.friction} />}
       {link.sensors.length > 0 && (
         <section class="sec">

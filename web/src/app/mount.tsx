@@ -16,6 +16,7 @@ import "../theme/phone.css";
 import "../theme/dockview.css";
 import type { Panel } from "../panels/panel";
 import { App } from "./app";
+import { modelCommands } from "./model_edits";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedRviz } from "./open_rviz";
 import type { Page } from "./page";
@@ -38,7 +39,7 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, panels, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell));
+  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...modelCommands(shell));
   listenForKeys(commands);
   acceptDroppedRviz(shell);
   effect(() => {

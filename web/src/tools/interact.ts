@@ -3,6 +3,7 @@
 import { BoolProperty } from "../displays/properties";
 import type { PointerTarget, TargetEvent } from "../scene/scene_view";
 import { BaseTool } from "./base_tool";
+import { PulledPoint } from "./handles/pulled_point";
 import { pointerTargetOf, selectionOf } from "./picked";
 import type { PointerInput } from "./tool";
 
@@ -17,6 +18,8 @@ export class Interact extends BaseTool {
   private dragged: PointerTarget | null = null;
   private waiting: PointerInput | null = null;
   private stop: (() => void) | null = null;
+  /** What a drag with Ctrl pulls, as in MuJoCo's viewer. */
+  private readonly pulled = this.context.editor === null ? null : new PulledPoint(this.context.scene, this.context.editor);
 
   activate(): void {
     this.hint.value = "Click selects. Drag turns the camera, or moves what can be moved.";
@@ -28,9 +31,11 @@ export class Interact extends BaseTool {
     this.setHovered(null);
     this.context.hovered.value = null;
     this.dragged = null;
+    if (this.pulled?.isPulling === true) this.pulled.end();
   }
 
   pointer(input: PointerInput): boolean {
+    if (this.pulled?.isPulling === true) return this.pull(this.pulled, input);
     if (this.dragged !== null) return this.drag(this.dragged, input);
     if (input.kind === "move") this.waiting = input;
     else if (input.kind === "down") return this.press(input);
@@ -39,10 +44,17 @@ export class Interact extends BaseTool {
   }
 
   private press(input: PointerInput): boolean {
+    if (input.control && input.button !== 1 && this.pulled?.begin(input) === true) return true;
     const event = this.eventOf(input);
     const target = event.pick === null ? null : pointerTargetOf(event.pick.object);
     if (target?.down(event) !== true) return false;
     this.dragged = target;
+    return true;
+  }
+
+  private pull(pulled: PulledPoint, input: PointerInput): boolean {
+    if (input.kind === "move") pulled.move(input);
+    else if (input.kind !== "down") pulled.end();
     return true;
   }
 

@@ -10,6 +10,7 @@ import { Measure } from "./measure";
 import { MoveCamera } from "./move_camera";
 import { MoveModel } from "./move_model";
 import { PublishPoint } from "./publish_point";
+import { PushModel } from "./push_model";
 import { RotateModel } from "./rotate_model";
 import { Select } from "./select";
 import { SetGoal } from "./set_goal";
@@ -21,7 +22,7 @@ const CLASSES = [Interact, MoveCamera, Select, FocusCamera, Measure, SetInitialP
 /** ROS 2's classes have rviz's names; that of its goal is another. */
 const ALIASES: Readonly<Record<string, string>> = { SetGoal2D: "SetGoal" };
 /** Tools that stay on; the others go back to the one of these that was on last. */
-const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Select", "trundle/Move", "trundle/Rotate"];
+const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Select", "trundle/Move", "trundle/Rotate", "trundle/Push"];
 
 export class ToolList implements ToolBox {
   readonly tools: readonly BaseTool[];
@@ -35,7 +36,7 @@ export class ToolList implements ToolBox {
     const [interact, ...others] = CLASSES.map((Class) => new Class(context, back));
     if (interact === undefined) throw new Error("there are no tools");
     const { editor } = context;
-    const handling = editor === null ? [] : [MoveModel, RotateModel].map((Class) => new Class(context, back, editor));
+    const handling = editor === null ? [] : [MoveModel, RotateModel, PushModel].map((Class) => new Class(context, back, editor));
     this.tools = [interact, ...handling, ...others];
     this.chosen = signal<BaseTool>(interact);
     this.start(interact);

@@ -1,0 +1,109 @@
+/** Edits of whole models: held in the air, copied, deleted. */
+
+import { effect } from "@preact/signals";
+import { Vector3 } from "three";
+
+import { findModel } from "./framing";
+import type { Command, Page, Selection } from "./page";
+import type { Shell } from "./shell";
+import { canEdit, editWorld } from "./world_edits";
+import { bodiesOf } from "./world_nodes";
+import type { ModelInfo } from "../scene/simulated_world";
+
+/** Gap between a model and its copy [m]. */
+const GAP = 0.1;
+
+/** Fix a model's base where it is, or free it. */
+export function holdModel(shell: Shell, model: string, on: boolean): void {
+  void editWorld(shell, `${on ? "Hold" : "Release"} of ${model}`, "hold", { model, on }, { model, on: !on });
+}
+
+/** Put a copy beside a model, and select it. */
+export function copyModel(shell: Shell, model: string): void {
+  const { page } = shell;
+  const outer = outermost(page, model);
+  if (outer === null) return;
+  const name = freeName(page, outer.name);
+  const offset = [page.world.bounds(bodiesOf(outer)).getSize(new Vector3()).x + GAP, 0, 0];
+  const copy = { request: "copy", fields: { model: outer.name, name, offset } };
+  const remove = { request: "delete", fields: { model: name } };
+  void change(shell, `Copy of ${outer.name}`, copy, remove).then((isDone) => {
+    if (isDone) selectOnceThere(page, name);
+  });
+}
+
+/** Delete a model. It can be undone where all that it is comes back: without plugins and sensors. */
+export function deleteModel(shell: Shell, model: string): void {
+  const outer = outermost(shell.page, model);
+  if (outer === null) return;
+  const remove = { request: "delete", fields: { model: outer.name } };
+  const title = `Delete ${outer.name}`;
+  if (isPlain(outer)) void change(shell, title, remove, { request: "restore", fields: { model: outer.name } });
+  else shell.request(title, "delete", remove.fields);
+}
+
+/** Commands for what is selected. */
+export function modelCommands(shell: Shell): readonly Command[] {
+  const selected = (): string | null => modelOf(shell.page.selection.peek());
+  const command = (id: string, title: string, keys: string, run: (model: string) => void): Command => ({
+    id,
+    title,
+    group: "Simulation",
+    keys,
+    enabled: () => canEdit(shell) && selected() !== null,
+    run: () => run(selected() ?? ""),
+  });
+  return [
+    command("copy_model", "Copy the selected model", "Shift C", (model) => copyModel(shell, model)),
+    command("delete_model", "Delete the selected model", "Delete", (model) => deleteModel(shell, model)),
+    command("hold_model", "Hold the selected model in the air, or free it", "H", (model) =>
+      holdModel(shell, model, outermost(shell.page, model)?.held !== true),
+    ),
+  ];
+}
+
+interface Asked {
+  readonly request: string;
+  readonly fields: Parameters<Page["connection"]["request"]>[1];
+}
+
+/** An edit that another kind of request takes back; true: it is done. */
+async function change(shell: Shell, title: string, after: Asked, before: Asked): Promise<boolean> {
+  try {
+    await shell.page.connection.request(after.request, after.fields);
+  } catch (error) {
+    shell.notices.report(title, error instanceof Error ? error.message : String(error));
+    return false;
+  }
+  const send = ({ request, fields }: Asked) => (): void => shell.request(title, request, fields);
+  shell.page.undo.record(title, send(after), send(before));
+  return true;
+}
+
+function modelOf(selection: Selection | null): string | null {
+  return selection?.kind === "model" || selection?.kind === "link" ? selection.model : null;
+}
+
+/** The model of the world that a name, `outer::inner`, is in. */
+function outermost(page: Page, name: string): ModelInfo | null {
+  const models = page.world.manifest.peek()?.models ?? [];
+  return models.find((model) => `${name}::`.startsWith(`${model.name}::`)) ?? null;
+}
+
+function isPlain(model: ModelInfo): boolean {
+  return model.plugins.length === 0 && model.links.every((link) => link.sensors.length === 0) && model.models.every(isPlain);
+}
+
+function freeName(page: Page, name: string): string {
+  let number = 0;
+  while (findModel(page, `${name}_${number}`) !== null) number += 1;
+  return `${name}_${number}`;
+}
+
+function selectOnceThere(page: Page, model: string): void {
+  const stop = effect(() => {
+    if (findModel(page, model) === null) return;
+    page.selection.value = { kind: "model", model };
+    queueMicrotask(() => stop());
+  });
+}

@@ -1,0 +1,121 @@
+/** A point of a link that the pointer pulls by a spring, as in MuJoCo's viewer, with the line between. */
+
+import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Plane, Vector3, type Matrix4 } from "three";
+
+import { findModel } from "../../app/framing";
+import { NOT_PICKED } from "../../scene/picking";
+import type { SceneView } from "../../scene/scene_view";
+import { selectionOf } from "../picked";
+import type { PointerInput } from "../tool";
+import type { WorldEditor } from "../world_editor";
+import { LatestRequest } from "./latest_request";
+
+/** Wall seconds after which the server hears again of a pull that rests; after one it lets go. */
+const RENEWAL = 0.3;
+
+interface Pulled {
+  readonly model: string;
+  readonly link: string;
+  readonly body: number;
+  /** In the link's frame. */
+  readonly point: Vector3;
+  /** Through the point, parallel to the picture, in the world. */
+  readonly plane: Plane;
+  readonly target: Vector3;
+}
+
+export class PulledPoint {
+  private pulled: Pulled | null = null;
+  private sinceAsked = 0;
+  private stops: (() => void)[] = [];
+  private readonly ends = new BufferAttribute(new Float32Array(6), 3);
+  private readonly line = new Line(new BufferGeometry().setAttribute("position", this.ends), new LineBasicMaterial({ depthTest: false }));
+  private readonly requests = new LatestRequest(() => this.end());
+
+  constructor(
+    private readonly scene: SceneView,
+    private readonly editor: WorldEditor,
+  ) {
+    this.line.frustumCulled = false;
+    this.line.renderOrder = 1000;
+    this.line.userData[NOT_PICKED] = true;
+  }
+
+  /** Grasp what is under the pointer; false: there is nothing to pull. */
+  begin(input: PointerInput): boolean {
+    const { scene, editor } = this;
+    const pick = scene.pick(input.x, input.y);
+    const selection = selectionOf(pick);
+    if (pick === null || selection?.kind !== "link" || findModel(editor, selection.model)?.static !== false) return false;
+    const body = bodyOf(pick.object);
+    const pose = body === null ? null : editor.world.pose(body);
+    if (body === null || pose === null) return false;
+    const target = pick.point.clone().applyMatrix4(this.worldFromFixed());
+    const point = target.clone().sub(pose.position).applyQuaternion(pose.orientation.clone().invert());
+    const back = new Vector3().setFromMatrixColumn(scene.camera.peek().matrixWorld, 2).transformDirection(this.worldFromFixed());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(back, target);
+    this.pulled = { model: selection.model, link: selection.link, body, point, plane, target };
+    scene.world.add(this.line);
+    this.line.material.color.set(getComputedStyle(scene.element).getPropertyValue("--accent").trim() || "#3fbed0");
+    this.stops = [scene.addStep({ before: () => this.draw() }), scene.onTick((elapsed) => this.renew(elapsed)), () => this.line.removeFromParent()];
+    this.ask(this.pulled);
+    return true;
+  }
+
+  move({ x, y }: PointerInput): void {
+    const { pulled, scene } = this;
+    if (pulled === null) return;
+    if (scene.ray(x, y).applyMatrix4(this.worldFromFixed()).intersectPlane(pulled.plane, pulled.target) === null) return;
+    this.ask(pulled);
+    scene.invalidate();
+  }
+
+  /** Let it go. */
+  end(): void {
+    const { pulled } = this;
+    this.pulled = null;
+    this.requests.clear();
+    for (const stop of this.stops) stop();
+    this.stops = [];
+    this.scene.invalidate();
+    if (pulled !== null) void this.editor.ask("Push", "let_go", { model: pulled.model });
+  }
+
+  get isPulling(): boolean {
+    return this.pulled !== null;
+  }
+
+  private ask({ model, link, point, target }: Pulled): void {
+    this.sinceAsked = 0;
+    const fields = { model, link, point: point.toArray(), target: target.toArray() };
+    this.requests.send(() => this.editor.ask("Push", "pull", fields));
+  }
+
+  private renew(elapsed: number): void {
+    this.sinceAsked += elapsed;
+    if (this.pulled !== null && this.sinceAsked > RENEWAL) this.ask(this.pulled);
+  }
+
+  private draw(): void {
+    const pose = this.pulled === null ? null : this.editor.world.pose(this.pulled.body);
+    if (this.pulled === null || pose === null) return;
+    const { point, target } = this.pulled;
+    const at = point.clone().applyQuaternion(pose.orientation).add(pose.position);
+    this.ends.setXYZ(0, at.x, at.y, at.z);
+    this.ends.setXYZ(1, target.x, target.y, target.z);
+    this.ends.needsUpdate = true;
+  }
+
+  private worldFromFixed(): Matrix4 {
+    const { world } = this.scene;
+    world.updateWorldMatrix(true, false);
+    return world.matrixWorld.clone().invert();
+  }
+}
+
+function bodyOf(object: { readonly userData: Record<string, unknown>; readonly parent: unknown }): number | null {
+  for (let at: typeof object | null = object; at !== null; at = at.parent as typeof object | null) {
+    if (typeof at.userData["body"] === "number") return at.userData["body"];
+  }
+  return null;
+}

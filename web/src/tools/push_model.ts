@@ -1,0 +1,48 @@
+/** Pulls what is pressed by a spring to the pointer, as MuJoCo's viewer pushes bodies. */
+
+import { BaseTool, type ToolContext } from "./base_tool";
+import { PulledPoint } from "./handles/pulled_point";
+import type { PointerInput } from "./tool";
+import type { WorldEditor } from "./world_editor";
+
+export class PushModel extends BaseTool {
+  readonly className = "trundle/Push";
+  readonly name = "Push";
+  readonly shortcut = "b";
+  readonly icon = "push";
+  private readonly pulled: PulledPoint;
+
+  constructor(
+    context: ToolContext,
+    finish: () => void,
+    private readonly editor: WorldEditor,
+  ) {
+    super(context, finish);
+    this.pulled = new PulledPoint(context.scene, editor);
+  }
+
+  activate(): void {
+    this.hint.value = "Press a part and drag: a spring pulls it to the pointer while time runs.";
+  }
+
+  deactivate(): void {
+    if (this.pulled.isPulling) this.pulled.end();
+  }
+
+  pointer(input: PointerInput): boolean {
+    if (input.kind === "down") return input.button === 0 && this.press(input);
+    if (!this.pulled.isPulling) return false;
+    if (input.kind === "move") this.pulled.move(input);
+    else {
+      this.pulled.end();
+      this.activate();
+    }
+    return true;
+  }
+
+  private press(input: PointerInput): boolean {
+    if (!this.pulled.begin(input)) return false;
+    if (this.editor.world.state.peek()?.paused === true) this.hint.value = "Paused: it moves once time runs.";
+    return true;
+  }
+}
