@@ -45,7 +45,7 @@ def find_nodes(folder: Path) -> Iterator[Path]:
                 yield path
 
 
-def start_node(path: Path) -> str:
+def start_node(path: Path, *, is_python2: bool) -> str:
     """Start a node; returns 'registered', 'ends', or the last line of its traceback."""
     with GraphLoop() as loop, tempfile.TemporaryDirectory() as home:
         core = Core(loop, port=0)
@@ -53,7 +53,7 @@ def start_node(path: Path) -> str:
         loop.run(core.wait_ready(), 60)
         env = {name: value for name, value in os.environ.items() if not name.startswith("ROS")}
         env |= {"ROS_MASTER_URI": core.uri, "ROS_HOME": home, "MPLBACKEND": "Agg", "QT_QPA_PLATFORM": "offscreen"}
-        translated = [RUN_PYTHON2] if is_python2_file(path) else []
+        translated = [RUN_PYTHON2] if is_python2 else []
         terminal, keyboard = pty.openpty()  # nodes that read keys want one
         with tempfile.TemporaryFile() as output:
             process = subprocess.Popen(
@@ -104,8 +104,13 @@ def main() -> int:
     parser.add_argument("--list", type=Path, help="file for the table of nodes and outcomes")
     args = parser.parse_args()
     nodes = [(folder, path) for folder in args.folders for path in find_nodes(folder.resolve())]
+    are_python2 = [is_python2_file(path) for _, path in nodes]  # here: parsing in threads fails in Python 3.11
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        outcomes = list(pool.map(start_node, [path for _, path in nodes]))
+        started = [
+            pool.submit(start_node, path, is_python2=is_python2)
+            for (_, path), is_python2 in zip(nodes, are_python2, strict=True)
+        ]
+        outcomes = [each.result() for each in started]
     rows = [
         f"{path.relative_to(folder.resolve().parent)}\t{what}"
         for (folder, path), what in zip(nodes, outcomes, strict=True)
