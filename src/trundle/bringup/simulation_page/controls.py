@@ -104,11 +104,11 @@ class SimulationControls:
             case DeleteModel(name):
                 model = find_model(self._simulation, name)
                 self._deleted[model.name] = saved_model(model)
-                self._do(partial(edit, action))
+                self.do(partial(edit, action))
             case RestoreModel(name):
                 if name not in self._deleted:
                     raise UsageError(f"the page has deleted no model {name!r}")
-                self._do(self._deleted[name].spawn)
+                self.do(self._deleted[name].spawn)
             case _ if isinstance(action, EditAction):
                 self.do(partial(edit, action))
                 if isinstance(action, Carry | Pull):
