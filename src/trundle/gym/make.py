@@ -42,7 +42,7 @@ def make(
         observations: one, several joined to one array, or several by name.
         actions: one or several, whose numbers are joined.
         reward: takes the states of all worlds, and returns a reward for each row.
-        terminated: likewise, True where the episode ends; None: nowhere.
+        terminated: takes the states, too, and returns True where the episode ends; None: nowhere.
         reset: changes the loaded world by its handles before each episode, with the episode's random numbers.
         max_steps: after which an episode is truncated; None: never.
         period_s: simulated time of a step [s].

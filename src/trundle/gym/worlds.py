@@ -23,7 +23,7 @@ Observed: TypeAlias = NDArray[np.generic] | dict[str, NDArray[np.generic]]
 
 
 class Task(Struct, frozen=True, kw_only=True):
-    """What is seen, done and rewarded; functions take all worlds at once, and return a value for each row."""
+    """Observations, actions and rewards; functions take all worlds at once, and return a value for each row."""
 
     observations: Observations
     """One, several joined to one array, or several by name."""

@@ -31,7 +31,7 @@ class InsertModel(Action, frozen=True, tag="insert"):
     model: FileName
     """Name of its folder, or `box`, `sphere`, `cylinder` where `is_shape`."""
     position: Triple
-    """Of the point on the floor [m]."""
+    """Point on the floor [m]."""
     is_shape: bool = False
     runs_code: bool = False
     """True if a person has agreed."""
@@ -42,7 +42,7 @@ class InsertLight(Action, frozen=True, tag="insert_light"):
 
     type: Literal["point", "directional", "spot"]
     position: Triple
-    """Of the point on the floor [m]."""
+    """Point on the floor [m]."""
 
 
 class DeleteLight(Action, frozen=True, tag="delete_light"):
