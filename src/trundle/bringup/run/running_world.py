@@ -138,7 +138,7 @@ class RunningWorld:
             limit_bytes = self._options.timeline_mb * 1_000_000
             self.timeline = Timeline(self.simulation, roots=plugins, limit_bytes=limit_bytes)
 
-    def spawn(self, model: Model, robot: Robot | None) -> None:
+    def spawn(self, model: Model, robot: "Robot | None") -> None:
         """Add a model with its sensors and plugins; with those, the timeline begins again.
 
         Raises:
