@@ -54,7 +54,7 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
         ("trundle srv show std_srvs/SetB", "std_srvs/SetBool "),
         ("trundle topic pub /chatter s", "std_msgs/String "),
         ("trundle topic find std_msgs/Stri", "std_msgs/String "),
-        ("trundle msg package turtle", "turtlesim "),
+        ("trundle msg package turtles", "turtlesim "),
         ("trundle srv package std_s", "std_srvs "),
         ("trundle exec turtlesim turtlesim_", "turtlesim_node "),
         ("trundle exec my_robot dri", "drive "),

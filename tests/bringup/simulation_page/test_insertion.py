@@ -1,0 +1,114 @@
+"""What a person at the page puts into a running world, as the page asks for it."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from trundle.bringup.simulation_page.insertion import Insertion
+from trundle.description import load_text
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.model import Model
+from trundle.packages import Packages
+from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels
+from trundle.robot import Robot
+from trundle.simulation import Simulation
+
+CRATE = '<sdf version="1.6"><model name="crate"><link name="body"/>{}</model></sdf>'
+CONFIG = "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf><description>Of  wood.</description></model>"
+
+
+class Contents:
+    """Adds models to a simulation without sensors and plugins."""
+
+    def __init__(self, simulation: Simulation, packages: Packages, environment: Mapping[str, str]) -> None:
+        self._simulation, self.packages, self.environment = simulation, packages, environment
+
+    def spawn(self, model: Model, robot: Robot | None) -> None:
+        self._simulation.spawn(model)
+
+    def delete(self, name: str) -> None:
+        self._simulation.delete(name)
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    return {"GAZEBO_MODEL_PATH": str(tmp_path / "models"), "HOME": str(tmp_path)}
+
+
+@pytest.fixture
+def simulation(tmp_path: Path, environment: dict[str, str]) -> Simulation:
+    packages, report = Packages(environment, start=tmp_path), Diagnostics()
+    text = '<sdf version="1.6"><world name="yard"/></sdf>'
+    return Simulation(load_text(text, name="yard", folder=tmp_path, packages=packages, report=report).world, report)
+
+
+@pytest.fixture
+def insertion(simulation: Simulation, tmp_path: Path, environment: dict[str, str]) -> Insertion:
+    contents = Contents(simulation, Packages(environment, start=tmp_path), environment)
+    return Insertion(simulation, contents, lambda command: command(simulation))
+
+
+def _put_crate(tmp_path: Path, plugin: str = "") -> None:
+    folder = tmp_path / "models/crate"
+    folder.mkdir(parents=True)
+    (folder / "model.config").write_text(CONFIG)
+    (folder / "model.sdf").write_text(CRATE.format(plugin))
+
+
+def test_models_of_the_model_path_are_listed(insertion: Insertion, tmp_path: Path) -> None:
+    _put_crate(tmp_path)
+
+    models = insertion.handle(ListModels())["models"]
+
+    assert {"name": "crate", "title": "A crate", "description": "Of wood."} in models
+
+
+def test_a_model_stands_at_the_point_under_a_free_name(
+    insertion: Insertion, simulation: Simulation, tmp_path: Path
+) -> None:
+    _put_crate(tmp_path)
+
+    names = [insertion.handle(InsertModel(model="crate", position=(x, 2.0, 0.5)))["name"] for x in (1.0, 3.0)]
+
+    assert names == ["crate", "crate_0"]
+    assert [simulation[name].pose.position for name in names] == [(1.0, 2.0, 0.5), (3.0, 2.0, 0.5)]
+
+
+@pytest.mark.parametrize("shape", ["box", "sphere", "cylinder"])
+def test_a_simple_shape_stands_on_the_floor(insertion: Insertion, simulation: Simulation, shape: str) -> None:
+    name = insertion.handle(InsertModel(model=shape, position=(1.0, 0.0, 0.0), is_shape=True))["name"]
+
+    assert simulation[name].pose.position == (1.0, 0.0, 0.5)
+    assert simulation[name].link("link").link.inertial.mass == 1.0
+
+
+def test_a_model_with_code_is_asked_for_first(insertion: Insertion, simulation: Simulation, tmp_path: Path) -> None:
+    _put_crate(tmp_path, '<plugin name="p" filename="code.py"/>')
+    code = tmp_path / "models/crate/code.py"
+    code.write_text("")
+
+    asked = insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0)))
+    before = [model.name for model in simulation.models]
+    agreed = insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0), runs_code=True))
+
+    assert (asked, before) == ({"code": [str(code)]}, [])
+    assert agreed == {"name": "crate"}
+
+
+def test_lights_come_and_go(insertion: Insertion, simulation: Simulation) -> None:
+    name = insertion.handle(InsertLight(type="spot", position=(1.0, 2.0, 0.0)))["name"]
+    heights = {light.name: light.world_from_light.position for light in simulation.world.lights}
+    insertion.handle(DeleteLight(light=name))
+
+    assert heights[name] == (1.0, 2.0, 2.0)
+    assert name not in {light.name for light in simulation.world.lights}
+
+
+def test_what_is_not_there_is_a_sentence(insertion: Insertion) -> None:
+    with pytest.raises(UsageError, match="no model 'nothing' on the model path"):
+        insertion.handle(InsertModel(model="nothing", position=(0.0, 0.0, 0.0)))
+    with pytest.raises(UsageError, match="no shape 'cone'; there are: box, sphere, cylinder"):
+        insertion.handle(InsertModel(model="cone", position=(0.0, 0.0, 0.0), is_shape=True))
+    with pytest.raises(UsageError, match="the world has no light 'moon'"):
+        insertion.handle(DeleteLight(light="moon"))
