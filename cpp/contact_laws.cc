@@ -1,5 +1,5 @@
 // The Python module `_contact_laws`: contact laws that MuJoCo lacks, applied between collision detection and the
-// solver.
+// solver, and the recording of contacts.
 //
 // MuJoCo calls them by mjcb_control in every step of every model; a model without tables costs a comparison.
 // mjcb_sensor runs after the solver. Callbacks that were installed before are called first.
@@ -11,11 +11,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_offset.h"
+#include "contact_recorder.h"
 #include "friction_slip.h"
 #include "joint_stop.h"
 #include "law_tables.h"
@@ -140,21 +143,72 @@ void bind(const std::vector<std::uintptr_t>& addresses) {
 #undef TRUNDLE_BIND
 }
 
-// A model and its data, by their addresses.
-struct ModelData {
-  const mjModel* m;
-  mjData* d;
-  LawTables laws;
-
-  ModelData(std::uintptr_t model, std::uintptr_t data)
-      : m(reinterpret_cast<const mjModel*>(model)), d(reinterpret_cast<mjData*>(data)) {
-    if (!LawTables::find(m, laws)) throw std::invalid_argument("this model has no laws");
-  }
-};
+const mjModel* model_at(std::uintptr_t address) { return reinterpret_cast<const mjModel*>(address); }
+mjData* data_at(std::uintptr_t address) { return reinterpret_cast<mjData*>(address); }
 
 void report(std::uintptr_t model, std::uintptr_t data) {
-  const ModelData each(model, data);
-  report_efforts(each.laws, each.m, each.d);
+  LawTables laws;
+  if (!LawTables::find(model_at(model), laws)) throw std::invalid_argument("this model has no laws");
+  report_efforts(laws, model_at(model), data_at(data));
+}
+
+constexpr std::size_t kRowNumbers = sizeof(ContactRow) / sizeof(double);
+
+using Rows = nb::ndarray<const double, nb::shape<-1, kRowNumbers>, nb::c_contig, nb::device::cpu>;
+
+// An array of its own (rows, kRowNumbers).
+nb::object array_of(const std::vector<ContactRow>& rows) {
+  double* numbers = new double[rows.size() * kRowNumbers];
+  if (!rows.empty()) std::memcpy(numbers, rows.data(), rows.size() * sizeof(ContactRow));
+  nb::capsule owner(numbers, [](void* memory) noexcept { delete[] static_cast<double*>(memory); });
+  return nb::cast(nb::ndarray<nb::numpy, double>(numbers, {rows.size(), kRowNumbers}, owner));
+}
+
+std::vector<ContactRow> rows_of(const Rows& array) {
+  std::vector<ContactRow> rows(array.shape(0));
+  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(ContactRow));
+  return rows;
+}
+
+nb::object read_contacts(std::uintptr_t model, std::uintptr_t data, const std::vector<int>& contacts) {
+  std::vector<ContactRow> rows;
+  for (const int contact : contacts) {
+    if (contact < 0 || contact >= data_at(data)->ncon) throw std::invalid_argument("no such contact");
+    rows.push_back(read_contact(model_at(model), data_at(data), contact));
+  }
+  return array_of(rows);
+}
+
+// Times of the rows [ns], and all rows; the recorder is empty afterwards.
+std::pair<std::vector<std::int64_t>, nb::object> take_rows(ContactRecorder& recorder) {
+  std::vector<std::int64_t> times_ns;
+  std::vector<ContactRow> rows;
+  for (const RecordedStep& step : recorder.steps()) {
+    times_ns.insert(times_ns.end(), step.rows.size(), step.time_ns);
+    rows.insert(rows.end(), step.rows.begin(), step.rows.end());
+  }
+  recorder.clear();
+  return {times_ns, array_of(rows)};
+}
+
+int step_and_record(std::uintptr_t model, std::uintptr_t data, int count,
+                    const std::vector<ContactRecorder*>& recorders, std::int64_t time_ns, std::int64_t step_ns) {
+  return step_recording(model_at(model), data_at(data), count, recorders, time_ns, step_ns);
+}
+
+void bind_recorder(nb::module_& module) {
+  nb::class_<ContactRecorder>(module, "ContactRecorder")
+      .def(nb::init<const std::vector<int>&, int, std::size_t>(), nb::arg("geoms"), nb::arg("geom_count"),
+           nb::arg("most_steps"))
+      .def_prop_ro("is_stale", &ContactRecorder::is_stale)
+      .def("set_sleeping", [](ContactRecorder& self, const Rows& rows) { self.set_sleeping(rows_of(rows)); })
+      .def("replace_since", [](ContactRecorder& self, std::int64_t time_ns,
+                               const Rows& rows) { self.replace_since(time_ns, rows_of(rows)); })
+      .def("take", take_rows)
+      .def("copy", [](const ContactRecorder& self) { return ContactRecorder(self); });
+  module.def("read_contacts", read_contacts, nb::arg("model"), nb::arg("data"), nb::arg("contacts"));
+  module.def("step", step_and_record, nb::arg("model"), nb::arg("data"), nb::arg("count"), nb::arg("recorders"),
+             nb::arg("time_ns"), nb::arg("step_ns"), nb::call_guard<nb::gil_scoped_release>());
 }
 
 using Addresses = std::vector<std::pair<std::uintptr_t, std::uintptr_t>>;
@@ -199,4 +253,5 @@ NB_MODULE(_contact_laws, module) {
   module.def("make_row_stepper", trundle::make_row_stepper, nb::arg("workers"), nb::arg("links"), nb::arg("max_speed"),
              nb::arg("always_actuated"));
   module.def("report_efforts", trundle::report, nb::arg("model"), nb::arg("data"));
+  trundle::bind_recorder(module);
 }

@@ -8,6 +8,8 @@ from .step.batch import Batch as Batch
 from .step.batch import WorldRow as WorldRow
 from .step.contact import Contact as Contact
 from .step.contact import Contacts as Contacts
+from .step.contact_recorder import ContactRecorder as ContactRecorder
+from .step.contact_recorder import Recording as Recording
 from .step.dynamics import Coordinates as Coordinates
 from .step.dynamics import JointState as JointState
 from .step.engine import Engine as Engine

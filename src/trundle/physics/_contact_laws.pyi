@@ -38,3 +38,39 @@ def make_row_stepper(
     workers: Sequence[tuple[int, int]], links: Sequence[int], max_speed: float, always_actuated: bool
 ) -> RowStepper:
     """Make a stepper with a thread for each worker, which is a model and its data by their addresses."""
+
+def read_contacts(model: int, data: int, contacts: Sequence[int]) -> NDArray[np.float64]:
+    """Return (N, 15) rows of the contacts of these indices: see `step.contact.Contacts`."""
+
+class ContactRecorder:
+    """Contacts of chosen geoms, recorded by `step`."""
+
+    def __init__(self, geoms: Sequence[int], geom_count: int, most_steps: int) -> None:
+        """Have the latest steps with contacts kept, at most `most_steps`."""
+
+    @property
+    def is_stale(self) -> bool:
+        """True if other bodies sleep than those whose contacts are known; `set_sleeping` must follow."""
+
+    def set_sleeping(self, rows: NDArray[np.float64]) -> None:
+        """Set the contacts among sleeping bodies, from the last step on."""
+
+    def replace_since(self, time_ns: int, rows: NDArray[np.float64]) -> None:
+        """Record rows in place of whatever was recorded at that time or later."""
+
+    def take(self) -> tuple[list[int], NDArray[np.float64]]:
+        """Return the time of each row [ns] and the rows (N, 15), and forget them."""
+
+    def copy(self) -> ContactRecorder: ...
+
+def step(model: int, data: int, count: int, recorders: Sequence[ContactRecorder], time_ns: int, step_ns: int) -> int:
+    """Step up to `count` times, and record each; return how many steps, fewer if a recorder became stale.
+
+    Args:
+        model: address.
+        data: address.
+        count: of steps.
+        recorders: record at every step.
+        time_ns: before the first step [ns].
+        step_ns: length of a step [ns].
+    """

@@ -1,11 +1,11 @@
 """Contact sensors, also called bumpers."""
 
-from collections import deque
-from collections.abc import Callable
+from collections.abc import Iterator
 
+import numpy as np
 from msgspec import Struct
 
-from trundle.physics import Contact, Contacts
+from trundle.physics import ContactRecorder, Contacts
 from trundle.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, Vector3, Wrench
 
@@ -44,70 +44,64 @@ class ContactReading(Struct, frozen=True, kw_only=True):
 
 
 class ContactSensor(LiveSensor[ContactReading]):
-    """Contact sensor: records the contacts of its link's collisions at every step."""
+    """Contact sensor: records the contacts of its link's collisions at every step, in C++."""
 
     has_history = True
 
-    def __init__(self, mount: SensorMount, *, contacts: Callable[[frozenset[str]], Contacts]) -> None:
-        """Mount a contact sensor; see `LiveSensor`.
-
-        Args:
-            mount: model, link and sensor.
-            contacts: returns the last step's contacts of the named collisions.
-        """
+    def __init__(self, mount: SensorMount) -> None:
+        """Mount a contact sensor; see `LiveSensor`."""
         super().__init__(mount)
         names = mount.sensor.contact_collisions or tuple(collision.name for collision in mount.link.collisions)
         self._own = frozenset(f"{mount.model.name}::{mount.link.name}::{name}" for name in names)
-        self._contacts = contacts
-        self._buffer = _ContactBuffer(self._record)
-        self._recorded: deque[tuple[ContactRecord, ...]] = deque(maxlen=MAX_STEPS)
+        self._recorder = ContactRecorder(self._own, most_steps=MAX_STEPS)
 
     def start(self, simulation: Simulation) -> None:
-        """Register two hooks: recording at every step, reporting at the sensor's rate."""
-        simulation.add_hook(self._buffer, enabled=self.enabled)
+        """Register the recorder, and a hook that reports at the sensor's rate."""
+        simulation.add_recorder(self._recorder, enabled=self.enabled)
         super().start(simulation)
 
     def stop(self, simulation: Simulation) -> None:
-        """Remove both hooks."""
-        simulation.remove_hook(self._buffer)
+        """Remove both."""
+        simulation.remove_recorder(self._recorder)
         super().stop(simulation)
 
     def measure(self, snapshot: Snapshot) -> ContactReading:
         """Return the contacts of the last period; older ones fell into a time without listeners."""
         now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
-        felt = [touch for step in self._recorded for touch in step]
-        self._recorded.clear()
+        recorded = self._recorder.take(after_ns=now_ns - period_ns, until_ns=now_ns)
         return ContactReading(
             time_ns=now_ns,
-            contacts=tuple(touch for touch in felt if 0 <= now_ns - touch.time_ns < period_ns),
+            contacts=tuple(record for times_ns, contacts in recorded for record in self._records(times_ns, contacts)),
             world_from_link=self.world_from_link(snapshot),
         )
 
-    def _record(self, snapshot: Snapshot) -> None:
-        touches = tuple(self._contact_record(contact, snapshot.time_ns) for contact in self._contacts(self._own))
-        if touches:
-            self._recorded.append(touches)
-
-    def _contact_record(self, contact: Contact, time_ns: int) -> ContactRecord:
-        """Return the contact from the side of the sensor's link."""
-        first, second = contact.collisions
-        own, other, sign = (second, first, 1.0) if second in self._own else (first, second, -1.0)
-
-        def signed(vector: Vector3) -> Vector3:
-            return (sign * vector[0], sign * vector[1], sign * vector[2])
-
-        return ContactRecord(
-            time_ns=time_ns,
-            own=own,
-            other=other,
-            position=contact.position,
-            normal=signed(contact.normal),
-            depth=contact.depth,
-            wrench=Wrench(signed(contact.force.force), signed(contact.force.torque)),
+    def _records(self, times_ns: list[int], contacts: Contacts) -> Iterator[ContactRecord]:
+        """Yield the contacts from the side of the sensor's link."""
+        sides = {pair: self._side(pair) for pair in set(contacts.collisions)}
+        pairs = [sides[pair] for pair in contacts.collisions]
+        signs = np.array([sign for _, _, sign in pairs]).reshape(-1, 1)
+        columns = (
+            contacts.positions,
+            signs * contacts.normals,
+            contacts.depths,
+            signs * contacts.forces,
+            signs * contacts.torques,
         )
+        columns = [column.tolist() for column in columns]
+        for time_ns, (own, other, _), position, normal, depth, force, torque in zip(
+            times_ns, pairs, *columns, strict=True
+        ):
+            yield ContactRecord(
+                time_ns=time_ns,
+                own=own,
+                other=other,
+                position=tuple(position),
+                normal=tuple(normal),
+                depth=depth,
+                wrench=Wrench(tuple(force), tuple(torque)),
+            )
 
-
-class _ContactBuffer(Struct, frozen=True, eq=False):
-    """Hook that records at every step, for a sensor with a lower rate."""
-
-    after_step: Callable[[Snapshot], None]
+    def _side(self, collisions: tuple[str, str]) -> tuple[str, str, float]:
+        """Return the sensor's collision, the other one, and the sign of what acts on the former."""
+        first, second = collisions
+        return (second, first, 1.0) if second in self._own else (first, second, -1.0)

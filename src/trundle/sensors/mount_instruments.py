@@ -143,7 +143,7 @@ def _contact(at: _MountContext) -> ContactSensor:
         if name not in there:
             what = f"no collision {name!r} on link {link.name!r}; collisions here: {', '.join(there) or 'none'}"
             at.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {what}")
-    return ContactSensor(at.mount, contacts=at.simulation.contacts)
+    return ContactSensor(at.mount)
 
 
 def _gps(at: _MountContext) -> GpsSensor:

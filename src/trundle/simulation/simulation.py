@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
-from trundle.physics import CompiledWorld, Contacts, Engine, compile_world
+from trundle.physics import CompiledWorld, ContactRecorder, Contacts, Engine, Recording, compile_world
 from trundle.spatial import NS_PER_S
 
 from .actors import ActorPlayer, with_actors
@@ -83,6 +83,7 @@ class Simulation:
         self.record_input: Callable[[Repeat], None] | None = None
         """Takes what repeats each input from outside."""
         self._schedule = Schedule[Simulation](self._clock)
+        self._recorders: list[tuple[ContactRecorder, Callable[[], bool]]] = []
         self._on_change: list[Callable[[], None]] = []
         self.actors = {
             actor.name: ActorPlayer(actor, self[actor.name])
@@ -177,11 +178,17 @@ class Simulation:
         target = self._clock.step_at(self.time_ns + most_ns)
         stop = min([target, self.steps + _MAX_STRIDE, *[hook.next_step for hook in hooks], *self.loads.expiry_steps()])
         simulated_ns = (stop - self.steps) * self.step_ns
-        self.engine.step(stop - self.steps)
+        self.engine.step(stop - self.steps, self.recording)
         self.steps = stop
         self.loads.expire(self.steps)
         run_after(hooks, self.steps, self.snapshot)
         return simulated_ns
+
+    @property
+    def recording(self) -> Recording | None:
+        """Enabled recorders of contacts, for the coming stride; None: there are none."""
+        recorders = [recorder for recorder, enabled in self._recorders if enabled()]
+        return Recording(recorders, self.time_ns, self.step_ns) if recorders else None
 
     def add_hook(
         self,
@@ -211,6 +218,19 @@ class Simulation:
     def remove_hook(self, hook: object) -> None:
         """Remove a hook."""
         self._schedule.remove(hook)
+
+    def add_recorder(self, recorder: ContactRecorder, *, enabled: Callable[[], bool]) -> None:
+        """Record contacts at every step from now on, in C++.
+
+        Args:
+            recorder: records those of its collisions.
+            enabled: checked before each stride; while False, recording costs nothing.
+        """
+        self._recorders.append((recorder, enabled))
+
+    def remove_recorder(self, recorder: ContactRecorder) -> None:
+        """Stop recording."""
+        self._recorders = [each for each in self._recorders if each[0] is not recorder]
 
     # -- state
 

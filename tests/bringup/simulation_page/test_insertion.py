@@ -25,6 +25,7 @@ class Contents:
         self._simulation, self.packages, self.environment = simulation, packages, environment
 
     def spawn(self, model: Model, robot: Robot | None) -> None:
+        assert robot is None
         self._simulation.spawn(model)
 
     def delete(self, name: str) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compile.compiled_world import CompiledWorld
-from .contact import NO_CONTACTS, Contacts, contacts_of
+from .contact import Contacts, contacts_of
 from .engine_snapshot import ScratchEngine
 
 _Mask = NDArray[np.bool_]
@@ -24,7 +24,7 @@ class ContactQuery:
         self._bodies = compiled.model.geom_bodyid
         self._geom_masks: dict[frozenset[str], _Mask] = {}
         """Names of collisions → mask of their geoms."""
-        self._sleeping_contacts: tuple[bytes, Contacts] = (b"", NO_CONTACTS)
+        self._sleeping_contacts: tuple[bytes, Contacts] | None = None
         """Key of the sleeping bodies' state, and their contacts."""
 
     def contacts(self, among: frozenset[str] | None, asleep: Callable[[], NDArray[np.float64]] | None) -> Contacts:
@@ -37,15 +37,29 @@ class ContactQuery:
         marks = None if among is None else self._geom_mask(among)
         if asleep is None:
             return contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, None))
-        awake = self._data.body_awake[self._bodies] == _AWAKE
-        found = contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, awake))
-        sleeping = self._sleeping(awake, asleep)
-        return found + (sleeping if among is None else sleeping.among(among))
+        found = contacts_of(
+            self._compiled, self._compiled.model, self._data, self._contact_indices(marks, self._awake())
+        )
+        return found + self.sleeping_contacts(among, asleep)
+
+    def sleeping_contacts(self, among: frozenset[str] | None, state: Callable[[], NDArray[np.float64]]) -> Contacts:
+        """Return the contacts among sleeping bodies and what stands.
+
+        Args:
+            among: names of collisions, one of which takes part; None: all.
+            state: returns the engine's state.
+        """
+        sleeping = self._sleeping(self._awake(), state)
+        return sleeping if among is None else sleeping.among(among)
 
     def contacts_of_state(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> Contacts:
         """Return the contacts of a state, for data without contacts; see `contacts`."""
         found = self._scratch.contacts(state, np.zeros(len(self._bodies), dtype=bool))
         return found if among is None else found.among(among)
+
+    def _awake(self) -> _Mask:
+        """Return (geoms,) mask of those of awake bodies."""
+        return self._data.body_awake[self._bodies] == _AWAKE
 
     def _geom_mask(self, collisions: frozenset[str]) -> _Mask:
         if collisions not in self._geom_masks:
@@ -65,6 +79,6 @@ class ContactQuery:
         data = self._data
         asleep = data.body_awake != _AWAKE
         key = b"".join(each.tobytes() for each in (asleep, data.xpos[asleep], data.xquat[asleep]))
-        if key != self._sleeping_contacts[0]:
+        if self._sleeping_contacts is None or key != self._sleeping_contacts[0]:
             self._sleeping_contacts = (key, self._scratch.contacts(state(), awake))
         return self._sleeping_contacts[1]

@@ -20,6 +20,7 @@ from ..compile.solver_settings import silence_log
 from .contact import Contacts
 from .contact_laws import ContactLaws
 from .contact_query import ContactQuery
+from .contact_recorder import Recording, RecordingStepper
 from .dynamics import Dynamics
 from .engine_snapshot import EngineSnapshot, ScratchEngine
 from .instability import Divergence, find_divergence
@@ -99,8 +100,12 @@ class Engine:
         self.motors.switch_off()
         self.reader.invalidate()
 
-    def step(self, count: int) -> None:
+    def step(self, count: int, recording: Recording | None = None) -> None:
         """Advance `count` time steps, with the GIL released.
+
+        Args:
+            count: number of steps.
+            recording: recorders of contacts.
 
         Raises:
             SimulationUnstableError: names the diverging link; the state is the one before this call.
@@ -111,20 +116,26 @@ class Engine:
         if self._laws.is_active:
             self._laws.install()
         efforts, taken = self._data.qfrc_actuator.copy(), self._steps
-        self._advance(count)
+        stepper = None if recording is None else self._recording_stepper(recording)
+        self._advance(count, stepper)
         self._laws.look_ahead()
         self.reader.invalidate()
         if self._is_unstable():
+            if stepper is not None:
+                stepper.roll_back()
             self._roll_back(efforts, taken)
             divergence = self._find_divergence(count)
             self._roll_back(efforts, taken)
             raise SimulationUnstableError(divergence)
 
-    def _advance(self, count: int) -> None:
+    def _recording_stepper(self, recording: Recording) -> RecordingStepper:
+        return RecordingStepper(recording, self.compiled, self._data, query=self._contact_query, state=self._state)
+
+    def _advance(self, count: int, stepper: RecordingStepper | None = None) -> None:
         """Step in C, up to each update of the sleep policy."""
         while count > 0 and not self._is_unstable():
             some = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
-            self._sleep_policy.step(some)
+            self._sleep_policy.step(some, stepper)
             self.motors.write_efforts()
             if self._sleep_policy.is_on:
                 self.motors.write_sleeping_efforts(lambda: self._scratch.efforts(self._state()))
@@ -132,6 +143,8 @@ class Engine:
             count -= some
             if self._steps % DECISION_PERIOD == 0 and not self._laws.prevents_sleep and not self._is_unstable():
                 self._sleep_policy.update()
+                if stepper is not None and self._sleep_policy.has_state_only:
+                    stepper.replace_last(self.contacts)
 
     def _is_unstable(self) -> bool:
         for warning in self._warnings:

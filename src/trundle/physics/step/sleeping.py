@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compile.compiled_world import CompiledWorld
+from .contact_recorder import RecordingStepper
 
 DECISION_PERIOD = 512
 """Steps between two decisions."""
@@ -56,10 +57,13 @@ class SleepPolicy:
         """Number of sleeping trees."""
         return int(np.count_nonzero(self._data.tree_asleep >= 0)) if self.is_on else 0
 
-    def step(self, count: int) -> None:
-        """Step `count` times; while all trees sleep only the clock advances."""
+    def step(self, count: int, stepper: RecordingStepper | None) -> None:
+        """Step `count` times, by the stepper if there is one; while all trees sleep only the clock advances."""
         model, data = self._model, self._data
         self.has_state_only = False
+        if stepper is not None:
+            stepper.step(count)
+            return
         if count > 1 and self._all_sleep():
             mujoco.mj_step(model, data)  # trees with new commands wake
             count -= 1

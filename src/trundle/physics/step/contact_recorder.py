@@ -1,0 +1,127 @@
+"""Recording of contacts at every step, in C++ while the engine steps."""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+import mujoco
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from .. import _contact_laws
+from ..compile.compiled_world import CompiledWorld
+from .contact import Contacts
+from .contact_query import ContactQuery
+
+
+class ContactRecorder:
+    """Contacts of some collisions at every step that it is passed to; see `Recording`."""
+
+    def __init__(self, collisions: frozenset[str], *, most_steps: int) -> None:
+        """Record nothing so far.
+
+        Args:
+            collisions: names `model::link::collision`.
+            most_steps: steps with contacts to keep, the latest.
+        """
+        self.collisions = collisions
+        self._most_steps = most_steps
+        self._compiled: CompiledWorld | None = None
+        self._native: _contact_laws.ContactRecorder | None = None
+        self._earlier: list[tuple[list[int], Contacts]] = []
+        """Times [ns] and contacts from before models were spawned, deleted or edited."""
+
+    def bind(self, compiled: CompiledWorld) -> _contact_laws.ContactRecorder:
+        """Return the recorder of the geoms of a compiled world."""
+        if self._native is None or self._compiled is not compiled:
+            self._earlier = self._all()
+            geoms = [i for i, name in enumerate(compiled.geom_collisions) if name in self.collisions]
+            count = len(compiled.geom_collisions)
+            self._native = _contact_laws.ContactRecorder(geoms, count, self._most_steps)
+            self._compiled = compiled
+        return self._native
+
+    def take(self, *, after_ns: int | Fraction, until_ns: int) -> list[tuple[list[int], Contacts]]:
+        """Return times [ns] and contacts, as many of both, for the recorded ones within these times; forget all."""
+        taken, self._earlier = self._all(), []
+        if taken[:1] and not after_ns < taken[0][0][0] <= taken[-1][0][-1] <= until_ns:
+            taken = [_within(times_ns, contacts, after_ns, until_ns) for times_ns, contacts in taken]
+        return taken
+
+    def _all(self) -> list[tuple[list[int], Contacts]]:
+        """Return what is kept, the native recorder's share for the last time."""
+        if self._native is None or self._compiled is None:
+            return self._earlier
+        times_ns, rows = self._native.take()
+        latest = [(times_ns, Contacts(self._compiled.geom_collisions, rows))] if times_ns else []
+        return [*self._earlier, *latest]
+
+    def checkpoint(self) -> Callable[[], None]:
+        """Save what is recorded; return a function that restores it exactly."""
+        compiled, earlier = self._compiled, self._earlier.copy()
+        native = None if self._native is None else self._native.copy()
+
+        def restore() -> None:
+            self._compiled, self._earlier = compiled, earlier.copy()
+            self._native = None if native is None else native.copy()
+
+        return restore
+
+
+def _within(
+    times_ns: list[int], contacts: Contacts, after_ns: int | Fraction, until_ns: int
+) -> tuple[list[int], Contacts]:
+    chosen = [i for i, at_ns in enumerate(times_ns) if after_ns < at_ns <= until_ns]
+    return [times_ns[i] for i in chosen], contacts.select(chosen)
+
+
+class Recording(Struct, frozen=True, eq=False):
+    """Recorders of the coming steps."""
+
+    recorders: Sequence[ContactRecorder]
+    time_ns: int
+    """Time before the first of these steps [ns]."""
+    step_ns: int
+    """[ns]"""
+
+
+class RecordingStepper:
+    """Steps in C++ with recorders."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        compiled: CompiledWorld,
+        data: mujoco.MjData,
+        *,
+        query: ContactQuery,
+        state: Callable[[], NDArray[np.float64]],
+    ) -> None:
+        self._recorders = recording.recorders
+        self._natives = [recorder.bind(compiled) for recorder in recording.recorders]
+        self._time_ns = self._start_ns = recording.time_ns
+        self._step_ns = recording.step_ns
+        self._addresses = compiled.model._address, data._address
+        self._query = query
+        self._state = state
+
+    def step(self, count: int) -> None:
+        """Make `count` steps, and record each."""
+        while count > 0:
+            made = _contact_laws.step(*self._addresses, count, self._natives, self._time_ns, self._step_ns)
+            self._time_ns += made * self._step_ns
+            count -= made
+            for recorder, native in zip(self._recorders, self._natives, strict=True):
+                if native.is_stale:
+                    native.set_sleeping(self._query.sleeping_contacts(recorder.collisions, self._state).rows)
+
+    def replace_last(self, contacts: Callable[[frozenset[str]], Contacts]) -> None:
+        """Record the contacts of the current state in place of the last step's."""
+        for recorder, native in zip(self._recorders, self._natives, strict=True):
+            native.replace_since(self._time_ns, contacts(recorder.collisions).rows)
+
+    def roll_back(self) -> None:
+        """Forget all steps."""
+        nothing = np.empty((0, 15))
+        for native in self._natives:
+            native.replace_since(self._start_ns + self._step_ns, nothing)
