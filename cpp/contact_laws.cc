@@ -218,8 +218,9 @@ using Array = nb::ndarray<Value, nb::c_contig, nb::device::cpu>;
 RowStepper make_row_stepper(const Addresses& workers, std::vector<int> links, double max_speed, bool always_actuated) {
   std::vector<std::pair<mjModel*, mjData*>> found;
   for (const auto [model, data] : workers) {
-    const ModelData each(model, data);
-    found.emplace_back(const_cast<mjModel*>(each.m), each.d);
+    LawTables laws;
+    if (!LawTables::find(model_at(model), laws)) throw std::invalid_argument("this model has no laws");
+    found.emplace_back(const_cast<mjModel*>(model_at(model)), data_at(data));
   }
   return {std::move(found), std::move(links), max_speed, always_actuated};
 }
@@ -228,8 +229,8 @@ void step_rows(const RowStepper& stepper, const Array<const bool>& chosen, const
                const Array<const double>& max_efforts, const Array<const double>& rates, const Array<bool>& unstable,
                const Array<double>& poses, const Array<double>& twists, int steps) {
   const std::size_t count = chosen.size();
-  const Rows rows{count,        chosen.data(),   states.data(), max_efforts.data(),
-                  rates.data(), unstable.data(), poses.data(),  twists.data()};
+  const WorldRows rows{count,        chosen.data(),   states.data(), max_efforts.data(),
+                       rates.data(), unstable.data(), poses.data(),  twists.data()};
   for (const std::size_t length :
        {states.shape(0), max_efforts.shape(0), rates.shape(0), unstable.shape(0), poses.shape(0), twists.shape(0)})
     if (length != count) throw std::invalid_argument("every array has one row for each world");

@@ -15,7 +15,7 @@ namespace {
 constexpr int kDiverged[] = {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC};
 
 // Give a thread's model the motors of a row.
-void set_motors(mjModel* m, const LawTables& laws, const Rows& rows, std::size_t row, bool always) {
+void set_motors(mjModel* m, const LawTables& laws, const WorldRows& rows, std::size_t row, bool always) {
   const auto motors = static_cast<std::size_t>(m->ntendon);
   const double* most = rows.max_efforts + row * motors;
   std::copy_n(most, motors, m->tendon_frictionloss);
@@ -27,7 +27,7 @@ void set_motors(mjModel* m, const LawTables& laws, const Rows& rows, std::size_t
 
 }  // namespace
 
-void RowStepper::step(const Rows& rows, int steps) const {
+void RowStepper::step(const WorldRows& rows, int steps) const {
   std::atomic<std::size_t> next = 0;
   const auto work = [&](const std::pair<mjModel*, mjData*>& worker) {
     const auto [m, d] = worker;
@@ -45,7 +45,7 @@ void RowStepper::step(const Rows& rows, int steps) const {
   for (std::thread& thread : threads) thread.join();
 }
 
-void RowStepper::step_row(const mjModel* m, mjData* d, const Rows& rows, std::size_t row, int steps) const {
+void RowStepper::step_row(const mjModel* m, mjData* d, const WorldRows& rows, std::size_t row, int steps) const {
   double* state = rows.states + row * static_cast<std::size_t>(mujoco.mj_stateSize(m, mjSTATE_INTEGRATION));
   for (const int kind : kDiverged) d->warning[kind].number = 0;
   mujoco.mj_setState(m, d, state, mjSTATE_INTEGRATION);
@@ -66,7 +66,7 @@ bool RowStepper::is_stable(const mjModel* m, const mjData* d) const {
   return std::all_of(d->qvel, d->qvel + m->nv, [&](double speed) { return std::abs(speed) < max_speed_; });
 }
 
-void RowStepper::write_links(const mjModel* m, mjData* d, const Rows& rows, std::size_t row) const {
+void RowStepper::write_links(const mjModel* m, mjData* d, const WorldRows& rows, std::size_t row) const {
   mujoco.mj_kinematics(m, d);
   mujoco.mj_comPos(m, d);
   mujoco.mj_comVel(m, d);

@@ -10,7 +10,7 @@
 namespace trundle {
 
 // Arrays of `count` rows, row by row without gaps.
-struct Rows {
+struct WorldRows {
   std::size_t count;
   const bool* chosen;         // rows to step; the others stay
   double* states;             // mjSTATE_INTEGRATION
@@ -33,12 +33,12 @@ class RowStepper {
       : workers_(std::move(workers)), links_(std::move(links)), max_speed_(max_speed), always_(always_actuated) {}
 
   // Step each chosen row `steps` times, and write its poses and twists.
-  void step(const Rows& rows, int steps) const;
+  void step(const WorldRows& rows, int steps) const;
 
  private:
-  void step_row(const mjModel* m, mjData* d, const Rows& rows, std::size_t row, int steps) const;
+  void step_row(const mjModel* m, mjData* d, const WorldRows& rows, std::size_t row, int steps) const;
   bool is_stable(const mjModel* m, const mjData* d) const;
-  void write_links(const mjModel* m, mjData* d, const Rows& rows, std::size_t row) const;
+  void write_links(const mjModel* m, mjData* d, const WorldRows& rows, std::size_t row) const;
 
   std::vector<std::pair<mjModel*, mjData*>> workers_;
   std::vector<int> links_;
