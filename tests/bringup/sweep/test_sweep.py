@@ -80,6 +80,7 @@ def test_the_pushed_box_slides_as_far_as_friction_and_mass_say(plan: Path) -> No
     assert done.counts == {"ok": sum(row["x"] < 0.8 for row in rows), "failed": sum(row["x"] >= 0.8 for row in rows)}
 
 
+@pytest.mark.slow
 def test_a_killed_sweep_goes_on_and_its_table_is_the_same(plan: Path) -> None:
     whole = _sweep(plan, "-o", str(plan.with_name("whole")))
     assert whole.returncode == 1, whole.stderr
@@ -148,6 +149,7 @@ def test_a_plan_that_cannot_run_is_refused_before_the_first_run(plan: Path, chan
     assert not plan.with_suffix(".sweep").exists()
 
 
+@pytest.mark.slow
 def test_runs_that_hang_crash_or_raise_are_rows_with_a_reason(plan: Path) -> None:
     plan.with_name("box.py").write_text("""\
 import os, time
