@@ -1,6 +1,7 @@
 """Periodic hooks over simulation time."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import pytest
 
@@ -201,9 +202,9 @@ def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None
     strides: list[int] = []
     step = sim.engine.step
 
-    def counted(count: int) -> None:
+    def counted(count: int, *recorders: Any) -> None:
         strides.append(count)
-        step(count)
+        step(count, *recorders)
 
     sim.engine.step = counted  # type: ignore[method-assign]
     sim.run(0.1)

@@ -1,6 +1,6 @@
 """Makers of the ready environments, as Gymnasium calls them."""
 
-from .make import make_task, make_vec_task
+from .environments import make_task, make_vec_task
 from .ready_tasks import READY
 from .single_env import SimulationEnv
 from .vector_env import SimulationVectorEnv

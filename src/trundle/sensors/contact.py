@@ -68,7 +68,7 @@ class ContactSensor(LiveSensor[ContactReading]):
     def measure(self, snapshot: Snapshot) -> ContactReading:
         """Return the contacts of the last period; older ones fell into a time without listeners."""
         now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
-        recorded = self._recorder.take(after_ns=now_ns - period_ns, until_ns=now_ns)
+        recorded = self._recorder.pop(after_ns=now_ns - period_ns, until_ns=now_ns)
         return ContactReading(
             time_ns=now_ns,
             contacts=tuple(record for times_ns, contacts in recorded for record in self._records(times_ns, contacts)),

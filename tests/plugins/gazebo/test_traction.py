@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.plugins.stage import BODY, Wires, load
@@ -117,9 +118,9 @@ def test_wheels_slip_without_python_at_each_step(tmp_path: Path, monkeypatch: py
     strides: list[int] = []
     step = Engine.step
 
-    def counted(engine: Engine, count: int) -> None:
+    def counted(engine: Engine, count: int, *recorders: Any) -> None:
         strides.append(count)
-        step(engine, count)
+        step(engine, count, *recorders)
 
     monkeypatch.setattr(Engine, "step", counted)
     sim.run(1.0)

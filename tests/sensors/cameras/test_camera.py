@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
@@ -79,9 +80,9 @@ def test_a_camera_nobody_looks_at_costs_nothing() -> None:
     strides: list[int] = []
     step = sim.engine.step
 
-    def counted(count: int) -> None:
+    def counted(count: int, *recorders: Any) -> None:
         strides.append(count)
-        step(count)
+        step(count, *recorders)
 
     sim.engine.step = counted  # type: ignore[method-assign]
     sim.run(1.0)

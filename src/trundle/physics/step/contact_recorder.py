@@ -41,7 +41,7 @@ class ContactRecorder:
             self._compiled = compiled
         return self._native
 
-    def take(self, *, after_ns: int | Fraction, until_ns: int) -> list[tuple[list[int], Contacts]]:
+    def pop(self, *, after_ns: int | Fraction, until_ns: int) -> list[tuple[list[int], Contacts]]:
         """Return times [ns] and contacts, as many of both, for the recorded ones within these times; forget all."""
         taken, self._earlier = self._all(), []
         if taken[:1] and not after_ns < taken[0][0][0] <= taken[-1][0][-1] <= until_ns:
