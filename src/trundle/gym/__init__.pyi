@@ -4,9 +4,9 @@ from .actions import VelocityAction as VelocityAction
 from .cross_entropy import Generation as Generation
 from .cross_entropy import score as score
 from .cross_entropy import train as train
-from .linear_policy import LinearPolicy as LinearPolicy
 from .environments import make as make
 from .environments import make_vec as make_vec
+from .linear_policy import LinearPolicy as LinearPolicy
 from .observations import Computed as Computed
 from .observations import JointPositions as JointPositions
 from .observations import JointVelocities as JointVelocities
