@@ -19,7 +19,7 @@ SHORT = ("--duration", "0.2", "--speed", "max")
 
 @pytest.fixture
 def opened(tmp_path: Path) -> Path:
-    """What a browser was asked to open, a URL a line."""
+    """File of the URLs that the browser was asked to open, one per line."""
     browser = tmp_path / "browser"
     browser.write_text(f'#!/bin/sh\necho "$1" >> {tmp_path}/opened\n')
     browser.chmod(0o755)

@@ -52,7 +52,7 @@ def _is_enabled(file: Path, display: str) -> bool:
 def test_what_was_changed_is_downloaded(user: SceneUser) -> None:
     unsaved = user.page.get_by_text("not saved")
     user.page.get_by_role("treeitem").filter(has_text="Grid").first.wait_for()
-    assert unsaved.count() == 0  # nobody has changed anything
+    assert unsaved.count() == 0  # nothing has been changed
     _switch(user, "Grid")
     user.page.get_by_text("1 change, not saved").wait_for()
     with user.page.expect_download() as download:

@@ -151,7 +151,7 @@ def test_two_simulations_on_two_threads_are_as_one_alone(load: Callable[[], Simu
 
 
 def test_a_timeline_goes_back_into_the_middle_of_a_period(load: Callable[[], Simulation]) -> None:
-    """What was recorded before the saved state is told again."""
+    """Contacts recorded before the saved state are reported again."""
     sim = load()
     sensors = _Sensors(sim)
     sim.run(0.35)

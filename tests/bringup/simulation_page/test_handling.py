@@ -136,7 +136,7 @@ def test_a_person_who_fell_silent_lets_go(sim: Simulation) -> None:
 
 
 def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
-    """The second time nobody pulls, and nothing lapses; the bytes are the same."""
+    """The timeline repeats the pull without requests, and lets go as before; the bytes are the same."""
     timeline = Timeline(sim)
     wall_s = [0.0]
     controls = SimulationControls(sim, None, timeline, wall_ns=lambda: round(wall_s[0] * 1e9))

@@ -1,4 +1,4 @@
-"""What a person at the page puts into a running world, as the page asks for it."""
+"""Insertion of models, shapes and lights into a running world, by requests of the page."""
 
 from collections.abc import Mapping
 from pathlib import Path
