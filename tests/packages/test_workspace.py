@@ -1,5 +1,6 @@
 """Packages of the workspace around the working directory."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -78,3 +79,19 @@ def test_folders_in_the_working_folder_need_a_manifest_and_a_home_folder_is_not_
 
     assert [packages.find_package(name) for name in ("thing", "home", "deep", "plain", "..")] == [None] * 5
     assert "thing" not in packages.ros_packages()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no sticky folders")
+@pytest.mark.parametrize("left", ["launch/other.launch", "package.xml", "src/other/package.xml"])
+def test_what_lies_in_a_folder_of_temporary_files_is_not_the_robots_package(tmp_path: Path, left: str) -> None:
+    """Any user may create files in /tmp: they make it neither a package nor a workspace."""
+    (tmp_path / "shared" / left).parent.mkdir(parents=True)
+    (tmp_path / "shared" / left).write_text("<package><name>other</name></package>")
+    (tmp_path / "shared/mine").mkdir()
+    (tmp_path / "shared/other/launch").mkdir(parents=True)
+    (tmp_path / "shared").chmod(0o1777)
+
+    packages = Packages({"HOME": "/nobody"}, start=tmp_path / "shared/mine")
+
+    assert packages.find_package("other") is None
+    assert not packages.package_folders()

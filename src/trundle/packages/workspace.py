@@ -1,6 +1,7 @@
 """Surroundings of a file: its package, its workspace, and the folders searched for neighbours."""
 
 import os
+import stat
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -96,6 +97,18 @@ def ancestor_folders(start: Path, *, levels: int = 4) -> list[Path]:
 
 
 def _with_parents(start: Path) -> Iterator[Path]:
-    """Yield a folder, or a file's, and its parents except the root of the disk."""
+    """Yield a folder, or a file's, and its parents up to the root of the disk or a folder of temporary files."""
     folder = start if os.path.isdir(start) else start.parent
-    return (each for each in (folder, *folder.parents) if each.parent != each)
+    for each in (folder, *folder.parents):
+        if each.parent == each or (each != folder and _is_shared(each)):
+            return
+        yield each
+
+
+def _is_shared(folder: Path) -> bool:
+    """True for a folder such as /tmp, in which any user may create a `launch` or a package.xml."""
+    try:
+        mode = os.stat(folder).st_mode
+    except OSError:
+        return False
+    return bool(mode & stat.S_ISVTX and mode & stat.S_IWOTH)
