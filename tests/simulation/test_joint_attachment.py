@@ -55,6 +55,20 @@ def test_what_is_attached_to_the_world_stays_where_it_is_and_falls_when_let_go(s
     assert there.pose.position[2] < height - 0.3
 
 
+def test_what_is_fixed_to_the_world_is_moved_with_its_joint(sim: Simulation) -> None:
+    """The arm that hangs on it keeps its angle."""
+    sim.attach(joint(JointType.FIXED, "world", "b::l"))
+    angle = sim["b"].joint("hinge").position
+    there = Pose((4.0, 5.0, 6.0), Pose.from_rpy(0.0, 0.0, 0.0, 0.0, 0.0, 0.7).quaternion)
+
+    sim["b"].set_pose(there)
+
+    assert same(sim["b"].pose, there)
+    assert sim["b"].joint("hinge").position == pytest.approx(angle)
+    sim.run(0.5)
+    assert same(sim["b"].pose, there)
+
+
 def test_two_models_go_on_as_one(sim: Simulation) -> None:
     one, other = sim["a"].link("l"), sim["b"].link("l")
     before = one.pose.inverse() @ other.pose

@@ -18,14 +18,19 @@ class JointStatesTopic:
 
     def __init__(self, node: Node, model: ModelHandle, *, topic: str = "/joint_states") -> None:
         """Advertise the joints of one model."""
-        movable = [handle for handle in model.joints if handle.joint.type in _MOVABLE]
+        self._publisher = node.advertise(topic, "sensor_msgs/JointState", queue_size=5)
+        self.set_model(model)
+
+    def set_model(self, model: ModelHandle | None) -> None:
+        """Take the joints' indices after the world was changed; None: the model was deleted."""
+        self._is_there = model is not None
+        movable = [handle for handle in ([] if model is None else model.joints) if handle.joint.type in _MOVABLE]
         self._names = [ros_name(handle.name) for handle in movable]
         self._joints = np.array([handle.index for handle in movable], dtype=np.intp)
-        self._publisher = node.advertise(topic, "sensor_msgs/JointState", queue_size=5)
 
-    def has_subscribers(self) -> bool:
-        """True if there is a subscriber."""
-        return self._publisher.has_subscribers
+    def enabled(self) -> bool:
+        """True if there is a model, and a subscriber."""
+        return self._is_there and self._publisher.has_subscribers
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish."""

@@ -1,7 +1,5 @@
 from .edit_requests import ApplyWrench as ApplyWrench
 from .edit_requests import Carry as Carry
-from .edit_requests import CopyModel as CopyModel
-from .edit_requests import DeleteModel as DeleteModel
 from .edit_requests import EditAction as EditAction
 from .edit_requests import HoldModel as HoldModel
 from .edit_requests import LetGo as LetGo
@@ -9,7 +7,6 @@ from .edit_requests import MoveJoint as MoveJoint
 from .edit_requests import PlaceJoint as PlaceJoint
 from .edit_requests import PlaceLight as PlaceLight
 from .edit_requests import Pull as Pull
-from .edit_requests import RestoreModel as RestoreModel
 from .edit_requests import SetFriction as SetFriction
 from .edit_requests import SetLight as SetLight
 from .edit_requests import SetMass as SetMass
@@ -52,10 +49,15 @@ from .web_server import SocketOptions as SocketOptions
 from .web_server import WebServer as WebServer
 from .wire import BagFile as BagFile
 from .wire import GraphAddress as GraphAddress
+from .world_requests import CopyModel as CopyModel
 from .world_requests import DeleteLight as DeleteLight
+from .world_requests import DeleteModel as DeleteModel
 from .world_requests import InsertAction as InsertAction
 from .world_requests import InsertLight as InsertLight
 from .world_requests import InsertModel as InsertModel
 from .world_requests import ListModels as ListModels
+from .world_requests import ModelAction as ModelAction
 from .world_requests import RenderModel as RenderModel
+from .world_requests import RestoreLight as RestoreLight
+from .world_requests import RestoreModel as RestoreModel
 from .world_requests import SaveWorld as SaveWorld

@@ -168,28 +168,6 @@ class ApplyWrench(Action, frozen=True, tag="wrench"):
     """Simulated time [s]."""
 
 
-class CopyModel(Action, frozen=True, tag="copy"):
-    """Add a copy of a model in the state that it has."""
-
-    model: Name
-    name: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
-    """Name of the copy."""
-    offset: Triple
-    """From the model to its copy, in the world [m]."""
-
-
-class DeleteModel(Action, frozen=True, tag="delete"):
-    """Remove a model from the world."""
-
-    model: Name
-
-
-class RestoreModel(Action, frozen=True, tag="restore"):
-    """Put back a model that the page deleted, in the state that it had."""
-
-    model: Name
-
-
 EditAction: TypeAlias = (
     MoveJoint
     | PlaceJoint
@@ -205,6 +183,4 @@ EditAction: TypeAlias = (
     | PlaceLight
     | SetPhysics
     | ApplyWrench
-    | CopyModel
-    | DeleteModel
 )

@@ -8,8 +8,8 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from .edit_requests import Action, EditAction, RestoreModel
-from .world_requests import InsertAction, RenderModel, SaveWorld
+from .edit_requests import Action, EditAction
+from .world_requests import InsertAction, ModelAction, RenderModel, SaveWorld
 
 _MAX_STEPS = 1_000_000
 _MAX_TEXT = 4_000_000
@@ -132,7 +132,7 @@ ClientAction: TypeAlias = (
     | EditAction
     | SaveWorld
     | InsertAction
-    | RestoreModel
+    | ModelAction
     | MoveSlider
     | MoveJoystick
     | SaveRviz

@@ -51,10 +51,39 @@ class DeleteLight(Action, frozen=True, tag="delete_light"):
     light: Name
 
 
+class RestoreLight(Action, frozen=True, tag="restore_light"):
+    """Put back a light that the page deleted."""
+
+    light: Name
+
+
+class CopyModel(Action, frozen=True, tag="copy"):
+    """Add a copy of a model in the state that it has, with its sensors and plugins."""
+
+    model: Name
+    name: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
+    """Name of the copy."""
+    offset: Triple
+    """From the model to its copy, in the world [m]."""
+
+
+class DeleteModel(Action, frozen=True, tag="delete"):
+    """Remove a model from the world, with its sensors and plugins."""
+
+    model: Name
+
+
+class RestoreModel(Action, frozen=True, tag="restore"):
+    """Put back a model that the page deleted, in the state that it had, with its sensors and plugins."""
+
+    model: Name
+
+
 class RenderModel(Action, frozen=True, tag="model_picture"):
     """Draw a model of the model path; answered by `PageServer.respond_picture`."""
 
     model: FileName
 
 
-InsertAction: TypeAlias = ListModels | InsertModel | InsertLight | DeleteLight
+InsertAction: TypeAlias = ListModels | InsertModel | InsertLight
+ModelAction: TypeAlias = CopyModel | DeleteModel | RestoreModel | DeleteLight | RestoreLight

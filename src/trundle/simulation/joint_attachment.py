@@ -7,9 +7,7 @@ from trundle.model import Joint, JointAxis, JointType, World
 from trundle.spatial import Pose
 
 from .handles import LinkHandle, ModelHandle
-from .world_edits import with_model_at
-
-WORLD = "world"
+from .world_edits import WORLD, with_model_at
 
 
 def with_joint(world: World, models: list[ModelHandle], joint: Joint) -> World:

@@ -10,6 +10,9 @@ from trundle.model import Joint, World
 from trundle.physics import Engine, compile_world
 from trundle.spatial import Pose, Twist, pose_from_row
 
+WORLD = "world"
+"""Name of the world as the parent of a joint."""
+
 
 def unique_name(world: World, name: str) -> str:
     """Return the name, with _0, _1, … appended if it is taken, as Gazebo does."""
@@ -83,12 +86,21 @@ def with_model_renamed(world: World, name: str, new: str) -> World:
 
 
 def with_model_at(world: World, name: str, world_from_model: Pose) -> World:
-    """Return the world with a model at another pose."""
+    """Return the world with a model at another pose, and with it the joints that fix it to the world as it runs."""
+    before = next(model.world_from_model for model in world.models if model.name == name)
+    moved = world_from_model @ before.inverse()
+
+    def held(joint: Joint) -> Joint:
+        if joint.parent_from_child is None or joint.parent != WORLD or not joint.child.startswith(f"{name}::"):
+            return joint
+        return replace(joint, parent_from_child=moved @ joint.parent_from_child)
+
     return replace(
         world,
         models=tuple(
             replace(model, world_from_model=world_from_model) if model.name == name else model for model in world.models
         ),
+        joints=tuple(map(held, world.joints)),
     )
 
 

@@ -11,7 +11,6 @@ from trundle.bringup.simulation_page.edits import edit
 from trundle.diagnostics import UsageError
 from trundle.page import (
     ApplyWrench,
-    DeleteModel,
     EditAction,
     MoveJoint,
     SetFriction,
@@ -89,12 +88,6 @@ def test_friction_lights_gravity_wind_and_time_step(sim: Simulation) -> None:
     assert sim["outer"].twist.linear[2] == pytest.approx(-1.6, rel=1e-3)
 
 
-def test_a_model_is_deleted(sim: Simulation) -> None:
-    edit(DeleteModel("outer"), sim)
-
-    assert [model.name for model in sim.models] == ["cart"]
-
-
 @pytest.mark.parametrize(
     ("action", "said"),
     [
@@ -141,7 +134,8 @@ def test_a_timeline_repeats_every_edit(sim: Simulation) -> None:
     do(SetMass("cart", "base", 4.0), 200_000_000)
     do(SetPhysics(gravity=(0, 0, -1.6)), 400_000_000)
     do(SetPose("cart", "base", (3, 4, 5), (1, 0, 0, 0)), 600_000_000)
-    do(DeleteModel("outer"), 1_500_000_000)
+    timeline.do(lambda simulation: simulation.delete("outer"))
+    timeline.advance(1_500_000_000)
     ended = sim.snapshot().poses.tobytes()
 
     timeline.seek(100_000_000)

@@ -1,15 +1,20 @@
 """Models that a person at the page carries, pulls and holds: what they do meanwhile, and what they do when let go."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.bringup.simulation_page.worlds import loaded
+from tests.bringup.simulation_page.worlds import CAMERA, loaded, model
 
 from trundle.bringup.realtime_pacer import RealtimePacer
+from trundle.bringup.simulation_page import handling
 from trundle.bringup.simulation_page.controls import SimulationControls
 from trundle.bringup.simulation_page.edits import edit
-from trundle.bringup.simulation_page.handling import handled_models, is_held
-from trundle.diagnostics import UsageError
+from trundle.bringup.simulation_page.handling import handled_models
+from trundle.bringup.simulation_page.model_edits import ModelEdits
+from trundle.bringup.world_contents import BareContents
+from trundle.diagnostics import Source, UsageError
+from trundle.model import Joint, JointType
 from trundle.page import (
     Carry,
     CopyModel,
@@ -92,7 +97,7 @@ def test_what_is_held_stays_in_the_air_and_its_joints_move(sim: Simulation) -> N
     """It can be moved, and is freed again."""
     edit(HoldModel("cart", on=True), sim)
     edit(SetPose("cart", "base", (0, 0, 4), _UPRIGHT), sim)
-    assert is_held(sim, "cart")
+    assert handling.is_held(sim, "cart")
     sim.run(1.0)
     assert sim["cart"].pose.position == pytest.approx((0, 0, 4))
     assert sim["cart"].joint("lift").position == pytest.approx(-1.0, abs=0.01)
@@ -160,7 +165,7 @@ def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
 def test_a_copy_is_in_the_state_of_the_model(sim: Simulation) -> None:
     sim["cart"].joint("lift").set_position(0.25)
     sim.run(0.3)
-    edit(CopyModel("cart", "cart_0", (2, 0, 0)), sim)
+    model_edits(sim).handle(CopyModel("cart", "cart_0", (2, 0, 0)))
 
     copy, cart = sim["cart_0"], sim["cart"]
     assert copy.pose.position == pytest.approx((2, 0, cart.pose.position[2]))
@@ -170,12 +175,39 @@ def test_a_copy_is_in_the_state_of_the_model(sim: Simulation) -> None:
     assert copy.link("arm").pose.position[2] == pytest.approx(cart.link("arm").pose.position[2], abs=1e-6)
 
 
-def test_what_was_deleted_is_put_back_as_it_was(sim: Simulation) -> None:
-    controls, pacer = SimulationControls(sim, None, None), RealtimePacer(1.0)
+@pytest.mark.parametrize("is_held", [False, True])
+def test_what_was_deleted_is_put_back_as_it_was(sim: Simulation, is_held: bool) -> None:
+    edits = model_edits(sim)
+    sim.run(0.3)
+    edit(HoldModel("cart", on=is_held), sim)
     sim.run(0.3)
     before = sim.snapshot().poses.copy()
     for action in (DeleteModel("cart"), RestoreModel("cart")):
-        controls.handle(action, pacer, paused=True)
+        edits.handle(action)
     assert sorted(sim.snapshot().poses.tolist()) == sorted(before.tolist())
+    assert handling.is_held(sim, "cart") == is_held
     with pytest.raises(UsageError, match="has deleted no model 'wall'"):
-        controls.handle(RestoreModel("wall"), pacer, paused=True)
+        edits.handle(RestoreModel("wall"))
+
+
+def test_where_no_sensor_can_be_started_none_is_copied(tmp_path: Path) -> None:
+    sim = loaded(tmp_path, model("eye", CAMERA, static=False))[0]
+    with pytest.raises(UsageError, match="'eye_0' has sensors or plugins, which would not run here"):
+        model_edits(sim).handle(CopyModel("eye", "eye_0", (2, 0, 0)))
+
+
+def test_what_is_tied_to_another_model_is_not_moved_alone(sim: Simulation) -> None:
+    """Its joint would hold it where it is, as in Gazebo."""
+    tie = Joint(name="tie", type=JointType.FIXED, parent="wall::l", child="cart::base", at=Source("test"))
+    sim.attach(tie)
+    with pytest.raises(UsageError, match="'cart' goes with 'wall::l': joint 'tie' ties them"):
+        edit(SetPose("cart", "base", (0, 0, 4), _UPRIGHT), sim)
+    edit(SetPose("wall", "l", (7, 0, 0), _UPRIGHT), sim)
+    assert sim["cart"].pose.position == pytest.approx((-2, 0, 5))
+
+
+def model_edits(sim: Simulation) -> ModelEdits:
+    def do(command: Callable[[Simulation], None]) -> None:
+        command(sim)
+
+    return ModelEdits(sim, BareContents(do), do)

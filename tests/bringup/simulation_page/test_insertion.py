@@ -6,11 +6,12 @@ from pathlib import Path
 import pytest
 
 from trundle.bringup.simulation_page.insertion import Insertion
+from trundle.bringup.simulation_page.model_edits import ModelEdits
 from trundle.description import load_text
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Model
 from trundle.packages import Packages
-from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels
+from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels, RestoreLight
 from trundle.robot import Robot
 from trundle.simulation import Simulation
 
@@ -27,6 +28,9 @@ class Contents:
     def spawn(self, model: Model, robot: Robot | None) -> None:
         assert robot is None
         self._simulation.spawn(model)
+
+    def robot(self, model: str) -> None:
+        assert any(each.name == model for each in self._simulation.models)
 
     def delete(self, name: str) -> None:
         self._simulation.delete(name)
@@ -48,6 +52,12 @@ def simulation(tmp_path: Path, environment: dict[str, str]) -> Simulation:
 def insertion(simulation: Simulation, tmp_path: Path, environment: dict[str, str]) -> Insertion:
     contents = Contents(simulation, Packages(environment, start=tmp_path), environment)
     return Insertion(simulation, contents, lambda command: command(simulation))
+
+
+@pytest.fixture
+def edits(simulation: Simulation, tmp_path: Path, environment: dict[str, str]) -> ModelEdits:
+    contents = Contents(simulation, Packages(environment, start=tmp_path), environment)
+    return ModelEdits(simulation, contents, lambda command: command(simulation))
 
 
 def _put_crate(tmp_path: Path, plugin: str = "") -> None:
@@ -97,19 +107,27 @@ def test_a_model_with_code_is_asked_for_first(insertion: Insertion, simulation: 
     assert agreed == {"name": "crate"}
 
 
-def test_lights_come_and_go(insertion: Insertion, simulation: Simulation) -> None:
+def test_lights_come_and_go(insertion: Insertion, edits: ModelEdits, simulation: Simulation) -> None:
+    def heights() -> dict[str, tuple[float, float, float]]:
+        return {light.name: light.world_from_light.position for light in simulation.world.lights}
+
     name = insertion.handle(InsertLight(type="spot", position=(1.0, 2.0, 0.0)))["name"]
-    heights = {light.name: light.world_from_light.position for light in simulation.world.lights}
-    insertion.handle(DeleteLight(light=name))
+    there = heights()
+    edits.handle(DeleteLight(light=name))
+    gone = heights()
+    edits.handle(RestoreLight(light=name))
 
-    assert heights[name] == (1.0, 2.0, 2.0)
-    assert name not in {light.name for light in simulation.world.lights}
+    assert there[name] == (1.0, 2.0, 2.0)
+    assert name not in gone
+    assert heights() == there
 
 
-def test_what_is_not_there_is_a_sentence(insertion: Insertion) -> None:
+def test_what_is_not_there_is_a_sentence(insertion: Insertion, edits: ModelEdits) -> None:
     with pytest.raises(UsageError, match="no model 'nothing' on the model path"):
         insertion.handle(InsertModel(model="nothing", position=(0.0, 0.0, 0.0)))
     with pytest.raises(UsageError, match="no shape 'cone'; there are: box, sphere, cylinder"):
         insertion.handle(InsertModel(model="cone", position=(0.0, 0.0, 0.0), is_shape=True))
     with pytest.raises(UsageError, match="the world has no light 'moon'"):
-        insertion.handle(DeleteLight(light="moon"))
+        edits.handle(DeleteLight(light="moon"))
+    with pytest.raises(UsageError, match="the page has deleted no light 'moon'"):
+        edits.handle(RestoreLight(light="moon"))

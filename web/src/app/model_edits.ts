@@ -32,14 +32,12 @@ export function copyModel(shell: Shell, model: string): void {
   });
 }
 
-/** Delete a model. It can be undone where all that it is comes back: without plugins and sensors. */
+/** Delete a model, with its sensors and plugins. */
 export function deleteModel(shell: Shell, model: string): void {
   const outer = outermost(shell.page, model);
   if (outer === null) return;
   const remove = { request: "delete", fields: { model: outer.name } };
-  const title = `Delete ${outer.name}`;
-  if (isPlain(outer)) void change(shell, title, remove, { request: "restore", fields: { model: outer.name } });
-  else shell.request(title, "delete", remove.fields);
+  void change(shell, `Delete ${outer.name}`, remove, { request: "restore", fields: { model: outer.name } });
 }
 
 /** Commands for what is selected. */
@@ -88,10 +86,6 @@ function modelOf(selection: Selection | null): string | null {
 function outermost(page: Page, name: string): ModelInfo | null {
   const models = page.world.manifest.peek()?.models ?? [];
   return models.find((model) => `${name}::`.startsWith(`${model.name}::`)) ?? null;
-}
-
-function isPlain(model: ModelInfo): boolean {
-  return model.plugins.length === 0 && model.links.every((link) => link.sensors.length === 0) && model.models.every(isPlain);
 }
 
 function freeName(page: Page, name: string): string {

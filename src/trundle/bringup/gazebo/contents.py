@@ -96,6 +96,10 @@ class GazeboContents:
         self.simulation.spawn(model)
         self._sensors.mount(model.name, robot=robot)
 
+    def robot(self, model: str) -> Robot | None:
+        """Return the URDF that a model was spawned from."""
+        return self._sensors.robot(model)
+
     def load_plugins(self, name: str) -> None:
         """Load the plugins of a spawned model."""
         self._plugins.load_model(self.simulation[name])

@@ -9,9 +9,9 @@ from trundle.simulation import Simulation
 
 from ..realtime_pacer import RealtimePacer
 from ..shared_page import SharedPage
-from ..simulation_page.insertion import WorldContents
 from ..simulation_page.page import SimulationPage
 from ..state_logs import PageRecording
+from ..world_contents import WorldContents
 
 
 class GzclientPage:

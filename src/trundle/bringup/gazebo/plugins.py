@@ -6,9 +6,8 @@ from trundle.ros import Clock, Deliver, Node
 from trundle.simulation import ModelHandle, Simulation
 
 from ..graph import Graph
+from ..model_nodes import ModelNodes
 from ..plugins import load_plugins, load_world_plugins
-
-_END_S = 30.0
 
 
 class GazeboPlugins:
@@ -43,34 +42,27 @@ class GazeboPlugins:
         self._clock = clock
         self._deliver = deliver
         self._say = say
-        self._nodes: dict[str, list[Node]] = {}
-        """Model → nodes of its plugins; "" is the world."""
+        self._nodes = ModelNodes(graph.loop, self._node)
 
     def load(self) -> None:
         """Load the plugins of every model, then those of the world."""
         for model in self._simulation.models:
             self.load_model(model)
-        load_world_plugins(self._simulation, lambda name: self._node(name, ""), self._env, say=self._say)
+        load_world_plugins(self._simulation, self._nodes.maker(""), self._env, say=self._say)
 
     def load_model(self, model: ModelHandle) -> None:
         """Load the plugins of a model."""
-        load_plugins(
-            self._simulation, lambda name: self._node(name, model.name), self._env, say=self._say, models=[model]
-        )
+        load_plugins(self._simulation, self._nodes.maker(model.name), self._env, say=self._say, models=[model])
 
     def unload(self, model: str) -> None:
         """Shut down the nodes of a deleted model."""
-        for node in self._nodes.pop(model, []):
-            self._graph.loop.run(node.shutdown(), timeout_s=_END_S)
+        self._nodes.shut_down(model)
 
     def close(self) -> None:
         """Shut down every node without waiting; from any thread."""
-        for nodes in self._nodes.values():
-            for node in nodes:
-                self._graph.loop.spawn(node.shutdown())
-        self._nodes.clear()
+        self._nodes.close()
 
-    def _node(self, name: str, model: str) -> Node:
+    def _node(self, name: str) -> Node:
         graph = self._graph
         node = Node(
             name,
@@ -81,5 +73,4 @@ class GazeboPlugins:
             host=graph.host,
         )
         node.profile = self._server.profile
-        self._nodes.setdefault(model, []).append(node)
         return node

@@ -1,13 +1,13 @@
 """Sensors of the world behind /gazebo, and their topics, as models come and go."""
 
-from trundle.bridge import FrameNames, make_camera_topics, make_sensor_topics
+from trundle.bridge import FrameNames
 from trundle.diagnostics import Diagnostics
 from trundle.robot import Robot
-from trundle.ros import Endpoint, Node, StaticTransformBroadcaster
+from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, InstrumentSensor, RayScene, mount_cameras, mount_sensors
 from trundle.simulation import Simulation
 
-from ..plugins import attach_sensor_plugins
+from ..model_topics import ModelTopics
 from ..renderers import RENDERERS, RendererName
 
 
@@ -17,13 +17,9 @@ class GazeboSensors:
     def __init__(self, simulation: Simulation, node: Node, renderer: RendererName, report: Diagnostics) -> None:
         """Prepare; `mount` starts sensors."""
         self._simulation = simulation
-        self._node = node
-        self._static_broadcaster = StaticTransformBroadcaster(node)
+        self._topics = ModelTopics(node, StaticTransformBroadcaster(node), report)
         self._renderer: RendererName = renderer
-        self._report = report
         self._around = RayScene(simulation)
-        self._endpoints: dict[str, list[Endpoint]] = {}
-        """Model → topics and services of its sensors."""
         self._robots: dict[str, Robot] = {}
         """Model → URDF that it was spawned from."""
         self.all: list[CameraSensor | InstrumentSensor] = []
@@ -45,13 +41,12 @@ class GazeboSensors:
         for sensor in (*cameras, *sensors):
             sensor.start(simulation)
         self.all += [*cameras, *sensors]
-        for owner in dict.fromkeys(sensor.model.name for sensor in (*cameras, *sensors)):
-            with self._node.endpoints.record() as self._endpoints[owner]:
-                self._advertise(
-                    [camera for camera in cameras if camera.model.name == owner],
-                    [sensor for sensor in sensors if sensor.model.name == owner],
-                    FrameNames.from_robot(robot) if robot is not None and len(self._robots) == 1 else FrameNames(),
-                )
+        names = FrameNames.from_robot(robot) if robot is not None and len(self._robots) == 1 else FrameNames()
+        self._topics.advertise(cameras, sensors, names)
+
+    def robot(self, model: str) -> Robot | None:
+        """Return the URDF that a model was spawned from."""
+        return self._robots.get(model)
 
     def unmount(self, model: str) -> None:
         """Stop the sensors of a deleted model, and unregister its topics unless another model has them, too."""
@@ -60,16 +55,4 @@ class GazeboSensors:
         for sensor in gone:
             sensor.stop(self._simulation)
         self._robots.pop(model, None)
-        ends = self._endpoints.pop(model, [])
-        shared = {id(end) for others in self._endpoints.values() for end in others}
-        for end in ends:
-            if id(end) not in shared:
-                end.unregister()
-
-    def _advertise(self, cameras: list[CameraSensor], sensors: list[InstrumentSensor], names: FrameNames) -> None:
-        make_camera_topics(
-            self._node, self._static_broadcaster, attach_sensor_plugins(cameras, self._node, self._report), names
-        )
-        make_sensor_topics(
-            self._node, self._static_broadcaster, attach_sensor_plugins(sensors, self._node, self._report), names
-        )
+        self._topics.unregister(model)

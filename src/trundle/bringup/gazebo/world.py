@@ -252,6 +252,10 @@ class _Contents:
         """Variables that locate plugins."""
         return self._world.contents.environment
 
+    def robot(self, model: str) -> Robot | None:
+        """Return the URDF that a model was spawned from."""
+        return self._world.contents.robot(model)
+
     def spawn(self, model: Model, robot: Robot | None) -> None:
         """Add a model with its sensors and plugins."""
         self._world.insert(model, robot)

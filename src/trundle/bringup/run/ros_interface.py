@@ -3,20 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import Self
 
-from trundle.bridge import (
-    ClockTopic,
-    FrameNames,
-    JointStatesTopic,
-    LinkTransforms,
-    make_camera_topics,
-    make_sensor_topics,
-)
+from trundle.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 
 from ..graph import DEFAULT_PORT, Graph
-from ..plugins import attach_sensor_plugins
+from ..model_nodes import ModelNodes
+from ..model_topics import ModelTopics
 from ..world_setup import LoadedWorld
 
 NODE_NAME = "/trundle"
@@ -56,16 +50,21 @@ class RosInterface:
         loop.run(self.node.wait_registered())
         loop.run(self.node.params.set("/use_sim_time", True))
         ClockTopic(self.node).attach(simulation)
-        self._static_broadcaster = StaticTransformBroadcaster(self.node)
-        frames = LinkTransforms(self.node, self._static_broadcaster, stage.world, simulation.snapshot())
+        static_broadcaster = StaticTransformBroadcaster(self.node)
+        frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
         simulation.on_change(lambda: frames.set_world(simulation.world, simulation.snapshot()))
         simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled)
+        self._sensor_topics = ModelTopics(self.node, static_broadcaster, simulation.report)
+        self.plugin_nodes = ModelNodes(loop, self.make_node)
         self._frame_names = FrameNames.from_world(stage.world, stage.robot)
         self.advertise(cameras, sensors)
         if stage.urdf is not None:
             loop.run(self.node.params.set("/robot_description", stage.urdf))
-            states = JointStatesTopic(self.node, simulation.models[0])
-            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.has_subscribers)
+            states, robot = JointStatesTopic(self.node, simulation.models[0]), simulation.models[0].name
+            simulation.on_change(
+                lambda: states.set_model(next((each for each in simulation.models if each.name == robot), None))
+            )
+            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.enabled)
 
     @classmethod
     def open(
@@ -107,9 +106,12 @@ class RosInterface:
 
     def advertise(self, cameras: Sequence[CameraSensor], sensors: Sequence[InstrumentSensor]) -> None:
         """Advertise the topics of sensors."""
-        node, report, names = self.node, self._simulation.report, self._frame_names
-        make_camera_topics(node, self._static_broadcaster, attach_sensor_plugins(cameras, node, report), names)
-        make_sensor_topics(node, self._static_broadcaster, attach_sensor_plugins(sensors, node, report), names)
+        self._sensor_topics.advertise(cameras, sensors, self._frame_names)
+
+    def unload(self, model: str) -> None:
+        """Shut down the nodes of a deleted model, and unregister the topics of its sensors."""
+        self.plugin_nodes.shut_down(model)
+        self._sensor_topics.unregister(model)
 
     def settle(self) -> None:
         """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""

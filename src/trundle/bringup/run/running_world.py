@@ -11,15 +11,17 @@ from trundle.garbage import no_garbage
 from trundle.model import Model
 from trundle.packages import Packages
 from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation
+from trundle.simulation import ModelHandle, Simulation
 
 from ..console import Console
 from ..plugins import load_plugins, load_world_plugins
 from ..renderers import RENDERERS
+from ..world_contents import has_sensors_or_plugins
 from ..world_setup import LoadedWorld, load_world
 from .run_options import RunOptions
 
 if TYPE_CHECKING:  # a run without a graph or a recording starts without their modules
+    from trundle.plugins import Plugin
     from trundle.robot import Robot
     from trundle.sensors import CameraSensor, InstrumentSensor
     from trundle.timeline import Timeline
@@ -127,16 +129,29 @@ class RunningWorld:
         self._open_things.callback(recorder.close)
 
     def _load_plugins(self) -> None:
-        make_node = None if self.ros is None else self.ros.make_node
-        plugins = load_plugins(self.simulation, make_node, self.environment, say=self._show.line)
-        self._plugins = plugins
+        self._plugins = {model.name: self._plugins_of(model) for model in self.simulation.models}
+        make_node = None if self.ros is None else self.ros.plugin_nodes.maker("")
         load_world_plugins(self.simulation, make_node, self.environment, say=self._show.line)
         self._show.findings()
         if self._options.timeline_mb and not self._options.headless:
             from trundle.timeline import Timeline
 
             limit_bytes = self._options.timeline_mb * 1_000_000
-            self.timeline = Timeline(self.simulation, roots=plugins, limit_bytes=limit_bytes)
+            self.timeline = Timeline(self.simulation, roots=self._roots, limit_bytes=limit_bytes)
+
+    def _plugins_of(self, model: ModelHandle) -> "list[Plugin]":
+        """Load the plugins of a model."""
+        make_node = None if self.ros is None else self.ros.plugin_nodes.maker(model.name)
+        return load_plugins(self.simulation, make_node, self.environment, say=self._show.line, models=[model])
+
+    @property
+    def _roots(self) -> "list[Plugin]":
+        """Plugins with a state that the timeline saves."""
+        return [plugin for plugins in self._plugins.values() for plugin in plugins]
+
+    def robot(self, model: str) -> "Robot | None":
+        """Return None: joint states and the description are those of the robot that the run began with."""
+        del model
 
     def spawn(self, model: Model, robot: "Robot | None") -> None:
         """Add a model with its sensors and plugins; with those, the timeline begins again.
@@ -144,21 +159,17 @@ class RunningWorld:
         Raises:
             TrundleError: MuJoCo cannot simulate it; nothing has changed.
         """
-        del robot  # joint states and the description are those of the robot that the run began with
-        has_sensors = any(link.sensors for link in model.links) or any(joint.sensors for joint in model.joints)
-        if self.timeline is not None and not (has_sensors or model.plugins):
+        del robot
+        if self.timeline is not None and not has_sensors_or_plugins(model):
             self.timeline.do(lambda sim: sim.spawn(model))
             return
         handle = self.simulation.spawn(model)
-        if has_sensors and self._options.sensors:
+        if self._options.sensors:
             self._mount_sensors_of(model.name)
-        make_node = None if self.ros is None else self.ros.make_node
-        self._plugins += load_plugins(
-            self.simulation, make_node, self.environment, say=self._show.line, models=[handle]
-        )
+        self._plugins[model.name] = self._plugins_of(handle)
         self._show.findings()
         if self.timeline is not None:
-            self.timeline.restart(self._plugins)
+            self.timeline.restart(self._roots)
 
     def _mount_sensors_of(self, model: str) -> None:
         simulation = self.simulation
@@ -175,11 +186,29 @@ class RunningWorld:
             self.on_sensors()
 
     def delete(self, name: str) -> None:
-        """Remove a model; its sensors and plugins fall silent."""
-        if self.timeline is None:
-            self.simulation.delete(name)
-        else:
+        """Remove a model with its sensors and plugins; if it has any, the timeline begins again.
+
+        Raises:
+            UsageError: no such model; the message lists the models there are.
+        """
+        simulation = self.simulation
+        if self.timeline is not None and not has_sensors_or_plugins(simulation[name].model):
             self.timeline.do(lambda sim: sim.delete(name))
+            return
+        simulation.delete(name)
+        for sensor in (*self.cameras, *self.sensors):
+            if sensor.model.name == name:
+                sensor.stop(simulation)
+        self.cameras = [camera for camera in self.cameras if camera.model.name != name]
+        self.sensors = [sensor for sensor in self.sensors if sensor.model.name != name]
+        for plugin in self._plugins.pop(name, []):
+            simulation.remove_hook(plugin)
+        if self.ros is not None:
+            self.ros.unload(name)
+        if self.on_sensors is not None:
+            self.on_sensors()
+        if self.timeline is not None:
+            self.timeline.restart(self._roots)
 
     def advance(self, until_ns: int) -> None:
         """Simulate up to a time [ns]; see `Simulation.advance`."""

@@ -8,7 +8,6 @@ from typing import Protocol
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.page import (
     Carry,
-    DeleteModel,
     EditAction,
     LetGo,
     PageAction,
@@ -18,7 +17,6 @@ from trundle.page import (
     Record,
     Reload,
     Reset,
-    RestoreModel,
     Seek,
     SetSpeed,
     Step,
@@ -29,7 +27,6 @@ from trundle.timeline import Timeline
 from ..realtime_pacer import RealtimePacer
 from .edits import edit, find_model
 from .handling import handled_models
-from .saved_model import SavedModel, saved_model
 
 _PATIENCE_NS = 1_000_000_000
 """Wall time from the last request to carry or pull a model until it is let go [ns]."""
@@ -74,7 +71,6 @@ class SimulationControls:
             wall_ns: the wall clock [ns].
         """
         self._wall_ns = wall_ns
-        self._deleted: dict[str, SavedModel] = {}
         self._handled_ns: dict[str, int] = {}
         """Model that is carried or pulled → wall time of the last request to [ns]."""
         self._simulation = simulation
@@ -101,14 +97,6 @@ class SimulationControls:
                 pacer.restart()
             case SetSpeed(factor):
                 pacer.set_speed(factor)
-            case DeleteModel(name):
-                model = find_model(self._simulation, name)
-                self._deleted[model.name] = saved_model(model)
-                self.do(partial(edit, action))
-            case RestoreModel(name):
-                if name not in self._deleted:
-                    raise UsageError(f"the page has deleted no model {name!r}")
-                self.do(self._deleted[name].spawn)
             case _ if isinstance(action, EditAction):
                 self.do(partial(edit, action))
                 if isinstance(action, Carry | Pull):

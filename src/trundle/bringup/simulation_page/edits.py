@@ -9,8 +9,6 @@ from trundle.model import Light, Link, Model, World
 from trundle.page import (
     ApplyWrench,
     Carry,
-    CopyModel,
-    DeleteModel,
     EditAction,
     HoldModel,
     LetGo,
@@ -29,7 +27,6 @@ from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Pose, Quaternion, Twist, Vector3, Wrench
 
 from .handling import carry, hold, let_go, pull, put
-from .saved_model import saved_model
 
 _JOINT_EFFORT = 10.0
 """Effort limit of a joint without one of its own that the page moves [N·m or N]."""
@@ -71,10 +68,6 @@ def edit(action: EditAction, simulation: Simulation) -> None:
             simulation.edit(_with_physics(simulation.world, action))
         case ApplyWrench(model, link, force, torque, duration_s):
             _find_link(simulation, model, link).apply_wrench(Wrench(force, torque), duration_s=duration_s)
-        case CopyModel(model, name, offset):
-            saved_model(find_model(simulation, model)).copy(name, offset).spawn(simulation)
-        case DeleteModel(model):
-            simulation.delete(find_model(simulation, model).name)
 
 
 def find_model(simulation: Simulation, name: str) -> ModelHandle:

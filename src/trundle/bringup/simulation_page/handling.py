@@ -139,13 +139,16 @@ def hold(simulation: Simulation, model: ModelHandle, *, on: bool) -> None:
 
 
 def put(simulation: Simulation, model: ModelHandle, pose: Pose) -> None:
-    """Move a model as a whole; one that is held in the air is held there."""
-    held = is_held(simulation, model.name)
-    if held:
-        hold(simulation, model, on=False)
+    """Move a model as a whole, with what fixes it to the world.
+
+    Raises:
+        UsageError: it is fixed to another model, and goes where that goes, as in Gazebo.
+    """
+    joints = (joint for joint in simulation.world.joints if joint.child.startswith(f"{model.name}::"))
+    tie = next((joint for joint in joints if joint.parent != "world"), None)
+    if tie is not None and not any(simulation.engine.writer.is_free(link.index) for link in model.links):
+        raise UsageError(f"model {model.name!r} goes with {tie.parent!r}: joint {tie.name!r} ties them; move that one")
     model.set_pose(pose)
-    if held:
-        hold(simulation, model, on=True)
 
 
 def _hold(model: str) -> str:

@@ -1,9 +1,9 @@
 """Models, simple shapes and lights that a person at the page puts into the running world."""
 
 import itertools
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -11,12 +11,15 @@ from trundle.description import load, load_text
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import Light, Model, flattened
 from trundle.packages import Packages
-from trundle.page import DeleteLight, InsertAction, InsertLight, InsertModel, ListModels
+from trundle.page import InsertAction, InsertLight, InsertModel, ListModels
 from trundle.plugins import find_user_file
 from trundle.robot import Robot
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 from trundle.xmlnode import read_xml
+
+from ..world_contents import Do, WorldContents
+from .model_edits import add_light
 
 Json = dict[str, Any]
 _SHAPES = {
@@ -30,37 +33,10 @@ _LIGHT_HEIGHT_M = {"point": 2.0, "spot": 2.0, "directional": 5.0}
 _LIGHT_ANGLES = {"spot": {"inner_angle_rad": 0.6, "outer_angle_rad": 1.0, "falloff": 1.0}}
 
 
-class WorldContents(Protocol):
-    """Models of a world with their sensors and plugins; used on the simulation's thread."""
-
-    @property
-    def packages(self) -> Packages:
-        """Finder of models."""
-        ...
-
-    @property
-    def environment(self) -> Mapping[str, str]:
-        """Variables that locate plugins."""
-        ...
-
-    def spawn(self, model: Model, robot: Robot | None) -> None:
-        """Add a model with its sensors and plugins; `robot` is the URDF that it came from."""
-        ...
-
-    def delete(self, name: str) -> None:
-        """Remove a model with its sensors and plugins."""
-        ...
-
-
 class Insertion:
     """Inserts into one simulation."""
 
-    def __init__(
-        self,
-        simulation: Simulation,
-        contents: WorldContents,
-        do: Callable[[Callable[[Simulation], None]], None],
-    ) -> None:
+    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do) -> None:
         """Prepare.
 
         Args:
@@ -84,9 +60,6 @@ class Insertion:
                 return self._insert_model(action)
             case InsertLight():
                 return self._insert_light(action)
-            case DeleteLight(name):
-                self._delete_light(name)
-                return {}
 
     def _insert_model(self, action: InsertModel) -> Json:
         model, robot = self._shape(action.model) if action.is_shape else self._read(action.model)
@@ -129,18 +102,8 @@ class Insertion:
             cast_shadows=action.type == "directional",
         )
         lit = replace(light, **_LIGHT_ANGLES.get(action.type, {}))
-        self._do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, lit))))
+        add_light(lit, self._simulation, self._do)
         return {"name": light.name}
-
-    def _delete_light(self, name: str) -> None:
-        names = [light.name for light in self._simulation.world.lights]
-        if name not in names:
-            raise UsageError(f"the world has no light {name!r}; it has: {', '.join(map(repr, names)) or 'none'}")
-
-        def delete(sim: Simulation) -> None:
-            sim.edit(replace(sim.world, lights=tuple(each for each in sim.world.lights if each.name != name)))
-
-        self._do(delete)
 
 
 def list_models(packages: Packages) -> list[Json]:

@@ -1,6 +1,5 @@
 """Page of a running simulation: its life, and the requests of those who look at it."""
 
-import os
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -8,10 +7,9 @@ from typing import Self
 
 from trundle.bridge import WORLD_FRAME
 from trundle.diagnostics import TrundleError
-from trundle.packages import Packages
 from trundle.page import (
-    DeleteModel,
     InsertAction,
+    ModelAction,
     Play,
     Reload,
     RenderModel,
@@ -28,10 +26,11 @@ from trundle.timeline import Timeline
 
 from ..realtime_pacer import RealtimePacer
 from ..shared_page import SharedPage
+from ..world_contents import BareContents, WorldContents
 from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
-from .edits import find_model
-from .insertion import Insertion, WorldContents
+from .insertion import Insertion
+from .model_edits import ModelEdits
 from .model_pictures import ModelPictures
 from .pictures import WorldPictures
 from .titles import page_names
@@ -65,7 +64,7 @@ class SimulationPage:
             node: publishes the stop of a robot that is driven when the page's server dies.
             recorder: records the run; None: it cannot be recorded.
             timeline: of the run; None: it cannot go back.
-            contents: adds models with their sensors and plugins; None: nothing can be inserted.
+            contents: adds models with their sensors and plugins; None: those without can be inserted.
             wall_ns: the wall clock [ns].
 
         Raises:
@@ -82,8 +81,8 @@ class SimulationPage:
         self._set_titles(simulation)
         self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
         here = Path.cwd()
-        self._contents = contents
-        packages = Packages(os.environ, start=here) if contents is None else contents.packages
+        self._contents = BareContents(self._do) if contents is None else contents
+        packages = self._contents.packages
         self._saver = WorldSaver(self._server.respond, packages, here)
         self._model_pictures = ModelPictures(self._respond_picture, packages)
         self._streams = WorldStreams(
@@ -119,10 +118,12 @@ class SimulationPage:
     ) -> None:
         self._simulation = simulation
         self._controls = SimulationControls(simulation, recorder, timeline, wall_ns=self._wall_ns)
-        self._insertion: Insertion | None = None
-        if self._contents is not None:
-            self._insertion = Insertion(simulation, self._contents, self._controls.do)
+        self._insertion = Insertion(simulation, self._contents, self._do)
+        self._model_edits = ModelEdits(simulation, self._contents, self._do)
         self._streams.show(simulation, sensors, recorder, timeline)
+
+    def _do(self, command: Callable[[Simulation], None]) -> None:
+        self._controls.do(command)
 
     def _set_titles(self, simulation: Simulation) -> None:
         title, robot = page_names(simulation.world)
@@ -171,12 +172,13 @@ class SimulationPage:
             world = current_world(self._simulation)
             self._saver.save(request.id, request.action, world, self._simulation.seed)
             return paused
-        if isinstance(request.action, InsertAction) and self._insertion is not None:
+        if isinstance(request.action, InsertAction):
             self._server.respond(request.id, **self._insertion.handle(request.action))
             pacer.restart()
             return paused
-        if isinstance(request.action, DeleteModel) and self._contents is not None:
-            self._contents.delete(find_model(self._simulation, request.action.model).name)
+        if isinstance(request.action, ModelAction):
+            self._model_edits.handle(request.action)
+            pacer.restart()
         elif isinstance(request.action, Reload) and self.on_reload is not None:
             self.on_reload()
             pacer.restart()

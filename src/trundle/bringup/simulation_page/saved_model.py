@@ -5,10 +5,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
 from trundle.model import Model
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose, Twist, Vector3
+
+from .handling import hold, is_held
 
 
 class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
@@ -20,6 +21,8 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
     positions: NDArray[np.float64]
     """Positions of the joints' axes [rad or m]."""
     velocities: NDArray[np.float64]
+    is_held: bool
+    """True if its base is fixed where it is, until it is freed."""
 
     def copy(self, name: str, offset: Vector3) -> "SavedModel":
         """Return it under another name and at another place."""
@@ -27,31 +30,25 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
         model = replace(self.model, name=name, world_from_model=away @ self.model.world_from_model)
         return replace(self, model=model, links=tuple((away @ pose, twist) for pose, twist in self.links))
 
-    def spawn(self, simulation: Simulation) -> None:
-        """Add it to a world.
-
-        Raises:
-            UsageError: it has plugins or sensors, which would not run, or its name is taken.
-        """
-        model = self.model
-        if model.plugins or any(link.sensors for link in model.links) or any(joint.sensors for joint in model.joints):
-            raise UsageError(
-                f"model {model.name!r} has plugins or sensors, which would not run: spawn it from its file"
-            )
-        there = simulation.spawn(model)
+    def apply(self, simulation: Simulation) -> None:
+        """Give a model of its name, just spawned, its state."""
+        there = simulation[self.model.name]
         there.joint_positions = self.positions
         for link, (pose, twist) in zip(there.links, self.links, strict=True):
             if simulation.engine.writer.is_free(link.index):
                 link.set_pose(pose)
                 link.set_twist(twist)
         there.joint_velocities = self.velocities
+        if self.is_held:
+            hold(simulation, there, on=True)
 
 
-def saved_model(model: ModelHandle) -> SavedModel:
+def saved_model(simulation: Simulation, model: ModelHandle) -> SavedModel:
     """Return a model with its state."""
     return SavedModel(
         model=model.model,
         links=tuple((link.pose, link.twist) for link in model.links),
         positions=model.joint_positions,
         velocities=model.joint_velocities,
+        is_held=is_held(simulation, model.name),
     )

@@ -1,0 +1,100 @@
+"""Copies and deletions of whole models, with their sensors and plugins; what was deleted can be put back."""
+
+from typing import TypeVar
+
+from msgspec.structs import replace
+
+from trundle.diagnostics import UsageError
+from trundle.model import Light
+from trundle.page import CopyModel, DeleteLight, DeleteModel, ModelAction, RestoreLight, RestoreModel
+from trundle.robot import Robot
+from trundle.simulation import Simulation
+
+from ..world_contents import Do, WorldContents
+from .edits import find_model
+from .saved_model import SavedModel, saved_model
+
+_Value = TypeVar("_Value")
+_MAX_DELETED = 200
+"""Models, and lights, that can be put back: as many as the page's edits that can be undone."""
+
+
+class ModelEdits:
+    """Copies and deletes models and lights of one simulation."""
+
+    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do) -> None:
+        """Prepare.
+
+        Args:
+            simulation: the running one.
+            contents: adds and removes models with what belongs to them.
+            do: gives the simulation a command that a timeline can repeat.
+        """
+        self._simulation, self._contents, self._do = simulation, contents, do
+        self._models: dict[str, tuple[SavedModel, Robot | None]] = {}
+        self._lights: dict[str, Light] = {}
+
+    def handle(self, action: ModelAction) -> None:
+        """Do what a person asks for.
+
+        Raises:
+            TrundleError: it cannot be done.
+        """
+        match action:
+            case CopyModel(name, new, offset):
+                model = find_model(self._simulation, name)
+                self._spawn(saved_model(self._simulation, model).copy(new, offset), self._contents.robot(model.name))
+            case DeleteModel(name):
+                self._delete(find_model(self._simulation, name).name)
+            case RestoreModel(name):
+                if name not in self._models:
+                    raise UsageError(f"the page has deleted no model {name!r}")
+                self._spawn(*self._models[name])
+            case DeleteLight(name):
+                self._delete_light(name)
+            case RestoreLight(name):
+                self._restore_light(name)
+
+    def _spawn(self, saved: SavedModel, robot: Robot | None) -> None:
+        self._contents.spawn(saved.model, robot)
+        self._do(saved.apply)
+
+    def _delete(self, name: str) -> None:
+        saved = saved_model(self._simulation, self._simulation[name]), self._contents.robot(name)
+        self._contents.delete(name)
+        _remember(self._models, name, saved)
+
+    def _delete_light(self, name: str) -> None:
+        lights = {light.name: light for light in self._simulation.world.lights}
+        if name not in lights:
+            raise UsageError(f"the world has no light {name!r}; it has: {', '.join(map(repr, lights)) or 'none'}")
+
+        def delete(sim: Simulation) -> None:
+            sim.edit(replace(sim.world, lights=tuple(each for each in sim.world.lights if each.name != name)))
+
+        self._do(delete)
+        _remember(self._lights, name, lights[name])
+
+    def _restore_light(self, name: str) -> None:
+        if name not in self._lights:
+            raise UsageError(f"the page has deleted no light {name!r}")
+        add_light(self._lights[name], self._simulation, self._do)
+
+
+def add_light(light: Light, simulation: Simulation, do: Do) -> None:
+    """Add a light to the world itself.
+
+    Raises:
+        UsageError: its name is taken.
+    """
+    if any(each.name == light.name for each in simulation.world.lights):
+        raise UsageError(f"there is a light {light.name!r} already")
+    do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, light))))
+
+
+def _remember(kept: dict[str, _Value], name: str, value: _Value) -> None:
+    """Keep a value as the newest one, and drop the oldest beyond the limit."""
+    kept.pop(name, None)
+    kept[name] = value
+    if len(kept) > _MAX_DELETED:
+        del kept[next(iter(kept))]

@@ -1,0 +1,109 @@
+"""Models with plugins and sensors that come, go and come back while a world runs."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.graphs import PATIENCE_S, Graph, running_graph, until
+
+from trundle.bringup.console import Console
+from trundle.bringup.run.run_options import RunOptions
+from trundle.bringup.run.running_world import RunningWorld
+from trundle.bringup.simulation_page.model_edits import ModelEdits
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.page import CopyModel, DeleteModel, RestoreModel
+from trundle.spatial import Pose
+
+WORLD = """<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity><model name="cart"><link name="base">
+<sensor name="turn" type="imu"><update_rate>100</update_rate></sensor></link>
+<link name="wheel"><pose>0 0 1 0 0 0</pose></link><joint name="axle" type="revolute"><parent>base</parent>
+<child>wheel</child><axis><xyz>0 0 1</xyz></axis></joint>
+<plugin name="move" filename="libgazebo_ros_planar_move.so"><commandTopic>go</commandTopic></plugin>
+</model></world></sdf>"""
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture
+def world(graph: Graph, tmp_path: Path) -> Iterator[RunningWorld]:
+    file, report = tmp_path / "w.sdf", Diagnostics()
+    file.write_text(WORLD)
+    environment = {"ROS_MASTER_URI": graph.core.uri, "HOME": str(tmp_path)}
+    with RunningWorld(str(file), RunOptions(), environment, report, Console(sys.stderr, report)) as world:
+        world.start()
+        yield world
+
+
+def test_the_nodes_and_topics_of_a_model_go_and_come_with_it(graph: Graph, world: RunningWorld) -> None:
+    """The copy has nodes of its own; all of them listen to the topic that the plugins name."""
+    client = graph.node("/client")
+    ours = "/cart/move"
+
+    def nodes() -> set[str]:
+        published, subscribed, _ = graph.loop.run(client.master.call("getSystemState"), PATIENCE_S)
+        found = {name for _, names in (*published, *subscribed) for name in names}
+        return found & {ours, "/cart_0/move"}
+
+    def imu_topics() -> list[str]:
+        return [name for name, _ in graph.loop.run(client.master.call("getPublishedTopics", "/")) if "turn" in name]
+
+    edits = _model_edits(world)
+    until(lambda: nodes() == {ours})
+    (topic,) = imu_topics()
+    edits.handle(CopyModel("cart", "cart_0", (3, 0, 0)))
+    until(lambda: nodes() == {ours, "/cart_0/move"})
+    until(lambda: len(imu_topics()) == 2)
+    edits.handle(DeleteModel("cart"))
+    until(lambda: nodes() == {"/cart_0/move"})
+    until(lambda: topic not in imu_topics())
+    assert [sensor.model.name for sensor in world.sensors] == ["cart_0"]
+    edits.handle(RestoreModel("cart"))
+    until(lambda: nodes() == {ours, "/cart_0/move"})
+    until(lambda: topic in imu_topics())
+
+
+def test_what_is_put_back_is_in_the_state_that_it_had_and_its_plugins_drive_it(
+    graph: Graph, world: RunningWorld
+) -> None:
+    client = graph.node("/client")
+    velocity = client.advertise("/go", "geometry_msgs/Twist", queue_size=1)
+    edits, simulation = _model_edits(world), world.simulation
+    simulation["cart"].joint("axle").set_position(0.5)
+    simulation["cart"].set_pose(Pose((1.0, 2.0, 3.0)))
+    edits.handle(DeleteModel("cart"))
+    until(lambda: not velocity.has_subscribers)
+    world.advance(100_000_000)
+    edits.handle(RestoreModel("cart"))
+    cart = simulation["cart"]
+    assert cart.pose.position == pytest.approx((1.0, 2.0, 3.0))
+    assert cart.joint("axle").position == pytest.approx(0.5)
+
+    until(lambda: velocity.has_subscribers)
+
+    def moves() -> bool:
+        velocity.publish({"linear": {"x": 1.0}})
+        world.advance(simulation.time_ns + 10_000_000)
+        return cart.pose.position[0] > 1.1
+
+    until(moves)
+    with pytest.raises(UsageError, match="there is a model 'cart' already"):
+        edits.handle(RestoreModel("cart"))
+
+
+def test_the_timeline_begins_again_where_plugins_go(world: RunningWorld) -> None:
+    """Before that its nodes were there, which do not come again."""
+    world.advance(500_000_000)
+    assert world.timeline is not None
+    assert world.timeline.start_ns == 0
+    world.delete("cart")
+    assert world.timeline.start_ns == 500_000_000
+
+
+def _model_edits(world: RunningWorld) -> ModelEdits:
+    assert world.timeline is not None
+    return ModelEdits(world.simulation, world, world.timeline.do)
