@@ -72,6 +72,7 @@ def test_a_bag_whose_index_was_never_written_is_to_be_reindexed(
         assert list(bag.messages()) == written
 
 
+@pytest.mark.slow
 @pytest.mark.real_ros
 def test_the_original_reads_the_same(
     graph: Any, original: Callable[..., str], tmp_path: Path, written: list[BagMessage]

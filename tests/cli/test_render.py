@@ -212,6 +212,7 @@ def test_a_picture_is_taken_when_it_is_asked_for(box: Path, tmp_path: Path) -> N
         assert depth[low, 110] == pytest.approx(1000 * height * away, rel=2e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["mp4", "webp", "gif"])
 def test_a_film_goes_around_or_shows_what_happens(box: Path, tmp_path: Path, suffix: str) -> None:
     around, run = tmp_path / f"around.{suffix}", tmp_path / f"run.{suffix}"
@@ -251,6 +252,7 @@ def test_what_cannot_be_filmed_is_said(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_opengl_draws_the_same_where_it_is_asked_for(box: Path, tmp_path: Path) -> None:
     """Without OpenGL the error is one sentence, and no other renderer is used."""
     ours, theirs = tmp_path / "cpu.png", tmp_path / "egl.png"

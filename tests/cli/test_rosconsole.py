@@ -7,6 +7,7 @@ import pytest
 from trundle.ros import Loggers
 
 
+@pytest.mark.slow
 @pytest.mark.real_ros
 def test_rosconsole_lists_and_sets(graph: Any, original: Any, capsys: pytest.CaptureFixture[str]) -> None:
     node = graph.node("cpp")

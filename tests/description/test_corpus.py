@@ -38,6 +38,7 @@ def packages(corpus: Path) -> Packages:
     return Packages({"GAZEBO_MODEL_PATH": ":".join(map(str, path))}, start=corpus)
 
 
+@pytest.mark.slow
 def test_sdf_files_are_read_as_by_libsdformat(corpus: Path, packages: Packages) -> None:
     """Files that Gazebo 11 accepts are accepted; where libsdformat 9 and 12 agree, every value agrees with theirs."""
     rows = json.loads((corpus / "manifest.json").read_text())["sdf"]

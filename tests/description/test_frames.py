@@ -256,6 +256,7 @@ def test_a_model_that_includes_itself_is_refused(tmp_path: Path) -> None:
     assert any("includes itself" in each for each in report.warnings)
 
 
+@pytest.mark.slow
 def test_exponentially_nested_includes_are_stopped(tmp_path: Path) -> None:
     parts = "".join(f"<include><name>part{i}</name><uri>model://{{}}</uri></include>" for i in range(10))
     for i in range(12):

@@ -100,6 +100,7 @@ def test_a_held_slider_steers_and_a_released_one_stops(graph: Graph, node: Node,
     assert heard[-2] != (0.0, 0.0)  # one stop goes out
 
 
+@pytest.mark.slow
 def test_options_of_a_node_are_changed_and_taken_back(graph: Graph, node: Node, user: PanelUser) -> None:
     options = [Option(name="rate", value=10.0, lower=1.0, upper=50.0), Option(name="on", value=False)]
     applied: list[dict[str, object]] = []
@@ -119,6 +120,7 @@ def test_options_of_a_node_are_changed_and_taken_back(graph: Graph, node: Node, 
     reconfigure.unregister()
 
 
+@pytest.mark.slow
 def test_sliders_of_joints_are_asked_for(owner: Owner, user: PanelUser) -> None:
     user.open("Joints")
     user.type("arm [rad]", "-0.25")
@@ -127,6 +129,7 @@ def test_sliders_of_joints_are_asked_for(owner: Owner, user: PanelUser) -> None:
     assert owner.next("slider") == {"joint": "arm", "position": 0.0}
 
 
+@pytest.mark.slow
 def test_a_held_button_of_the_joystick_is_pressed(owner: Owner, user: PanelUser) -> None:
     user.open("Joystick")
     user.page.get_by_role("button", name="X", exact=True).hover()
@@ -139,6 +142,7 @@ def test_a_held_button_of_the_joystick_is_pressed(owner: Owner, user: PanelUser)
     assert owner.next("joystick")["axes"][:2] == (0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_a_plot_shows_numbers_and_saves_them(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/wave", "std_msgs/Float64")
     user.open("Plots")
@@ -167,6 +171,7 @@ def test_a_plot_shows_numbers_and_saves_them(graph: Graph, node: Node, user: Pan
     publisher.unregister()
 
 
+@pytest.mark.slow
 def test_a_picture_has_its_pixels_and_their_values(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/pixels", "sensor_msgs/Image", latch=True)
     user.open("Images")
@@ -188,6 +193,7 @@ def test_a_picture_has_its_pixels_and_their_values(graph: Graph, node: Node, use
     publisher.unregister()
 
 
+@pytest.mark.slow
 def test_a_recording_is_played_and_scrubbed(owner: Owner, user: PanelUser) -> None:
     owner.server.put_state(ClockState(time_ns=2 * 10**9, paused=True, speed=1.0, timeline=TimelineSpan(0, 10 * 10**9)))
     user.open("Timeline")

@@ -61,6 +61,7 @@ def test_topics_are_listed_with_their_rate_and_echoed(graph: Graph, node: Node, 
     publisher.unregister()
 
 
+@pytest.mark.slow
 def test_a_form_publishes_once_and_at_a_rate(graph: Graph, node: Node, user: PanelUser) -> None:
     heard: list[Any] = []
     node.subscribe("/order", "geometry_msgs/PoseStamped", heard.append)
@@ -84,6 +85,7 @@ def test_a_form_publishes_once_and_at_a_rate(graph: Graph, node: Node, user: Pan
     user.button("Close").click()
 
 
+@pytest.mark.slow
 def test_a_service_is_called_by_its_form(node: Node, user: PanelUser) -> None:
     def answer(request: Any) -> dict[str, object]:
         return {"success": request.data, "message": "lamp"}
@@ -99,6 +101,7 @@ def test_a_service_is_called_by_its_form(node: Node, user: PanelUser) -> None:
     service.unregister()
 
 
+@pytest.mark.slow
 def test_a_service_that_fails_says_why(node: Node, user: PanelUser) -> None:
     def fail(_request: Any) -> dict[str, object]:
         raise RuntimeError("the lamp is broken")
@@ -112,6 +115,7 @@ def test_a_service_that_fails_says_why(node: Node, user: PanelUser) -> None:
     service.unregister()
 
 
+@pytest.mark.slow
 def test_a_parameter_is_edited_with_its_type_and_taken_back(graph: Graph, node: Node, user: PanelUser) -> None:
     def value() -> object:
         return graph.loop.run(node.params.get("/base/rate"))
@@ -126,6 +130,7 @@ def test_a_parameter_is_edited_with_its_type_and_taken_back(graph: Graph, node: 
     graph.until(lambda: value() == 10.0)
 
 
+@pytest.mark.slow
 def test_the_log_shows_levels_and_sources(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/rosout", "rosgraph_msgs/Log")
     user.open("Log")
@@ -154,6 +159,7 @@ def test_the_log_shows_levels_and_sources(graph: Graph, node: Node, user: PanelU
     user.sees("a wheel squeaks")
 
 
+@pytest.mark.slow
 def test_nodes_and_the_graph_are_drawn(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/chain", "std_msgs/String")
     listener = graph.node("listener")
@@ -174,6 +180,7 @@ def test_nodes_and_the_graph_are_drawn(graph: Graph, node: Node, user: PanelUser
     publisher.unregister()
 
 
+@pytest.mark.slow
 def test_frames_of_tf_stand_in_a_tree(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/tf_static", "tf2_msgs/TFMessage", latch=True)
     transform = {"header": {"frame_id": "base_link"}, "child_frame_id": "laser", "transform": {"rotation": {"w": 1.0}}}

@@ -166,6 +166,7 @@ def test_a_scan_is_shown_by_one_click_and_its_properties_edited(graph: Graph, no
         publisher.unregister()
 
 
+@pytest.mark.slow
 def test_a_display_that_cannot_show_a_topic_says_why(node: Node, user: SceneUser) -> None:
     publisher = _latched(
         node, "/lost", "geometry_msgs/PointStamped", {"header": {"frame_id": "moon"}, "point": point(0, 0)}

@@ -74,6 +74,7 @@ def _push(user: PanelUser, x: float, y: float) -> None:
     user.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
+@pytest.mark.slow
 def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot, user: PanelUser) -> None:
     """A stick that was never at rest does not drive; one let go, or unplugged, stops."""
     user.page.get_by_role("textbox", name="Greatest speed").fill("0.8")

@@ -142,6 +142,7 @@ def _dragged(graph: Graph, feedback: list[Any], name: str) -> Any:
     return last
 
 
+@pytest.mark.slow
 def test_a_point_that_is_clicked_is_published(graph: Graph, user: SceneUser, heard: dict[str, list[Any]]) -> None:
     """The file says how many pixels a metre has."""
     points = heard["/clicked_point"]
@@ -153,18 +154,21 @@ def test_a_point_that_is_clicked_is_published(graph: Graph, user: SceneUser, hea
     assert points[0].header.frame_id == "map"
 
 
+@pytest.mark.slow
 def test_a_marker_slides_along_its_axis(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.drag((-2.0 + 0.7, 1.0), (-2.0 + 1.2, 1.3))
 
     assert _place(_dragged(graph, feedback, "slider")) == pytest.approx((-1.5, 1.0), abs=0.03)
 
 
+@pytest.mark.slow
 def test_a_marker_moves_in_its_plane(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.drag((GRIP, 1.0), (GRIP + 0.25, 1.8))
 
     assert _place(_dragged(graph, feedback, "plate")) == pytest.approx((0.25, 1.8), abs=0.03)
 
 
+@pytest.mark.slow
 def test_a_marker_turns_about_its_axis(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.drag((2.0 + GRIP, 1.0), (2.4, 1.4), (2.0, 1.0 + GRIP))
 
@@ -173,6 +177,7 @@ def test_a_marker_turns_about_its_axis(graph: Graph, user: SceneUser, feedback: 
     assert (turned.position.x, turned.position.y) == (2.0, 1.0)
 
 
+@pytest.mark.slow
 def test_a_marker_is_pressed_and_its_menu_chosen_from(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.click((-2.0, -1.0))
     graph.until(lambda: CLICK in [message.event_type for message in feedback])
@@ -189,6 +194,7 @@ def test_a_marker_is_pressed_and_its_menu_chosen_from(graph: Graph, user: SceneU
     graph.until(lambda: [m.menu_entry_id for m in feedback if m.event_type == MENU_SELECT] == [7, 1])
 
 
+@pytest.mark.slow
 def test_a_pose_estimate_has_the_deviations_that_were_set(
     graph: Graph, user: SceneUser, heard: dict[str, list[Any]]
 ) -> None:
@@ -221,6 +227,7 @@ def test_a_goal_goes_to_the_topic_that_was_set(graph: Graph, user: SceneUser, he
     assert abs(goals[0].pose.orientation.z) == pytest.approx(1.0, abs=0.01)
 
 
+@pytest.mark.slow
 def test_a_point_that_is_selected_shows_its_values_and_a_box_shows_all(user: SceneUser) -> None:
     user.tool("Select")
     user.click((0.5, 0.0))
@@ -235,6 +242,7 @@ def test_a_point_that_is_selected_shows_its_values_and_a_box_shows_all(user: Sce
     user.page.get_by_text("Nothing is selected.").wait_for()
 
 
+@pytest.mark.slow
 def test_a_distance_is_measured(user: SceneUser) -> None:
     user.tool("Measure")
     user.click((1.0, -0.5))
@@ -246,6 +254,7 @@ def test_a_distance_is_measured(user: SceneUser) -> None:
     user.tool("Interact")
 
 
+@pytest.mark.slow
 def test_the_camera_is_moved_although_a_marker_lies_below(user: SceneUser, feedback: list[Any]) -> None:
     """From the plate, which the same drag moves with Interact; and back."""
     user.side("Views")
@@ -259,6 +268,7 @@ def test_the_camera_is_moved_although_a_marker_lies_below(user: SceneUser, feedb
     user.tool("Interact")
 
 
+@pytest.mark.slow
 def test_a_point_is_focused_and_the_view_saved(user: SceneUser, server: PageServer) -> None:
     """Last, since it moves the ground."""
     user.side("Views")
