@@ -102,8 +102,8 @@ def test_collisions_move_with_their_bodies(cubes: WorldPage, tmp_path: Path) -> 
     _write(tmp_path / "collisions.glb", "red", 3, _GREEN, 0.0)
     _show(cubes, "red", collisions="world/collisions.glb")
     assert _columns(cubes.picture(), _GREEN) is None
-    cubes.page.evaluate("world.object(3).children.forEach((visual) => { visual.visible = false })")
-    cubes.page.evaluate("world.showCollisions.value = true")
+    cubes.page.evaluate("world.shown.setAll('visuals', false)")
+    cubes.page.evaluate("world.shown.setAll('collisions', true)")
     cubes.page.wait_for_function("world.object(3).children.length > 1")
     left = _columns(cubes.picture(), _GREEN)
     assert left is not None
@@ -112,7 +112,7 @@ def test_collisions_move_with_their_bodies(cubes: WorldPage, tmp_path: Path) -> 
     right = _columns(cubes.picture(), _GREEN)
     assert right is not None
     assert right[0] > 240
-    cubes.page.evaluate("world.showCollisions.value = false")
+    cubes.page.evaluate("world.shown.setAll('collisions', false)")
     assert _columns(cubes.picture(), _GREEN) is None
 
 

@@ -5,6 +5,7 @@ import { Box3, Group, Object3D, PerspectiveCamera, Quaternion, Ray, Vector3 } fr
 
 import { CommandList } from "../src/app/commands";
 import { Drive } from "../src/app/drive";
+import { ShownParts } from "../src/scene/overlays/shown_parts";
 import type { Page } from "../src/app/page";
 import { liveSession, type Session } from "../src/app/session";
 import { UndoHistory } from "../src/app/undo";
@@ -43,7 +44,7 @@ export class FakeWorld implements SimulatedWorld {
   readonly progress = signal(1);
   readonly faults = signal<readonly string[]>([]);
   readonly joints = signal<readonly JointState[]>([]);
-  readonly showCollisions = signal(false);
+  readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
   pose(): { position: Vector3; orientation: Quaternion } {
     return { position: new Vector3(-0.004, 0.211, 0.089), orientation: new Quaternion(0, 0, Math.sin(0.0035), 1).normalize() };

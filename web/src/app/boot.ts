@@ -13,6 +13,7 @@ import { GraphNames } from "../protocol/graph_names";
 import { SceneInput } from "../scene/pointer_input";
 import { ThreeScene } from "../scene/three_scene";
 import { ViewList } from "../scene/views/view_list";
+import { BodyOverlays } from "../scene/overlays/body_overlays";
 import { SelectionOutline } from "../scene/world/selection_outline";
 import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
@@ -28,6 +29,7 @@ import { makeTheme } from "./theme";
 import { UndoHistory } from "./undo";
 import type { Shell } from "./shell";
 import { makeEditor } from "./world_edits";
+import { allModels } from "./world_nodes";
 
 /** Fetch what the page is for; throws a sentence. */
 export async function fetchSession(address: string): Promise<Session> {
@@ -83,6 +85,7 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
     scene.element.style.cursor = tools.current.value.cursor;
   });
   new SelectionOutline(scene, world, () => outlinedBodies(page));
+  new BodyOverlays(scene, world, ({ models }) => allModels(models));
   scene.onTick((elapsed) => displays.update(view.now(), elapsed));
   const shell: Shell = mount(root, { page, panels, commands, sceneHost, frozen });
   startDisplays(shell);

@@ -12,6 +12,7 @@ import type { Selection } from "./page";
 import { PickedSection } from "./picked_section";
 import { PoseSection } from "./pose_section";
 import type { Shell } from "./shell";
+import { ShownSection } from "./view_menu";
 import { LightSections, WorldSections } from "./world_sections";
 
 export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -51,6 +52,7 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
     <>
       {link === null ? <ModelSections shell={shell} name={selection.model} model={model} /> : <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />}
       <ModelJoints shell={shell} name={selection.model} model={model} />
+      <ShownSection shell={shell} model={selection.model} />
     </>
   );
 }

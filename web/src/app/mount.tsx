@@ -25,6 +25,8 @@ import { Shell } from "./shell";
 import { saveCommands } from "./save_world";
 import { simulationCommands } from "./simulation_commands";
 import { toolCommands } from "./tool_bar";
+import { rememberShown } from "./shown_parts";
+import { viewMenuCommands } from "./view_menu";
 
 export interface Parts {
   readonly page: Page;
@@ -39,7 +41,8 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, panels, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...modelCommands(shell));
+  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell));
+  rememberShown(page);
   listenForKeys(commands);
   acceptDroppedRviz(shell);
   effect(() => {

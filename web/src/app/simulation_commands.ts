@@ -32,9 +32,6 @@ export function simulationCommands(shell: Shell): readonly Command[] {
     command("reset.poses", "Reset poses only", () => shell.request("Reset", "reset", { what: "poses" })),
     command("reset.time", "Reset time only", () => shell.request("Reset", "reset", { what: "time" })),
     command("reload", "Load the world again", () => shell.request("Load the world again", "reload")),
-    command("collisions", "Show or hide collisions", () => {
-      page.world.showCollisions.value = !page.world.showCollisions.peek();
-    }),
   ];
 }
 

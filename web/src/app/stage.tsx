@@ -9,6 +9,7 @@ import { SceneNotes } from "./scene_notes";
 import type { Shell } from "./shell";
 import { ToolBar } from "./tool_bar";
 import { VideoNote } from "./video_note";
+import { ViewMenu } from "./view_menu";
 
 export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
   const phone = shell.layout.isPhone.value;
@@ -16,6 +17,7 @@ export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
     <section class="stage" aria-label="On the scene">
       <div class="top">
         {!phone && <ToolBar shell={shell} />}
+        {!phone && <ViewMenu shell={shell} />}
         <NoticeLine shell={shell} />
         <VideoNote shell={shell} />
       </div>

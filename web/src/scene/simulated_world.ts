@@ -4,6 +4,7 @@ import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Object3D } from "three";
 
 import type { Transform } from "../frames/transform";
+import type { ShownParts } from "./overlays/shown_parts";
 
 export type SixNumbers = readonly [number, number, number, number, number, number];
 export type Triple = readonly [number, number, number];
@@ -74,6 +75,9 @@ export interface CameraInfo {
   readonly horizontal_fov: number;
   readonly width: number;
   readonly height: number;
+  /** Nearest and farthest that it draws [m]. */
+  readonly near: number;
+  readonly far: number;
   readonly rate: number;
 }
 
@@ -133,7 +137,8 @@ export interface SimulatedWorld {
   readonly faults: ReadonlySignal<readonly string[]>;
   /** Changes at 10 Hz while something listens. */
   readonly joints: ReadonlySignal<readonly JointState[]>;
-  readonly showCollisions: Signal<boolean>;
+  /** What of the world is shown. */
+  readonly shown: ShownParts;
   /** Names (`model` or `model::link`) that are hidden. */
   readonly hidden: Signal<ReadonlySet<string>>;
   /** Newest pose of a body in the world; null before the first. */

@@ -12,6 +12,8 @@ export interface MenuItem {
   readonly icon?: IconName;
   readonly checked?: boolean;
   readonly disabled?: boolean;
+  /** The menu stays open after it, as for a row of check marks. */
+  readonly stays?: boolean;
   readonly run: () => void;
 }
 
@@ -89,16 +91,17 @@ function Menu({ items, anchor, onClose }: MenuProps): JSX.Element {
         <button
           key={item.title}
           type="button"
-          role={item.checked === undefined ? "menuitem" : "menuitemradio"}
+          role={item.checked === undefined ? "menuitem" : item.stays === true ? "menuitemcheckbox" : "menuitemradio"}
           aria-checked={item.checked}
           disabled={item.disabled}
           tabIndex={-1}
           onClick={() => {
-            onClose();
+            if (item.stays !== true) onClose();
             item.run();
           }}
         >
           {item.icon !== undefined && <Icon name={item.icon} />}
+          {item.stays === true && <Icon name="check" class={item.checked === true ? "" : "unchecked"} />}
           {item.title}
           {item.detail !== undefined && <span class="r">{item.detail}</span>}
           {item.keys !== undefined && <kbd>{item.keys}</kbd>}

@@ -61,7 +61,7 @@ export const MANIFEST: Manifest = {
     { name: "lamp", type: "point", body: null, pose: [1, 0, 2, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 0.9, 0.8], intensity: 1 },
   ],
   cameras: ["netbook_webcam", "my_sensor"].map((name) => ({
-    name, topic: `/${name}/image_raw`, body: 2, pose: [0, 0, 0, 0, 0, 0], horizontal_fov: 1, width: 320, height: 240, rate: 30,
+    name, topic: `/${name}/image_raw`, body: 2, pose: [0, 0, 0, 0, 0, 0], horizontal_fov: 1, near: 0.1, far: 8, width: 320, height: 240, rate: 30,
   })),
   frames: [],
 };

@@ -211,6 +211,8 @@ def _camera(camera: CameraSensor, bodies: BodyNumbers) -> _Json:
         "horizontal_fov": lens.horizontal_fov_rad,
         "width": lens.width_px,
         "height": lens.height_px,
+        "near": camera.optics.near_m,
+        "far": camera.optics.far_m,
         "rate": camera.rate_hz,
     }
 

@@ -3,7 +3,7 @@
 import { Group, Mesh, SkinnedMesh, type BufferGeometry, type Light, type MeshStandardMaterial, type Object3D, type ShaderMaterial, type Texture } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-import { sdfColours, sdfMaterial } from "./sdf_material";
+import { sdfColours, sdfMaterial, sdfVariant } from "./sdf_material";
 import { CASTERS } from "./shadow_map";
 import type { WorldLighting } from "./world_lighting";
 
@@ -37,11 +37,26 @@ function shared<T>(known: Map<string, T>, name: unknown, own: T): T {
   return found;
 }
 
+/** How a model's visuals are drawn. */
+export interface VisualMode {
+  readonly visuals: boolean;
+  readonly transparent: boolean;
+  readonly wireframe: boolean;
+}
+
+/** The model of a body, `model` of `model::link`. */
+export function modelOf(body: Object3D): string {
+  const name = String(body.userData["name"]);
+  return name.slice(0, Math.max(0, name.lastIndexOf("::")));
+}
+
 export class GlbModel {
   /** In the world's frame, z up. */
   readonly root = new Group();
   readonly bodies = new Map<number, Object3D>();
   private readonly materials = new Map<string, ShaderMaterial>();
+  /** Materials as they were read. */
+  private readonly plain = new Map<Object3D, { readonly mesh: Mesh; readonly material: ShaderMaterial }>();
 
   private constructor(
     private readonly lighting: WorldLighting,
@@ -59,6 +74,21 @@ export class GlbModel {
     }
     model.root.traverse((object) => model.prepare(object));
     return model;
+  }
+
+  /** Draw the visuals of each body as its model's name asks for. */
+  show(modeOf: (model: string) => VisualMode): void {
+    for (const body of this.bodies.values()) {
+      const mode = modeOf(modelOf(body));
+      for (const visual of body.children) {
+        if (visual.userData["visual"] === undefined) continue;
+        visual.visible = mode.visuals;
+        visual.traverse((object) => {
+          const plain = this.plain.get(object);
+          if (plain !== undefined) plain.mesh.material = this.variantOf(plain.material, mode);
+        });
+      }
+    }
   }
 
   dispose(): void {
@@ -81,6 +111,7 @@ export class GlbModel {
     const standard = mesh.material as MeshStandardMaterial;
     const material = this.materialOf(standard, !mesh.geometry.hasAttribute("normal"));
     mesh.material = material;
+    this.plain.set(mesh, { mesh, material });
     const extras = { ...mesh.parent?.userData, ...mesh.userData } as Record<string, unknown>;
     if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false; // its bones move it out of its own bounds
     if (extras["casts_shadow"] !== false && !material.transparent) mesh.layers.enable(CASTERS);
@@ -94,6 +125,16 @@ export class GlbModel {
     const material = sdfMaterial(sdfColours(standard), texture, isFlat, this.lighting);
     this.materials.set(key, material);
     return material;
+  }
+
+  private variantOf(plain: ShaderMaterial, mode: VisualMode): ShaderMaterial {
+    if (!mode.transparent && !mode.wireframe) return plain;
+    const key = `${plain.uuid} ${mode.transparent} ${mode.wireframe}`;
+    const known = this.materials.get(key);
+    if (known !== undefined) return known;
+    const variant = sdfVariant(plain, mode, this.lighting);
+    this.materials.set(key, variant);
+    return variant;
   }
 }
 

@@ -68,6 +68,27 @@ export function sdfMaterial(colours: SdfColours, texture: Texture | null, isFlat
   return material;
 }
 
+/** What is left of a visual's opacity where it is drawn transparent, as in Gazebo. */
+const OPACITY = 0.5;
+
+/** The same look, half transparent or as its triangles' edges. */
+export function sdfVariant(plain: ShaderMaterial, { transparent, wireframe }: { readonly transparent: boolean; readonly wireframe: boolean }, lighting: WorldLighting): ShaderMaterial {
+  const { uniforms, defines, vertexShader, side } = plain;
+  const diffuse = (uniforms["diffuse"]?.value as Vector4).clone();
+  if (transparent) diffuse.w *= OPACITY;
+  const own: ShaderMaterial["uniforms"] = { ...uniforms, diffuse: { value: diffuse } };
+  const emissive = uniforms["emissive"]?.value as Color;
+  if (wireframe) own["emissive"] = { value: emissive.clone().add(new Color(diffuse.x, diffuse.y, diffuse.z)) }; // no light falls on lines
+  const isBlended = diffuse.w < 1;
+  const { polygonOffset, polygonOffsetFactor, polygonOffsetUnits } = plain;
+  const material = new ShaderMaterial({
+    polygonOffset, polygonOffsetFactor, polygonOffsetUnits, vertexShader, side,
+    fragmentShader: "", uniforms: own, defines: { ...defines }, wireframe, transparent: isBlended, depthWrite: !isBlended,
+  });
+  lighting.light(material);
+  return material;
+}
+
 function rgb([red, green, blue]: Rgba): [number, number, number] {
   return [red, green, blue];
 }

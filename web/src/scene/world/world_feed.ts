@@ -1,15 +1,16 @@
 /** The simulated world as the server's channels describe it, drawn in the scene. */
 
-import { effect, signal, type ReadonlySignal } from "@preact/signals";
+import { effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import { Box3, type Object3D } from "three";
 
 import type { FrameTree } from "../../frames/frame_tree";
 import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
+import { ShownParts } from "../overlays/shown_parts";
 import type { JointState, Manifest, SimulatedWorld, WorldState } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
-import type { GlbModel } from "./glb_model";
+import { modelOf, type GlbModel } from "./glb_model";
 import { readJoints } from "./joint_states";
 import { WorldPlacement } from "./placement";
 import { Sky } from "./sky";
@@ -21,7 +22,7 @@ export class WorldFeed implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
   readonly state = signal<WorldState | null>(null);
   readonly joints: ReadonlySignal<readonly JointState[]>;
-  readonly showCollisions = signal(false);
+  readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
   private readonly lighting = new WorldLighting();
   private readonly files: WorldFiles;
@@ -104,7 +105,13 @@ export class WorldFeed implements SimulatedWorld {
       }),
       effect(() => {
         const url = this.manifest.value?.collisions ?? null;
-        this.setCollisions(this.showCollisions.value ? url : null);
+        this.setCollisions(this.shown.any("collisions") ? url : null);
+      }),
+      this.shown.all.subscribe(() => this.showParts()),
+      this.shown.models.subscribe(() => this.showParts()),
+      effect(() => {
+        const manifest = this.manifest.value;
+        if (manifest !== null) scene.grid.value = this.shown.world.value.get("grid") ?? manifest.scene.grid;
       }),
       effect(() => {
         if (connection.state.value.kind === "connected") return;
@@ -139,7 +146,6 @@ export class WorldFeed implements SimulatedWorld {
     this.lighting.setScene(scene);
     const background = scene.background.map((part) => Math.round(255 * part));
     this.scene.background.value = `rgb(${background.join(", ")})`;
-    this.scene.grid.value = scene.grid;
     this.sky.visible = scene.sky;
     this.files.show(manifest.files);
     this.lighting.setContents(this.scene.world, scene.shadows);
@@ -158,6 +164,7 @@ export class WorldFeed implements SimulatedWorld {
     for (const [body, object] of came?.bodies ?? []) this.poses.attach(body, object);
     for (const object of gone?.bodies.values() ?? []) this.poses.detach(object);
     this.hide(this.hidden.peek());
+    untracked(() => this.showParts());
     this.lighting.setContents(this.scene.world, this.manifest.peek()?.scene.shadows ?? false);
     this.scene.invalidate();
   }
@@ -177,6 +184,21 @@ export class WorldFeed implements SimulatedWorld {
     this.scene.invalidate();
   }
 
+  /** Show of each model its visuals and collisions as wanted. */
+  private showParts(): void {
+    const { shown } = this;
+    for (const model of this.files.models) {
+      model.show((name) => ({ visuals: shown.of("visuals", name), transparent: shown.of("transparent", name), wireframe: shown.of("wireframe", name) }));
+    }
+    for (const [body, shapes] of this.collisions?.model.bodies ?? []) {
+      const object = this.object(body);
+      if (shapes.parent !== object) object?.add(shapes);
+      shapes.visible = shown.of("collisions", modelOf(shapes));
+    }
+    this.lighting.invalidate();
+    this.scene.invalidate();
+  }
+
   /** Show the collisions of an address, each below its body; null: none. */
   private setCollisions(url: string | null): void {
     if ((this.collisions?.url ?? null) === url && url !== null) return;
@@ -191,13 +213,12 @@ export class WorldFeed implements SimulatedWorld {
     void this.files.read(url, () => undefined, abort.signal).then((model) => {
       if (abort.signal.aborted) return;
       this.collisions = { url, model };
-      for (const [body, shapes] of model.bodies) {
+      for (const shapes of model.bodies.values()) {
         delete shapes.userData["body"]; // it belongs to the body that is there
         shapes.position.set(0, 0, 0);
         shapes.quaternion.identity();
-        this.object(body)?.add(shapes);
       }
-      this.scene.invalidate();
+      this.showParts();
     }, (error: unknown) => {
       if (!abort.signal.aborted) this.files.fault("Collisions", error);
     });

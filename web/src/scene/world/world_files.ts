@@ -30,6 +30,11 @@ export class WorldFiles {
     private readonly onChange: (came: GlbModel | null, gone: GlbModel | null) => void,
   ) {}
 
+  /** Models that are there. */
+  get models(): readonly GlbModel[] {
+    return [...this.entries.values()].flatMap(({ model }) => model ?? []);
+  }
+
   /** Show these files and no others; a file is known by its name and address. */
   show(files: Manifest["files"]): void {
     const wanted = new Map(files.map((file) => [`${file.id} ${file.url}`, file]));

@@ -1,0 +1,179 @@
+"""A person chooses what is shown of a simulated world; the picture is checked by what it has where."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tests.page.scene_user import PX_PER_M
+from tests.page.world_user import WorldUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+Picture = NDArray[np.uint8]
+Mask = NDArray[np.bool_]
+
+
+def _shapes(collision: str, visual: str, rgb: str) -> str:
+    """Return a collision and a visual, boxes of these sizes; the visual glows in a colour."""
+    box = "<geometry><box><size>{}</size></box></geometry>"
+    black = "<ambient>0 0 0 1</ambient><diffuse>0 0 0 1</diffuse>"
+    material = f"<material>{black}<emissive>{rgb} 1</emissive></material>"
+    visible = f'<visual name="v">{box.format(visual)}{material}</visual>'
+    return f'<collision name="c">{box.format(collision)}</collision>{visible}'
+
+
+MASS = """<inertial><pose>0 0 0 0 0 0.5</pose><mass>2</mass>
+<inertia><ixx>0.05</ixx><iyy>0.03</iyy><izz>0.06</izz></inertia></inertial>"""
+BOX_M = (0.346, 0.49)
+"""Length and width of the box of even density with this mass and inertia: √(6 (iyy + izz − ixx) / m), …"""
+EYE = """<sensor name="eye" type="camera"><pose>0.3 0 0 0 0 0</pose><camera><horizontal_fov>1.5708</horizontal_fov>
+<image><width>80</width><height>60</height></image><clip><near>0.1</near><far>0.5</far></clip></camera></sensor>"""
+WORLD = f"""<sdf version="1.6"><world name="yard"><wind><linear_velocity>3 0 0</linear_velocity></wind>
+<scene><background>0 0 0 1</background><grid>0</grid></scene>
+<model name="crate"><pose>-1 0 0.2 0 0 0</pose>
+<link name="base">{MASS}{_shapes("0.6 0.4 0.4", "0.4 0.4 0.4", "1 0 0")}</link></model>
+<model name="gate"><pose>1 0 0.2 0 0 0</pose>
+<link name="base">{_shapes("0.4 0.4 0.4", "0.4 0.4 0.4", "0 0 1")}{EYE}</link>
+<link name="flap"><pose>0 0.6 0 0 0 0</pose>{_shapes("0.2 0.2 0.2", "0.2 0.2 0.2", "0 0 1")}</link>
+<joint name="hinge" type="revolute"><pose>0 -0.1 0 0 0 0</pose><parent>base</parent><child>flap</child>
+<axis><xyz>0 0 1</xyz><limit><lower>0</lower><upper>1.5708</upper></limit></axis></joint></model></world></sdf>"""
+RED, BLUE = (255, 0, 0), (0, 0, 255)
+
+
+class Viewer(WorldUser):
+    """Shows and hides parts; measures areas of the picture that changed."""
+
+    def show(self, *parts: str) -> None:
+        """Press entries of the View menu."""
+        self.button("Show in the view").click()
+        for part in parts:
+            self.page.get_by_role("menuitemcheckbox", name=part, exact=True).click()
+        self.page.keyboard.press("Escape")
+
+    def run(self, command: str) -> None:
+        """Run a command by its name."""
+        self.page.keyboard.press("Control+k")
+        self.page.get_by_role("combobox", name="Search commands").fill(command)
+        self.page.keyboard.press("Enter")
+
+    def is_shown(self, part: str) -> bool:
+        self.button("Show in the view").click()
+        checked = self.page.get_by_role("menuitemcheckbox", name=part, exact=True).get_attribute("aria-checked")
+        self.page.keyboard.press("Escape")
+        return checked == "true"
+
+    def until_changed(self, before: Picture, where: Any, what: str = "") -> None:
+        """Wait until the mask (height, width) of what changed is as wanted."""
+        self.until(lambda: where((self.picture().astype(int) - before).any(axis=-1)), what=what)
+
+
+def _within(mask: Mask, x: tuple[float, float], y: tuple[float, float]) -> Mask:
+    """Part of a mask between these coordinates of the ground [m]."""
+    columns = slice(round((x[0] + 2.5) * PX_PER_M), round((x[1] + 2.5) * PX_PER_M))
+    return mask[round((1.5 - y[1]) * PX_PER_M) : round((1.5 - y[0]) * PX_PER_M), columns]
+
+
+def _area(mask: Mask) -> float:
+    """[m²]"""
+    return float(mask.sum() / PX_PER_M**2)
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Viewer]:
+    folder = tmp_path_factory.mktemp("yard")
+    (folder / "yard.sdf").write_text(WORLD)
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
+    with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
+        user = Viewer(chromium, url)
+        user.run("Show or hide the cameras")
+        user.look_down()
+        user.run("Select nothing")
+        user.until_area(RED, 0.16)
+        yield user
+        user.close()
+
+
+def test_visuals_are_hidden_transparent_or_their_edges(user: Viewer) -> None:
+    user.show("Visuals")
+    user.until_area(RED, 0)
+    assert user.area(BLUE) == 0
+    user.show("Visuals", "Transparent")
+    user.until_area((128, 0, 0), 0.16)
+    user.show("Transparent", "Wireframe")
+    user.until(lambda: 0 < user.area(RED) < 0.05)
+    user.show("Wireframe")
+    user.until_area(RED, 0.16)
+
+
+def test_collisions_are_shown_around_what_is_smaller(user: Viewer) -> None:
+    before = user.picture()
+    user.show("Collisions")
+    user.until_changed(before, lambda mask: _within(mask, (-1.28, -1.22), (-0.15, 0.15)).all())
+    user.show("Collisions")
+    user.until_changed(before, lambda mask: not mask.any())
+
+
+def test_an_inertia_is_the_box_of_even_density(user: Viewer) -> None:
+    """Of one model alone, by its inspector; the box is turned by the inertia's own axes."""
+    before = user.picture()
+    user.pick("crate")
+    selected = user.page.locator(".inspector").get_by_role("button", name="Inertias", exact=True)
+    selected.click()
+    user.run("Select nothing")
+    user.until_changed(before, lambda mask: abs(_area(mask) - BOX_M[0] * BOX_M[1]) < 0.01)
+    user.until_changed(before, lambda mask: not _within(mask, (0, 2.4), (-1.4, 1.4)).any())
+    user.pick("crate")
+    selected.click()
+    user.run("Select nothing")
+    user.until_changed(before, lambda mask: not mask.any())
+
+
+def test_a_joint_has_its_range_and_a_link_its_axes(user: Viewer) -> None:
+    """The hinge, at x = 1 and y = 0.5, turns from x to y: the sector lies there."""
+    before = user.picture()
+    user.show("Joints")
+    user.until_changed(before, lambda mask: _within(mask, (1.01, 1.04), (0.51, 0.54)).all(), what="for the sector")
+    user.until_changed(before, lambda mask: not _within(mask, (0.8, 0.97), (0.42, 0.48)).any())
+    user.show("Joints", "Link frames")
+    user.until_changed(before, lambda mask: _within(mask, (-1.0, -0.9), (0, 0.01)).all(), what="for the x axis")
+    user.show("Link frames", "Centres of mass")
+    user.until_changed(before, lambda mask: 1e-4 < _area(_within(mask, (-1.2, -0.8), (-0.2, 0.2))) < 0.01)
+    user.show("Centres of mass")
+    user.until_changed(before, lambda mask: not mask.any())
+
+
+def test_a_camera_has_the_pyramid_that_it_sees(user: Viewer) -> None:
+    """From x = 1.3 half a metre ahead, as wide as it is long on each side."""
+    before = user.picture()
+    user.show("Cameras")
+    user.until_changed(before, lambda mask: _within(mask, (1.78, 1.82), (-0.4, 0.4)).any(axis=1).all())
+    user.show("Cameras")
+    user.until_changed(before, lambda mask: not mask.any())
+
+
+def test_wind_and_origin_are_marked_and_remembered(user: Viewer) -> None:
+    """By the palette; a page that is loaded again shows them still."""
+    before = user.picture()
+    user.run("Show or hide wind")
+    user.until_changed(before, lambda mask: _within(mask, (0.1, 0.3), (-0.02, 0.02)).any(axis=0).all())
+    user.run("Show or hide world origin")
+    user.until_changed(before, lambda mask: _within(mask, (-0.01, 0.01), (0.2, 0.8)).any(axis=1).all())
+    user.page.reload()
+    user.page.get_by_label("Connected").first.wait_for()
+    user.until(lambda: user.button("Show in the view").is_visible())
+    assert user.is_shown("Wind")
+    assert user.is_shown("World origin")
+    assert not user.is_shown("Grid")
+    user.look_down()
+    user.run("Select nothing")
+    user.until_changed(before, lambda mask: _within(mask, (-0.01, 0.01), (0.2, 0.8)).any(axis=1).all())
+    user.show("Wind", "World origin")
+    user.until_changed(before, lambda mask: not mask.any())

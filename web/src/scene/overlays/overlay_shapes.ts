@@ -1,0 +1,74 @@
+/** Shapes of the drawings at bodies: in front of what they are in, not picked. */
+
+import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3, DoubleSide, Group, type Object3D } from "three";
+
+import { HEAD, SHAFT } from "../../displays/shapes/solids";
+
+const X = new Vector3(1, 0, 0);
+/** Drawn after the world and its transparent parts: areas first, then lines and solids. */
+const [AREAS, SOLIDS] = [20, 21];
+
+/** Colours, the same in both themes as the world's own background lies behind them. */
+export const COLOURS = { x: 0xff5b52, y: 0x56cc40, z: 0x4f9dff, axis: 0xf2b134, limit: 0x3fbed0, inertia: 0xc06bff, frustum: 0x6fd3ff, force: 0x56cc40, contact: 0x4f9dff } as const;
+
+const materials = new Map<string, MeshBasicMaterial | LineBasicMaterial>();
+
+/** A flat material in front of what it is in; shared, so not to be disposed of. */
+function flat(colour: number, opacity = 1): MeshBasicMaterial {
+  return shared(`${colour} ${opacity}`, () => new MeshBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false, side: DoubleSide }));
+}
+
+function shared<M extends MeshBasicMaterial | LineBasicMaterial>(key: string, make: () => M): M {
+  const known = materials.get(key) as M | undefined;
+  if (known !== undefined) return known;
+  const made = make();
+  materials.set(key, made);
+  return made;
+}
+
+/** Lines from each even point to the next. */
+export function lines(points: readonly number[], colour: number, opacity = 1): LineSegments {
+  const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
+  const material = shared(`line ${colour} ${opacity}`, () => new LineBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false }));
+  return inFront(new LineSegments(geometry, material));
+}
+
+/** An arrow of a length from the origin in a direction. */
+export function arrow(direction: Vector3, length: number, colour: number): Group {
+  const group = new Group();
+  const [shaft, head] = [new Mesh(SHAFT, flat(colour)), new Mesh(HEAD, flat(colour))];
+  shaft.scale.set(0.78 * length, 0.04 * length, 0.04 * length);
+  head.position.x = 0.78 * length;
+  head.scale.set(0.22 * length, 0.12 * length, 0.12 * length);
+  group.quaternion.setFromUnitVectors(X, direction);
+  group.add(inFront(shaft), inFront(head));
+  return group;
+}
+
+/** Axes of a frame. */
+export function triad(length: number): Group {
+  const group = new Group();
+  const colours = [COLOURS.x, COLOURS.y, COLOURS.z];
+  [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].forEach((axis, i) => group.add(arrow(axis, length, colours[i] ?? 0)));
+  return group;
+}
+
+export function inFront<O extends Object3D>(object: O): O {
+  object.renderOrder = SOLIDS;
+  return object;
+}
+
+/** An area that others are seen through. */
+export function area(geometry: BufferGeometry, colour: number, opacity: number): Mesh {
+  const mesh = new Mesh(geometry, flat(colour, opacity));
+  mesh.renderOrder = AREAS;
+  return mesh;
+}
+
+/** Free the geometries that an object has for itself. */
+export function disposeLines(root: Object3D): void {
+  root.traverse((object) => {
+    const { geometry } = object as Partial<Mesh>;
+    if (object instanceof LineSegments || object.userData["ownGeometry"] === true) geometry?.dispose();
+  });
+}

@@ -1,0 +1,68 @@
+/** What of the simulated world is shown: of all models, and of single ones where that differs. */
+
+import { signal } from "@preact/signals";
+
+/** Parts of a model that can be shown, in the order of Gazebo's View menu. */
+export const PARTS = [
+  "visuals", "transparent", "wireframe", "collisions", "joints", "centres", "inertias", "frames", "cameras",
+] as const;
+export type Part = (typeof PARTS)[number];
+
+/** Parts of the world itself. */
+export const WORLD_PARTS = ["grid", "origin", "wind"] as const;
+export type WorldPart = (typeof WORLD_PARTS)[number];
+
+/** Model in full (`outer::inner`) → part → shown or not. */
+export type ModelParts = ReadonlyMap<string, ReadonlyMap<Part, boolean>>;
+
+export class ShownParts {
+  /** Shown of all models. */
+  readonly all = signal<ReadonlySet<Part>>(new Set(["visuals"]));
+  /** Models that differ. */
+  readonly models = signal<ModelParts>(new Map());
+  /** Shown of the world itself; the grid only where it is not as the world has it. */
+  readonly world = signal<ReadonlyMap<WorldPart, boolean>>(new Map());
+
+  /** Whether a part is shown of a model; what is said of the model itself counts before what is said of those it is in. */
+  of(part: Part, model: string): boolean {
+    let name = model;
+    for (;;) {
+      const own = this.models.value.get(name)?.get(part);
+      if (own !== undefined) return own;
+      const at = name.lastIndexOf("::");
+      if (at < 0) return this.all.value.has(part);
+      name = name.slice(0, at);
+    }
+  }
+
+  /** Whether a part is shown of any model. */
+  any(part: Part): boolean {
+    if (this.all.value.has(part)) return true;
+    for (const own of this.models.value.values()) if (own.get(part) === true) return true;
+    return false;
+  }
+
+  /** Show or hide a part of every model. */
+  setAll(part: Part, isShown: boolean): void {
+    const all = new Set(this.all.peek());
+    if (isShown) all.add(part);
+    else all.delete(part);
+    this.all.value = all;
+    const models = new Map<string, ReadonlyMap<Part, boolean>>();
+    for (const [model, own] of this.models.peek()) {
+      const rest = new Map([...own].filter(([other]) => other !== part));
+      if (rest.size > 0) models.set(model, rest);
+    }
+    this.models.value = models;
+  }
+
+  /** Show or hide a part of one model. */
+  set(part: Part, model: string, isShown: boolean): void {
+    const own = new Map(this.models.peek().get(model)).set(part, isShown);
+    this.models.value = new Map(this.models.peek()).set(model, own);
+  }
+
+  setWorld(part: WorldPart, isShown: boolean): void {
+    this.world.value = new Map(this.world.peek()).set(part, isShown);
+  }
+}
