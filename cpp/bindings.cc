@@ -23,6 +23,10 @@ Transform transform_of(const std::array<double, 7>& pose, const char* owner) {
   return *transform;
 }
 
+Sky sky_of(const Colour& horizon, const Colour& zenith) {
+  return Sky{{horizon[0], horizon[1], horizon[2]}, {zenith[0], zenith[1], zenith[2]}, {}, 0};
+}
+
 }  // namespace
 
 NB_MODULE(_native, module) {
@@ -124,7 +128,7 @@ NB_MODULE(_native, module) {
              std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights, Colour ambient, Colour horizon,
              Colour zenith, std::optional<Fog> fog, int32_t threads) {
             if (bodies < 0) throw std::invalid_argument("bodies must be at least 0");
-            const Sky sky{{horizon[0], horizon[1], horizon[2]}, {zenith[0], zenith[1], zenith[2]}, {}, 0};
+            const Sky sky = sky_of(horizon, zenith);
             new (self) Renderer(SceneSpec{bodies, std::move(meshes), std::move(textures), std::move(shapes),
                                           std::move(lights), ambient, sky, fog.value_or(Fog{})},
                                 threads);
@@ -141,6 +145,13 @@ NB_MODULE(_native, module) {
           },
           nb::arg("poses"))
       .def("set_mesh", &Renderer::set_mesh, nb::arg("index"), nb::arg("mesh"))
+      .def("set_material", &Renderer::set_material, nb::arg("shape"), nb::arg("material"))
+      .def(
+          "set_lighting",
+          [](Renderer& self, std::vector<LightSpec> lights, Colour ambient, Colour horizon, Colour zenith) {
+            self.set_lighting(std::move(lights), ambient, sky_of(horizon, zenith));
+          },
+          nb::arg("lights"), nb::kw_only(), nb::arg("ambient"), nb::arg("horizon"), nb::arg("zenith"))
       .def(
           "render",
           [](Renderer& self, const std::vector<std::array<double, 7>>& world_from_cameras,

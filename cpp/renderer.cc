@@ -16,6 +16,8 @@ bool is_finite(const Vec3& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite((float)number); });
 }
 
+bool is_index(int32_t index, size_t count) { return index >= 0 && (size_t)index < count; }
+
 void copy(const std::array<float, 3>& from, float* to) { std::copy(from.begin(), from.end(), to); }
 
 // Largest distance of a face's corner from a point [m].
@@ -51,25 +53,47 @@ Renderer::Renderer(SceneSpec scene, int32_t threads)
     for (Workspace& workspace : workspaces_) workspace.reserve(mesh);
   }
   for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
-  const auto is_index = [](int32_t index, size_t count) { return index >= 0 && (size_t)index < count; };
   for (const ShapeSpec& shape : scene_.shapes) {
     if (!is_index(shape.body, (size_t)scene_.bodies))
       throw std::invalid_argument("a shape rides on a body that does not exist");
     if (shape.kind == ShapeKind::kMesh && !is_index(shape.mesh, scene_.meshes.size()))
       throw std::invalid_argument("a shape names a mesh that does not exist");
-    if (shape.material.texture != -1 && !is_index(shape.material.texture, scene_.textures.size()))
-      throw std::invalid_argument("a shape names a texture that does not exist");
-    materials_.push_back(make_material(shape.material, scene_.textures));
-    if (shape.kind == ShapeKind::kMesh && !triangles_[shape.mesh].uv_planes) materials_.back().texture = nullptr;
+    materials_.push_back(material_of(shape));
   }
-  for (const LightSpec& light : scene_.lights)
-    if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
-      throw std::invalid_argument("a light rides on a body that does not exist");
+  check_lights();
   lods_.resize(scene_.meshes.size());
   assign_face_ids();
   shape_poses_.resize(scene_.shapes.size());
   for (const ShapeSpec& shape : scene_.shapes) bounds_.push_back(bounds_of(shape));
   update_shape_poses();
+}
+
+Material Renderer::material_of(const ShapeSpec& shape) const {
+  if (shape.material.texture != -1 && !is_index(shape.material.texture, scene_.textures.size()))
+    throw std::invalid_argument("a shape names a texture that does not exist");
+  Material material = make_material(shape.material, scene_.textures);
+  if (shape.kind == ShapeKind::kMesh && !triangles_[shape.mesh].uv_planes) material.texture = nullptr;
+  return material;
+}
+
+void Renderer::check_lights() const {
+  for (const LightSpec& light : scene_.lights)
+    if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
+      throw std::invalid_argument("a light rides on a body that does not exist");
+}
+
+void Renderer::set_material(int32_t shape, const MaterialSpec& material) {
+  if (!is_index(shape, scene_.shapes.size())) throw std::invalid_argument("there is no such shape");
+  scene_.shapes[shape].material = material;
+  materials_[shape] = material_of(scene_.shapes[shape]);
+  shadow_maps_dirty_ = true;  // a shape may have become transparent
+}
+
+void Renderer::set_lighting(std::vector<LightSpec> lights, const std::array<float, 3>& ambient, const Sky& sky) {
+  scene_.lights = std::move(lights), scene_.ambient = ambient, scene_.sky = sky;
+  check_lights();
+  shadow_maps_ = std::vector<std::optional<ShadowMapImage>>(scene_.lights.size());
+  shadow_maps_dirty_ = true;
 }
 
 void Renderer::Workspace::reserve(const Mesh& mesh) {

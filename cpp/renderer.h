@@ -80,6 +80,9 @@ class Renderer {
 
   void update(const double* poses);         // (bodies, 7)
   void set_mesh(int32_t index, Mesh mesh);  // for all shapes that use it
+  // What a picture may change without building a scene again. Throws as the constructor does.
+  void set_material(int32_t shape, const MaterialSpec& material);
+  void set_lighting(std::vector<LightSpec> lights, const std::array<float, 3>& ambient, const Sky& sky);
   // All targets in one pass; threads share their rows.
   void render(const std::vector<CameraTarget>& targets);
   // Ranges to the nearest shapes [m] and their indices; infinity and -1 without a hit. directions: (count, 3), unit, in
@@ -95,6 +98,8 @@ class Renderer {
     int32_t axis;
   };
   void update_shape_poses();
+  Material material_of(const ShapeSpec& shape) const;
+  void check_lights() const;
   Bounds bounds_of(const ShapeSpec& shape) const;
   bool is_infinite(const ShapeSpec& shape) const;
   std::optional<Transform> make_renderable(const Transform& world_from_camera, size_t index,

@@ -12,12 +12,13 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from os import PathLike
 
+    from trundle.bringup.dataset.dataset import DatasetResult
     from trundle.bringup.loaded_simulation import LoadedSimulation
     from trundle.bringup.sweep.sweep import SweepResult
     from trundle.description import Model, World
 
 __version__ = "0.1.0"
-__all__ = ["Model", "World", "__version__", "load", "sweep"]
+__all__ = ["Model", "World", "__version__", "dataset", "load", "sweep"]
 
 
 def load(
@@ -67,6 +68,28 @@ def sweep(
     from trundle.bringup.sweep.sweep import sweep_plan
 
     return sweep_plan(plan, output=None if output is None else Path(output), workers=workers)
+
+
+def dataset(
+    plan: "str | PathLike[str] | Mapping[str, object]", *, output: "str | PathLike[str] | None" = None
+) -> "DatasetResult":
+    """Make annotated pictures of a varied world, to train vision on.
+
+    A call for the same plan goes on where the last one stopped.
+
+    Args:
+        plan: a plan's file, or its content as a dictionary, whose relative paths start in the working directory.
+        output: folder of the dataset; None: beside the plan's file, or `plan.dataset` in the working directory.
+
+    Raises:
+        TrundleError: one sentence with file and line.
+        KeyboardInterrupt: Ctrl-C; what has been made is kept.
+    """
+    from pathlib import Path
+
+    from trundle.bringup.dataset.dataset import make_planned
+
+    return make_planned(plan, output=None if output is None else Path(output))
 
 
 def __getattr__(name: str) -> object:

@@ -31,6 +31,7 @@ COMMANDS: dict[str, str] = {
     "convert": "convert a robot or world to SDF, URDF or MJCF",
     "render": "render an image or a video of a robot or a world",
     "sweep": "run a world many times with different values",
+    "dataset": "make annotated pictures of a varied world, to train vision on",
     "xacro": "expand a xacro file",
     "core": "run the ROS master, parameter server and rosout",
     "topic": "list, print, measure and publish topics",

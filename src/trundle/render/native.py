@@ -44,6 +44,9 @@ class _Registry(Generic[Key, Item]):
         self._numbers: dict[Key, int] = {}
         self.items: list[Item] = []
 
+    def __contains__(self, key: Key) -> bool:
+        return key in self._numbers
+
     def number(self, key: Key, make: Callable[[], Item]) -> int:
         if key not in self._numbers:
             self._numbers[key] = len(self.items)
@@ -54,37 +57,24 @@ class _Registry(Generic[Key, Item]):
 class NativeRenderer:
     """`Renderer` by exact ray intersection of primitives and rasterisation of meshes."""
 
-    def __init__(self, scene: Scene, *, threads: int = 1) -> None:
+    def __init__(self, scene: Scene, *, threads: int = 1, textures: Sequence[Texture] = ()) -> None:
         """Pass a scene to C++.
 
         Args:
             scene: shapes and lights.
             threads: share the rows of all images of a call, at most 64; results do not depend on their number.
+            textures: further ones, which `restyle` may give to shapes.
         """
         meshes = _Registry[int, _native.Mesh]()
-        textures = _Registry[Texture, _native.Texture]()
-
-        def material_of(shape: Shape) -> _native.Material:
-            image = None if shape.texture is None else load_texture(shape.texture)
-            texture = -1
-            if isinstance(image, np.ndarray) and shape.texture is not None:
-                texture = textures.number(shape.texture, lambda: _native.Texture(image))
-            return _native.Material(
-                ambient=(shape.ambient or shape.rgba)[:3],
-                diffuse=shape.rgba[:3],
-                specular=shape.specular[:3],
-                emissive=shape.emissive[:3],
-                shininess=shape.shininess,
-                opacity=shape.rgba[3],
-                texture=texture,
-                repeat=tuple(1.0 / scale if scale else 1.0 for scale in shape.texture_scale),
-            )
+        self._textures = _Registry[Texture, _native.Texture]()
+        for texture in textures:
+            self._texture_number(texture)
 
         def native(shape: Shape) -> _native.Shape:
             geometry, mesh = shape.geometry, -1
             if isinstance(geometry, Mesh):
                 mesh = meshes.number(id(geometry), lambda: _native_mesh(geometry))
-            return _native_shape(shape, mesh, material_of(shape))
+            return _native_shape(shape, mesh, self._material(shape))
 
         shapes = [native(shape) for shape in scene.shapes]
         self._meshes = {
@@ -93,11 +83,12 @@ class NativeRenderer:
             if isinstance(shape.geometry, Mesh)
         }
         """Shape number → mesh number in C++ and the initial mesh."""
+        self._scene = scene
         horizon, zenith = scene.sky or (scene.background, scene.background)
         self._renderer = _native.Renderer(
             bodies=len(scene.bodies),
             meshes=meshes.items,
-            textures=textures.items,
+            textures=self._textures.items,
             shapes=shapes,
             lights=[_native_light(light) for light in scene.lights or DEFAULT_LIGHTS],
             ambient=scene.ambient[:3],
@@ -106,6 +97,46 @@ class NativeRenderer:
             fog=_native_fog(scene.fog),
             threads=threads,
         )
+
+    def _texture_number(self, texture: Texture) -> int:
+        """Return the number of a texture in C++; −1 if it cannot be read."""
+
+        def native() -> _native.Texture:
+            assert isinstance(image, np.ndarray)
+            return _native.Texture(image)
+
+        image = None if texture in self._textures else load_texture(texture)
+        return -1 if isinstance(image, str) else self._textures.number(texture, native)
+
+    def _material(self, shape: Shape) -> _native.Material:
+        return _native.Material(
+            ambient=(shape.ambient or shape.rgba)[:3],
+            diffuse=shape.rgba[:3],
+            specular=shape.specular[:3],
+            emissive=shape.emissive[:3],
+            shininess=shape.shininess,
+            opacity=shape.rgba[3],
+            texture=-1 if shape.texture is None else self._texture_number(shape.texture),
+            repeat=tuple(1.0 / scale if scale else 1.0 for scale in shape.texture_scale),
+        )
+
+    def restyle(self, scene: Scene) -> None:
+        """Take the materials, lights, ambient light and background of a scene with the same shapes.
+
+        Args:
+            scene: its textures are those that the renderer was made with.
+        """
+        for number, (old, new) in enumerate(zip(self._scene.shapes, scene.shapes, strict=True)):
+            if old is not new:
+                self._renderer.set_material(number, self._material(new))
+        horizon, zenith = scene.sky or (scene.background, scene.background)
+        self._renderer.set_lighting(
+            [_native_light(light) for light in scene.lights or DEFAULT_LIGHTS],
+            ambient=scene.ambient[:3],
+            horizon=horizon[:3],
+            zenith=zenith[:3],
+        )
+        self._scene = scene
 
     def update(self, poses: NDArray[np.float64]) -> None:
         """See `Renderer.update`."""

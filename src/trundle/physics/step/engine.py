@@ -222,6 +222,12 @@ class Engine:
             return self._contact_query.contacts_of_state(among, self._state())
         return self._contact_query.contacts(among, self._state if self.asleep else None)
 
+    def overlaps(self, depth: float) -> frozenset[tuple[str, str]]:
+        """Return the collisions, `model::link::collision`, of each two that penetrate each other by more than a depth
+        [m] in the current state, without a step.
+        """
+        return self._scratch.overlaps(self._state(), depth)
+
     def reactions(self) -> NDArray[np.float64]:
         """Return (links, 6) force [N] and torque [N·m] on each link by its parent; see `ScratchEngine.reactions`."""
         return self._scratch.reactions(self._state())

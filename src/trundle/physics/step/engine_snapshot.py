@@ -60,6 +60,13 @@ class ScratchEngine:
             chosen = np.flatnonzero(~apart[data.contact.geom].any(axis=1))
             return contacts_of(self._compiled, model, data, chosen)
 
+    def overlaps(self, state: _Array, depth: float) -> frozenset[tuple[str, str]]:
+        """Return the names of each two collisions that penetrate each other by more than a depth [m] in a state."""
+        with self._lock:
+            _, data = self._set_state(state)
+            names, deep = self._compiled.geom_collisions, data.contact.geom[data.contact.dist < -depth]
+            return frozenset((names[one], names[other]) for one, other in deep.tolist())
+
     @contextmanager
     def evaluate(self) -> Generator[tuple[mujoco.MjModel, mujoco.MjData]]:
         """Have the other engine's model and data to oneself, to put a state there and work something out."""

@@ -1,0 +1,37 @@
+"""Make annotated pictures of a varied world, to train vision on."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from .options import add_allow_outside, add_lenient
+from .quiet_imports import quiet_imports
+
+EXAMPLES = """
+  trundle dataset plan.yaml                           every picture of the plan; the same command goes on after a stop
+  trundle dataset plan.yaml --count 20                the first twenty
+  trundle dataset plan.yaml -o data                   in another folder
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("plan", type=Path, metavar="PLAN.yaml", help="what is drawn, and what varies")
+    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the dataset (PLAN.dataset)")
+    parser.add_argument("--count", type=int, metavar="N", help="number of pictures (the plan's)")
+    add_allow_outside(parser)
+    add_lenient(parser)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Make the pictures of a plan."""
+    with quiet_imports():
+        from trundle.bringup.dataset.dataset import make_dataset
+        from trundle.datasets import load_dataset_plan
+    plan = load_dataset_plan(args.plan, count=args.count)
+    result = make_dataset(plan, output=args.output)
+    print(f"{result.summary()}; {result.folder}")
+    if result.interrupted:
+        print(f"stopped; `trundle dataset {args.plan}` goes on", file=sys.stderr)
+        return 130
+    return 0

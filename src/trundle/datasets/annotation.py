@@ -1,0 +1,105 @@
+"""Annotations of a picture, independent of any format.
+
+Pixels are counted from the picture's upper left corner: the first pixel spans 0 to 1, its centre is 0.5.
+Cameras have optical frames: x to the right, y down, z along the view.
+"""
+
+from msgspec import Struct, field
+
+Numbers = tuple[float, ...]
+
+
+class Box2d(Struct, frozen=True, array_like=True):
+    """Box along the picture's axes [px]."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    @property
+    def width(self) -> float:
+        """[px]"""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """[px]"""
+        return self.bottom - self.top
+
+
+class Box3d(Struct, frozen=True, kw_only=True):
+    """Box along a model's axes."""
+
+    world_from_box: Numbers
+    """x y z [m] of its centre, qw qx qy qz."""
+    size: Numbers
+    """Lengths along its axes [m]."""
+
+
+class KeyPointAnnotation(Struct, frozen=True, kw_only=True):
+    """Point of a model."""
+
+    name: str
+    world: Numbers
+    """[m]"""
+    pixel: Numbers | None
+    """None: behind the camera or outside the picture."""
+    is_visible: bool
+    """True if nothing is in front of it, its own model neither."""
+
+
+class Mask(Struct, frozen=True, kw_only=True):
+    """Mask as run lengths, COCO's: down the columns, in characters."""
+
+    size: tuple[int, int]
+    """Height and width [px]."""
+    counts: str
+
+
+class ObjectAnnotation(Struct, frozen=True, kw_only=True):
+    """Seen object."""
+
+    instance: int
+    """Value in the segmentation."""
+    model: str
+    category: str
+    world_from_model: Numbers
+    """x y z [m], qw qx qy qz."""
+    box: Box2d
+    """Around its visible pixels."""
+    amodal_box: Box2d
+    """Around all of it, hidden parts too, within the picture."""
+    box_3d: Box3d
+    pixels: int
+    """Number of visible pixels."""
+    occlusion: float
+    """Share of it within the picture that others hide."""
+    truncation: float
+    """Share of it beyond the picture's edges, 0 to 1."""
+    mask: Mask
+    key_points: tuple[KeyPointAnnotation, ...] = ()
+
+
+class CameraAnnotation(Struct, frozen=True, kw_only=True):
+    """Pinhole without distortion."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    """Focal lengths and principal point [px]."""
+    world_from_camera: Numbers
+    """x y z [m], qw qx qy qz of the optical frame."""
+
+
+class PictureAnnotation(Struct, frozen=True, kw_only=True):
+    """Annotations of a picture."""
+
+    number: int
+    width: int
+    height: int
+    camera: CameraAnnotation
+    camera_from_lidar: Numbers | None = None
+    """x y z [m], qw qx qy qz in the optical frame."""
+    objects: tuple[ObjectAnnotation, ...] = field(default_factory=tuple)

@@ -1,0 +1,181 @@
+"""Annotation of pictures from their depths and segmentation."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.diagnostics import DescriptionError
+from trundle.render import Scene
+from trundle.simulation import Simulation
+from trundle.spatial import Pose, matrix_from_quaternion, pose_from_row, transform_points
+
+from .annotation import Box2d, Box3d, KeyPointAnnotation, ObjectAnnotation
+from .instance import Instance
+from .outlines import Outlines
+from .placer import Arrangement, bodies_of, find_model
+from .plan import KeyPoint
+from .run_length import encode_mask
+from .silhouettes import Silhouettes
+from .view import View
+
+_Array = NDArray[np.float64]
+_HIDDEN_M, _HIDDEN_SHARE = 0.01, 0.01
+"""Distance by which something that hides a key point is nearer [m], and as a share of its depth."""
+
+
+class Annotator:
+    """Annotates pictures of one scene."""
+
+    def __init__(self, simulation: Simulation, scene: Scene, instances: Sequence[Instance], outlines: Outlines) -> None:
+        """Number the shapes.
+
+        Raises:
+            DescriptionError: a key point's link is not there.
+        """
+        self._outlines = outlines
+        self._silhouettes = Silhouettes(scene)
+        self._bodies = {
+            each.number: bodies_of(find_model(simulation, each.model, each.placement)) for each in instances
+        }
+        number_of = {body: each.number for each in instances if each.plan for body in self._bodies[each.number]}
+        self.numbers: NDArray[np.uint16] = np.array(
+            [*(number_of.get(shape.body, 0) for shape in scene.shapes), 0], dtype=np.uint16
+        )
+        """Shape → number of its instance, 0 for all else; the last entry is that of no shape."""
+        self._links = {body: name.partition("::")[2] for body, name in enumerate(scene.bodies)}
+        for each in instances:
+            for point in each.plan.key_points if each.plan is not None else ():
+                self._body_of(point, each)
+
+    def _body_of(self, point: KeyPoint, instance: Instance) -> int | None:
+        """Return the index of a key point's link; None: it is the model's frame."""
+        if point.link is None:
+            return None
+        bodies = self._bodies[instance.number]
+        for body in bodies:
+            if self._links[body] == point.link:
+                return body
+        there = ", ".join(self._links[body] for body in bodies)
+        raise DescriptionError(point.at, f"key point {point.name!r}: no link {point.link!r}; links: {there}")
+
+    def annotate(
+        self, arrangement: Arrangement, view: View, depth: NDArray[np.float32], instances: NDArray[np.uint16]
+    ) -> tuple[ObjectAnnotation, ...]:
+        """Annotate each object with a visible pixel.
+
+        Args:
+            arrangement: poses.
+            view: camera.
+            depth: (height, width) [m]; infinite in the background.
+            instances: (height, width) number of the instance at each pixel.
+        """
+        counts = np.bincount(instances.reshape(-1), minlength=1 + max(self._bodies, default=0))
+        return tuple(
+            self._object(each, arrangement, view, depth, instances == each.number, int(counts[each.number]))
+            for each in arrangement.present
+            if each.plan is not None and counts[each.number]
+        )
+
+    def _object(
+        self,
+        instance: Instance,
+        arrangement: Arrangement,
+        view: View,
+        depth: NDArray[np.float32],
+        mask: NDArray[np.bool_],
+        pixels: int,
+    ) -> ObjectAnnotation:
+        assert instance.plan is not None
+        bodies, poses = self._bodies[instance.number], arrangement.poses
+        points = self._outlines.in_world(bodies, poses)
+        world_from_model = arrangement.world_from_models[instance.number]
+        box = _box_of(mask)
+        hiding = self._silhouettes.hiding(bodies, poses, points, view, depth, mask)
+        return ObjectAnnotation(
+            instance=instance.number,
+            model=instance.model,
+            category=instance.plan.category,
+            world_from_model=_row(world_from_model),
+            box=box,
+            amodal_box=_amodal_box(points, view, box),
+            box_3d=_box_3d(points, world_from_model),
+            pixels=pixels,
+            occlusion=hiding.occlusion,
+            truncation=hiding.truncation,
+            mask=encode_mask(mask),
+            key_points=self._key_points(instance, arrangement, view, depth),
+        )
+
+    def _key_points(
+        self, instance: Instance, arrangement: Arrangement, view: View, depth: NDArray[np.float32]
+    ) -> tuple[KeyPointAnnotation, ...]:
+        assert instance.plan is not None
+        found: list[KeyPointAnnotation] = []
+        for point in instance.plan.key_points:
+            body = self._body_of(point, instance)
+            frame = (
+                arrangement.world_from_models[instance.number]
+                if body is None
+                else pose_from_row(arrangement.poses[body])
+            )
+            world = frame.transform_point(point.point)
+            x, y, ahead = view.project(np.array([world]))[0].tolist()
+            inside = ahead > view.lens.near_m and 0 <= x < view.lens.width_px and 0 <= y < view.lens.height_px
+            slack = max(_HIDDEN_M, _HIDDEN_SHARE * ahead)
+            found.append(
+                KeyPointAnnotation(
+                    name=point.name,
+                    world=world,
+                    pixel=(x, y) if inside else None,
+                    is_visible=inside and float(depth[int(y), int(x)]) >= ahead - slack,
+                )
+            )
+        return tuple(found)
+
+
+def _row(pose: Pose) -> tuple[float, ...]:
+    return (*pose.position, *pose.quaternion)
+
+
+def _box_of(mask: NDArray[np.bool_]) -> Box2d:
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return Box2d(float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))
+
+
+def _amodal_box(points: _Array, view: View, visible: Box2d) -> Box2d:
+    """Return the box around the projected points, within the picture; where some are behind the camera, up to the edges
+    that they reach.
+    """
+    pixels = view.project(points)
+    ahead = pixels[:, 2] > view.lens.near_m
+    if not ahead.any():
+        return visible
+    width, height = float(view.lens.width_px), float(view.lens.height_px)
+    low, high = pixels[ahead, :2].min(axis=0), pixels[ahead, :2].max(axis=0)
+    if not ahead.all():
+        behind = points[~ahead] - view.world_from_optical.position
+        local = behind @ matrix_from_quaternion(view.world_from_optical.quaternion)
+        low = np.where((local[:, :2] < 0).any(axis=0), 0.0, low)
+        high = np.where((local[:, :2] > 0).any(axis=0), (width, height), high)
+    (left, top), (right, bottom) = low.tolist(), high.tolist()
+    return Box2d(
+        max(min(left, visible.left), 0.0),
+        max(min(top, visible.top), 0.0),
+        min(max(right, visible.right), width),
+        min(max(bottom, visible.bottom), height),
+    )
+
+
+def _box_3d(points: _Array, world_from_model: Pose) -> Box3d:
+    local = transform_points(world_from_model.inverse(), points)
+    low, high = local.min(axis=0), local.max(axis=0)
+    x, y, z = ((low + high) / 2).tolist()
+    dx, dy, dz = (high - low).tolist()
+    return Box3d(world_from_box=_row(world_from_model @ Pose((x, y, z))), size=(dx, dy, dz))
+
+
+def box_corners(box: Box3d) -> _Array:
+    """Return the eight corners of a box in the world, (8, 3) [m]; x varies slowest."""
+    signs = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    return transform_points(pose_from_row(np.array(box.world_from_box)), signs * box.size)

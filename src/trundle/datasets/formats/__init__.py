@@ -1,0 +1,1 @@
+"""Formats of datasets, a file each."""

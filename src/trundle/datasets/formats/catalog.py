@@ -1,0 +1,17 @@
+"""Formats by name."""
+
+from collections.abc import Mapping
+from importlib import import_module
+
+from ..plan import Format
+from .format import DatasetFormat
+
+_FORMATS: Mapping[Format, str] = {
+    "coco": "CocoFormat",
+}
+"""Name, which is also that of its module → class; imported on first use."""
+
+
+def format_of(name: Format) -> DatasetFormat:
+    """Return the writer of a format."""
+    return getattr(import_module(f"{__package__}.{name}"), _FORMATS[name])()

@@ -1,0 +1,117 @@
+"""Occlusion and truncation: each object drawn alone, as large as it fits a small picture, against the whole."""
+
+import math
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+from numpy.typing import NDArray
+
+from trundle.render import Intrinsics, NativeRenderer, Scene
+from trundle.spatial import Pose, matrix_from_quaternion, quaternion_from_matrix, transform_points
+
+from .view import View
+
+_Array = NDArray[np.float64]
+_SIDE_PX = 72
+"""Size of the small picture: an object covers some two thousand of its pixels."""
+_MARGIN = 1.05
+_WIDEST = 2.6
+"""Field of view for what surrounds the camera [rad]."""
+_NEARER = 0.005
+"""Share of the distance by which an occluder must be nearer, against rounding."""
+_WHITE = (1.0, 1.0, 1.0, 1.0)
+
+
+class Hiding(Struct, frozen=True):
+    """Hidden parts of an object."""
+
+    occlusion: float
+    """Share of it within the picture that others hide."""
+    truncation: float
+    """Share of it beyond the picture's edges."""
+
+
+class Silhouettes:
+    """Draws single objects of a scene."""
+
+    def __init__(self, scene: Scene) -> None:
+        shapes = tuple(replace(shape, texture=None, rgba=_WHITE, casts_shadow=False) for shape in scene.shapes)
+        self._renderer = NativeRenderer(replace(scene, shapes=shapes, skins=(), lights=()))
+
+    def hiding(
+        self,
+        bodies: range,
+        poses: _Array,
+        points: _Array,
+        view: View,
+        depth: NDArray[np.float32],
+        is_object: NDArray[np.bool_],
+    ) -> Hiding:
+        """Return the hidden parts of an object.
+
+        Args:
+            bodies: the object's links.
+            poses: (links, 7) of the whole picture.
+            points: (N, 3) extent of the object in the world [m].
+            view: the picture's camera.
+            depth: (height, width) of the picture [m].
+            is_object: (height, width) the object's visible pixels.
+        """
+        alone = np.full_like(poses, np.nan)
+        alone[list(bodies)] = poses[list(bodies)]
+        eye = view.world_from_camera.position
+        world_from_small, lens = _fitted(eye, points, view)
+        self._renderer.update(alone)
+        found = self._renderer.render([(world_from_small, lens)], depth=True)[0].depth
+        assert found is not None
+        rows, columns = np.nonzero(np.isfinite(found))
+        if not len(rows):
+            return Hiding(0.0, 0.0)
+        ahead = found[rows, columns].astype(np.float64)
+        f = lens.focal_px
+        local = np.stack(
+            [ahead, -ahead * (columns + 0.5 - _SIDE_PX / 2) / f, -ahead * (rows + 0.5 - _SIDE_PX / 2) / f], axis=-1
+        )
+        pixels = view.project(transform_points(world_from_small, local))
+        height, width = depth.shape
+        inside = (
+            (pixels[:, 2] > view.lens.near_m)
+            & (pixels[:, 0] >= 0)
+            & (pixels[:, 0] < width)
+            & (pixels[:, 1] >= 0)
+            & (pixels[:, 1] < height)
+        )
+        if not inside.any():
+            return Hiding(0.0, 1.0)
+        u, v = pixels[inside, 0].astype(np.intp), pixels[inside, 1].astype(np.intp)
+        # What is seen behind the object beside its edge does not hide it.
+        hidden = ~is_object[v, u] & (depth[v, u] < pixels[inside, 2] * (1.0 - _NEARER))
+        return Hiding(float(hidden.mean()), 1.0 - float(inside.mean()))
+
+
+def _fitted(eye: tuple[float, float, float], points: _Array, view: View) -> tuple[Pose, Intrinsics]:
+    """Return a camera at the same place that looks at the points alone."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    ahead = middle - eye
+    distance = float(np.linalg.norm(ahead))
+    if distance < 1e-6:
+        ahead, distance = np.array([1.0, 0.0, 0.0]), 1.0
+    ahead = ahead / distance
+    side = np.cross((0.0, 0.0, 1.0) if abs(ahead[2]) < 0.9 else (1.0, 0.0, 0.0), ahead)
+    side /= np.linalg.norm(side)
+    turn = quaternion_from_matrix(np.stack([ahead, side, np.cross(ahead, side)], axis=-1))
+    local = (points - eye) @ matrix_from_quaternion(turn)
+    if (local[:, 0] > view.lens.near_m).all():
+        half = float(np.abs(local[:, 1:] / local[:, :1]).max())
+        fov = min(2.0 * math.atan(half * _MARGIN), _WIDEST)
+    else:
+        fov = _WIDEST
+    lens = Intrinsics(
+        width_px=_SIDE_PX,
+        height_px=_SIDE_PX,
+        horizontal_fov_rad=max(fov, 1e-4),
+        near_m=view.lens.near_m,
+        far_m=1e6,
+    )
+    return Pose(eye, turn), lens

@@ -1,0 +1,107 @@
+"""Datasets by the whole path: plan, command, files."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from trundle.datasets.annotation import Mask
+from trundle.datasets.run_length import decode_mask
+
+TRUNDLE = Path(sys.executable).with_name("trundle")
+WORLD = """<sdf version="1.6"><world name="w"><model name="floor"><static>1</static><link name="l">
+<collision name="c"><geometry><box><size>4 4 0.1</size></box></geometry></collision>
+<visual name="v"><geometry><box><size>4 4 0.1</size></box></geometry></visual></link></model></world></sdf>"""
+MODEL = """<sdf version="1.6"><model name="m"><link name="body">
+<collision name="c"><geometry>{shape}</geometry></collision>
+<visual name="v"><geometry>{shape}</geometry></visual></link></model></sdf>"""
+PLAN = """\
+world: world.sdf
+count: 3
+seed: 5
+size: [160, 120]
+camera: {orbit: {distance: {uniform: [2, 3]}, elevation: {uniform: [0.4, 1.2]}}}
+objects:
+  box: {model: box.sdf, surface: floor, within: {x: [-1, 1], y: [-1, 1]}, key_points: {top: [0, 0, 0.2]}, colour: any}
+  ball: {model: ball.sdf, count: [1, 2], surface: floor, within: {x: [-1, 1], y: [-1, 1]}}
+distractors: {count: {uniform: [0, 3]}, size: {uniform: [0.1, 0.3]}, surface: floor, colour: any}
+"""
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Path:
+    (tmp_path / "world.sdf").write_text(WORLD)
+    (tmp_path / "box.sdf").write_text(MODEL.format(shape="<box><size>0.4 0.4 0.4</size></box>"))
+    (tmp_path / "ball.sdf").write_text(MODEL.format(shape="<sphere><radius>0.2</radius></sphere>"))
+    (tmp_path / "plan.yaml").write_text(PLAN)
+    return tmp_path / "plan.yaml"
+
+
+def _make(plan: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    command = [TRUNDLE, "dataset", plan, *options]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+
+
+def _bytes(folder: Path) -> dict[str, bytes]:
+    return {str(each.relative_to(folder)): each.read_bytes() for each in sorted(folder.rglob("*")) if each.is_file()}
+
+
+@pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning")  # in its compiled part
+def test_coco_is_what_cocos_tools_read(plan: Path) -> None:
+    coco = pytest.importorskip("pycocotools.coco", reason="pycocotools is not installed")
+
+    done = _make(plan)
+
+    folder = plan.with_suffix(".dataset")
+    assert (done.returncode, done.stdout) == (0, f"3 of 3 pictures; {folder}\n"), done.stderr
+    read = coco.COCO(str(folder / "coco.json"))
+    assert {each["name"] for each in read.loadCats(read.getCatIds())} == {"box", "ball"}
+    assert len(read.getImgIds()) == 3
+    assert len(read.getAnnIds()) >= 6
+    for image in read.loadImgs(read.getImgIds()):
+        with Image.open(folder / image["file_name"]) as picture:
+            assert (picture.size, picture.mode) == ((160, 120), "RGB")
+        numbers = np.array(Image.open(folder / "segmentation" / Path(image["file_name"]).name))
+        for each in read.loadAnns(read.getAnnIds(image["id"])):
+            mask = read.annToMask(each).astype(bool)
+            (number,) = np.unique(numbers[mask])
+            assert np.array_equal(numbers == number, mask), "one instance, all of it"
+            rows, columns = np.nonzero(mask)
+            x, y, width, height = each["bbox"]
+            assert (x, y, x + width, y + height) == (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
+            assert each["area"] == mask.sum()
+
+
+def test_what_is_there_is_not_made_again_and_the_rest_is_the_same(plan: Path) -> None:
+    assert _make(plan, "-o", str(plan.with_name("whole"))).returncode == 0
+    whole, folder = plan.with_name("whole"), plan.with_suffix(".dataset")
+
+    assert _make(plan, "--count", "1").stdout.startswith("1 of 1 pictures; ")
+    before = (folder / "images/000000.png").stat().st_mtime_ns
+    assert _make(plan).returncode == 0
+
+    assert (folder / "images/000000.png").stat().st_mtime_ns == before
+    assert _bytes(folder) == _bytes(whole)
+
+
+def test_another_plan_does_not_write_into_the_folder(plan: Path) -> None:
+    assert _make(plan, "--count", "1").returncode == 0
+    plan.write_text(PLAN.replace("seed: 5", "seed: 6"))
+
+    done = _make(plan, "--count", "1")
+
+    assert done.returncode == 1
+    assert "has the pictures of another plan, or the plan or its models have changed since" in done.stderr
+
+
+def test_records_have_masks_by_number(plan: Path) -> None:
+    _make(plan, "--count", "1")
+    record = json.loads((plan.with_suffix(".dataset") / "records/000000.json").read_text())
+    numbers = np.array(Image.open(plan.with_suffix(".dataset") / "segmentation/000000.png"))
+    for each in record["objects"]:
+        mask = Mask(size=tuple(each["mask"]["size"]), counts=each["mask"]["counts"])
+        assert np.array_equal(decode_mask(mask), numbers == each["instance"])
