@@ -13,7 +13,7 @@ from tests.skinned import bending_column
 from tests.web.conftest import WorldPage
 
 import trundle
-from trundle.bringup.simulation_page.actor_bones import ActorBones
+from trundle.bringup.actor_bones import ActorBones
 from trundle.diagnostics import Diagnostics
 from trundle.gltf import glb_from_scene
 from trundle.meshes import Mesh

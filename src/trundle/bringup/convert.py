@@ -1,4 +1,4 @@
-"""`trundle convert`: a description written in another format."""
+"""`trundle convert`: a description, or a recorded run, written in another format."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -8,16 +8,20 @@ from msgspec.structs import replace
 
 from trundle.atomic_write import write_atomically
 from trundle.description import LoadedDescription, UriOf, write_sdf, write_urdf, written_uri
-from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.files import is_stream
 from trundle.meshes import Texture
 from trundle.model import flattened
 from trundle.packages import Packages
+from trundle.simulation import is_state_log
 from trundle.spatial import rows_from_poses
 
 from .file_copies import FileCopies
 from .load_input import load_input
 
-Format: TypeAlias = Literal["sdf", "urdf", "mjcf", "glb"]
+_DescriptionFormat: TypeAlias = Literal["sdf", "urdf", "mjcf", "glb"]
+Format: TypeAlias = _DescriptionFormat | Literal["html"]
+"""A recorded run is written as GLB or HTML."""
 
 
 def convert(
@@ -44,8 +48,16 @@ def convert(
 
     Raises:
         DescriptionError: the file cannot be read, or not written in that format.
-        UsageError: no such model, or the output cannot be written.
+        UsageError: no such model, no such format of a recording, or the output cannot be written.
     """
+    path = Path(file)
+    if not is_stream(file) and path.is_file() and is_state_log(path):
+        content = _written_recording(path, to, report)
+        if output is not None:
+            write_atomically(output, content)
+        return content
+    if to == "html":
+        raise UsageError(f"{file} is no recording; an HTML replay is made of one by trundle run --record")
     loaded = load_input(file, report, packages=Packages(environment, start=start), start=start)
     if output is None:
         return _written(loaded, to, written_uri, lambda _: None, report)
@@ -56,9 +68,20 @@ def convert(
     return content
 
 
+def _written_recording(file: Path, to: Format, report: Diagnostics) -> str | bytes:
+    if to not in ("glb", "html"):
+        raise UsageError(f"{file} is a recording; it is converted to glb or html")
+    from .recorded_run import open_recording  # these load the physics, which few formats need
+    from .replay.page_file import replay_page
+    from .replay.recorded_motion import animated_world, motion_of_log
+
+    motion = motion_of_log(*open_recording(file, report), title=file.name)
+    return replay_page(motion, report) if to == "html" else animated_world(motion, report)
+
+
 def _written(
     loaded: LoadedDescription,
-    to: Format,
+    to: _DescriptionFormat,
     uri_of: UriOf,
     picture_of: Callable[[Texture], str | None],
     report: Diagnostics,

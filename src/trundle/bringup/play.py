@@ -1,6 +1,5 @@
 """`trundle play`: shows a state log or a bag on a page, at any speed."""
 
-import os
 import sys
 import time
 from dataclasses import dataclass
@@ -10,21 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.bridge import WORLD_FRAME
-from trundle.description import load_text
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, TrundleError
 from trundle.files import open_file
-from trundle.model import AnimationState, flattened
-from trundle.packages import Packages
+from trundle.model import AnimationState
 from trundle.page import JOINTS, POSES, BagFile, PageServer, Playback, RenderView, Session
 from trundle.page_address import AllowedNames, PageAddress
 from trundle.ros import open_bag
-from trundle.simulation import Simulation, StateLog, read_state_log
+from trundle.simulation import Simulation, StateLog
 from trundle.spatial import NS_PER_S
 
+from .actor_bones import ActorBones
 from .browser import announce_page
 from .console import Console
+from .recorded_run import open_recording
 from .signals import StopFlag, stop_flag
-from .simulation_page.actor_bones import ActorBones
 from .simulation_page.body_numbers import BodyNumbers
 from .simulation_page.manifest import find_robot, single_axes, world_manifest
 from .simulation_page.pictures import WorldPictures
@@ -63,15 +61,8 @@ def play(file: Path, options: PlayOptions) -> int:
     """
     if _is_bag(file):
         return play_bag(file, options)
-    log = read_state_log(file)
-    if len(log.times) == 0:
-        raise DescriptionError(Source(str(file)), "nothing was recorded")
     report = Diagnostics()
-    packages = Packages(dict(os.environ), start=Path.cwd())
-    loaded = load_text(log.sdf, name=str(file), folder=file.parent, packages=packages, report=report)
-    simulation = Simulation(flattened(loaded.world), report)
-    if simulation.engine.compiled.link_names != log.links:
-        raise DescriptionError(Source(str(file), 1), "the world in this log has other links than were recorded")
+    log, simulation = open_recording(file, report)
     show = Console(sys.stderr, report)
     show.findings()
     robot = find_robot(simulation.world)

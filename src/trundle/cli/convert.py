@@ -1,4 +1,4 @@
-"""Convert a robot or world to SDF, URDF, MJCF or GLB."""
+"""Convert a robot or world to SDF, URDF, MJCF or GLB, a recorded run to GLB or HTML."""
 
 import argparse
 import os
@@ -13,6 +13,8 @@ EXAMPLES = """
   trundle convert model.sdf --to urdf -o robot.urdf   meshes are copied into meshes/ beside it
   trundle convert world.sdf --to mjcf -o world.xml    for MuJoCo: simulated shapes and joints
   trundle convert robot.urdf --to glb -o robot.glb    with textures and lights, for Blender and the web
+  trundle convert run.log --to html -o run.html       a recorded run as a page that opens without Trundle
+  trundle convert run.log --to glb -o run.glb         the same as an animation
   trundle convert old.sdf --to sdf | trundle check -  the same model in SDF 1.11
 """
 
@@ -20,7 +22,7 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", metavar="FILE|DIR|model://NAME|-", help="file to read; commands in it are not run")
-    parser.add_argument("--to", choices=("sdf", "urdf", "mjcf", "glb"), required=True, help="output format")
+    parser.add_argument("--to", choices=("sdf", "urdf", "mjcf", "glb", "html"), required=True, help="output format")
     parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="output file (standard output)")
     parser.add_argument("--strict", action="store_true", help="treat warnings as errors")
     add_allow_outside(parser)

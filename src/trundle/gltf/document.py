@@ -90,12 +90,40 @@ class Document:
 
     def matrices(self, matrices: NDArray[np.float64]) -> int:
         """Return the index of an accessor of matrices (N, 4, 4)."""
-        data = matrices.transpose(0, 2, 1).astype("<f4").tobytes()  # glTF's are column by column
+        return self._accessor(matrices.transpose(0, 2, 1), "MAT4")  # glTF's are column by column
+
+    def numbers(self, rows: NDArray[np.float64], *, bounded: bool = False) -> int:
+        """Return the index of an accessor of numbers (N,), or of vectors (N, 3) or (N, 4); equal ones are there once.
+
+        Args:
+            rows: the values.
+            bounded: name the smallest and the largest, as the times of an animation need it.
+        """
+        kind = "SCALAR" if rows.ndim == 1 else f"VEC{rows.shape[1]}"
+        key = (rows.astype("<f4").tobytes(), kind, bounded)
+        if ("numbers", key) not in self._indices:
+            single = rows.astype(np.float32)
+            bounds: dict[str, object] = {}
+            if bounded:
+                bounds = {"min": [float(single.min())], "max": [float(single.max())]}
+            self._indices["numbers", key] = self._accessor(rows, kind, bounds)
+        return self._indices["numbers", key]
+
+    def _accessor(self, rows: NDArray[np.float64], kind: str, bounds: dict[str, object] | None = None) -> int:
+        data = rows.astype("<f4").tobytes()
         buffer, start = self._add_bytes(content_name(data), data)
         view = self.add("bufferViews", {"buffer": buffer, "byteOffset": start, "byteLength": len(data)})
-        return self.add(
-            "accessors", {"bufferView": view, "componentType": FLOAT, "count": len(matrices), "type": "MAT4"}
-        )
+        fields: dict[str, object] = {"bufferView": view, "componentType": FLOAT, "count": len(rows), "type": kind}
+        return self.add("accessors", fields | (bounds or {}))
+
+    def body_nodes(self) -> dict[int, int]:
+        """Return the node of each body, by its `extras.body`."""
+        found: dict[int, int] = {}
+        for index, node in enumerate(self._lists.get("nodes", [])):
+            extras = node.get("extras")
+            if isinstance(extras, dict) and "body" in extras:
+                found[extras["body"]] = index
+        return found
 
     def texture(self, texture: Texture) -> int | None:
         """Return the index of a texture; None if its image cannot be read."""

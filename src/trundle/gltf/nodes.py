@@ -11,6 +11,7 @@ from trundle.model import Plane
 from trundle.render import Scene, SceneLight, Shape
 from trundle.spatial import Pose, pose_from_row
 
+from .animation import add_animation
 from .document import Document
 from .lights import light_rotation, punctual_light
 from .materials import material_from_shape
@@ -32,6 +33,20 @@ def glb_from_scene(scene: Scene, poses: NDArray[np.float64]) -> bytes:
     """
     document = Document(embed=True)
     return document.glb(add_scene(document, scene, poses, range(len(scene.bodies) + len(scene.bones))))
+
+
+def animated_glb(scene: Scene, times: NDArray[np.float64], poses: NDArray[np.float64]) -> bytes:
+    """Return a scene whose bodies move as one self-contained GLB.
+
+    Args:
+        scene: shapes and lights.
+        times: (N,) ascending [s]; the animation begins at the first.
+        poses: (N, bodies, 7) x y z [m], qw qx qy qz of each body, then of each bone, in the world.
+    """
+    document = Document(embed=True)
+    root = add_scene(document, scene, poses[0], range(len(scene.bodies) + len(scene.bones)))
+    add_animation(document, "recording", times, poses)
+    return document.glb(root)
 
 
 def add_scene(document: Document, scene: Scene, poses: NDArray[np.float64], bodies: Sequence[int]) -> int:

@@ -1,3 +1,4 @@
+from .client_files import REPLAY_FILES as REPLAY_FILES
 from .edit_requests import ApplyWrench as ApplyWrench
 from .edit_requests import Carry as Carry
 from .edit_requests import EditAction as EditAction

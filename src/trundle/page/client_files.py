@@ -4,6 +4,8 @@ import mimetypes
 from pathlib import Path
 
 CLIENT = Path(__file__).parent / "client"
+REPLAY_FILES = tuple(CLIENT / "replay" / name for name in ("replay.js", "replay.css", "licenses.txt"))
+"""Script, style sheet and licences of the viewer that each replay contains."""
 _TYPES = {
     ".glb": "model/gltf-binary",
     ".js": "text/javascript",

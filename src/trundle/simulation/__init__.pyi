@@ -13,3 +13,4 @@ from .snapshot import Snapshot as Snapshot
 from .state_log import StateLog as StateLog
 from .state_log import StateRecorder as StateRecorder
 from .state_log import read_state_log as read_state_log
+from .state_log_format import is_state_log as is_state_log

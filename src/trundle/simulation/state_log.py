@@ -22,8 +22,8 @@ from trundle.diagnostics import DescriptionError, Source
 from trundle.files import open_file
 
 from .snapshot import Snapshot
+from .state_log_format import FORMAT
 
-FORMAT = "trundle state log 1"
 _ROW = np.dtype("<f8")
 _LONGEST_HEADER = 256 * 1024 * 1024
 _Array = NDArray[np.float64]

@@ -14,6 +14,7 @@ from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, rpy_from_quaternion
 
+from ..scene_settings import scene_settings
 from .body_numbers import BodyNumbers
 from .handling import is_held
 
@@ -36,7 +37,7 @@ def world_manifest(
     indices = joint_rows(simulation)
     return {
         "name": world.name,
-        "scene": _scene(world),
+        "scene": scene_settings(world),
         "physics": {"gravity": world.physics.gravity, "wind": world.wind, "step": world.physics.max_step_size_s},
         "robot": _robot(world, bodies),
         "models": [
@@ -87,26 +88,6 @@ def find_robot(world: World) -> Model | None:
 def _robot(world: World, bodies: BodyNumbers) -> int | None:
     robot = find_robot(world)
     return None if robot is None else bodies[f"{robot.name}::{robot.links[0].name}"]
-
-
-def _scene(world: World) -> _Json:
-    scene, fog = world.scene, world.scene.fog
-    return {
-        "ambient": scene.ambient[:3],
-        "background": scene.background[:3],
-        "sky": scene.sky,
-        "shadows": scene.shadows,
-        "grid": scene.grid,
-        "fog": None
-        if fog.type == "none"
-        else {
-            "type": fog.type,
-            "color": fog.colour[:3],
-            "start": fog.start_m,
-            "end": fog.end_m,
-            "density": fog.density,
-        },
-    }
 
 
 _Live = Mapping[tuple[str, str, str], CameraSensor | InstrumentSensor]

@@ -14,9 +14,9 @@ from trundle.sensors import CameraReading, CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation, Snapshot
 from trundle.timeline import Timeline
 
+from ..actor_bones import ActorBones
 from ..ray_overlay import RayOverlay
 from ..realtime_pacer import RealtimePacer
-from .actor_bones import ActorBones
 from .body_numbers import BodyNumbers
 from .controls import Recorder
 from .lines import plugin_lines

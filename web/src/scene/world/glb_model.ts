@@ -1,6 +1,6 @@
 /** A GLB file of the simulated world: its bodies, with materials that shade as Trundle's renderer does. */
 
-import { Group, Mesh, SkinnedMesh, type BufferGeometry, type Light, type MeshStandardMaterial, type Object3D, type ShaderMaterial, type Texture } from "three";
+import { Group, Mesh, SkinnedMesh, type AnimationClip, type BufferGeometry, type Light, type MeshStandardMaterial, type Object3D, type ShaderMaterial, type Texture } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import { sdfColours, sdfMaterial, sdfVariant } from "./sdf_material";
@@ -61,13 +61,14 @@ export class GlbModel {
   private constructor(
     private readonly lighting: WorldLighting,
     private readonly contents: SharedContents,
+    readonly animations: readonly AnimationClip[],
   ) {}
 
   /** Read a file; `path`: where the files lie that it names. */
   static async read(data: ArrayBuffer, path: string, lighting: WorldLighting, contents: SharedContents): Promise<GlbModel> {
     const loader = new GLTFLoader();
     const gltf = await loader.parseAsync(data, path);
-    const model = new GlbModel(lighting, contents);
+    const model = new GlbModel(lighting, contents, gltf.animations);
     for (const turned of [...gltf.scene.children]) {
       turned.quaternion.identity(); // the root turns z up into y up
       model.root.add(turned);

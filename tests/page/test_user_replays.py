@@ -1,0 +1,161 @@
+"""A person opens a replay from a folder, without a network: it looks as the page did."""
+
+import io
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from tests.page.panel_user import PanelUser
+
+from trundle.bringup.play import LogPage, PlayOptions
+from trundle.bringup.recorded_run import open_recording
+from trundle.cli import main
+from trundle.diagnostics import Diagnostics
+from trundle.page import PageServer, Session
+from trundle.page.client_files import CLIENT
+from trundle.page_address import PageAddress
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+WORLD = """<sdf version="1.6"><world name="w">
+<light name="sun" type="directional"><direction>-0.4 0.3 -0.9</direction><diffuse>0.9 0.9 0.9 1</diffuse></light>
+<model name="floor"><static>1</static><link name="l"><visual name="v">
+<geometry><box><size>6 6 0.1</size></box></geometry>
+<material><ambient>0.3 0.3 0.3 1</ambient><diffuse>0.5 0.5 0.5 1</diffuse></material></visual>
+<collision name="c"><geometry><box><size>6 6 0.1</size></box></geometry></collision></link></model>
+<model name="ball"><pose>0 0 1.5 0 0 0</pose><link name="l"><visual name="v">
+<geometry><sphere><radius>0.3</radius></sphere></geometry>
+<material><ambient>0.8 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual>
+<collision name="c"><geometry><sphere><radius>0.3</radius></sphere></geometry></collision></link></model>
+</world></sdf>"""
+SIZE = (800, 600)
+AT_S = 0.4
+VIEW_CANVAS = "canvas[aria-label='3D view']"
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("log")
+    (folder / "w.sdf").write_text(WORLD)
+    options = ("--headless", "--no-ros", "--duration", "1", "--speed", "max", "--record", str(folder / "run.log"))
+    assert main(("run", str(folder / "w.sdf"), *options)) == 0
+    return folder / "run.log"
+
+
+@contextmanager
+def played(log: Path) -> Iterator[str]:
+    """Play a log on a page, paused; return its address."""
+    recorded, simulation = open_recording(log, Diagnostics())
+    with PageServer.start(Session(title="t", kind="log", fixed_frame="world"), at=PageAddress(port=0)) as server:
+        shown = LogPage(server, recorded, simulation, PlayOptions(paused=True))
+        stop = threading.Event()
+        thread = threading.Thread(target=shown.run, args=(stop,))
+        thread.start()
+        try:
+            yield server.url
+        finally:
+            stop.set()
+            thread.join()
+
+
+class ReplayUser:
+    """Open a replay where there is no network."""
+
+    def __init__(self, browser: Any, url: str) -> None:
+        context = browser.new_context(viewport={"width": SIZE[0], "height": SIZE[1]}, offline=True)
+        self.page = context.new_page()
+        self.faults: list[str] = []
+        self.requests: list[str] = []
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.goto(url)
+        self.time = self.page.get_by_role("slider", name="Time")
+        self.time.wait_for()
+
+    def now(self) -> float:
+        return float(self.time.input_value())
+
+    def show(self, time_s: float) -> NDArray[np.uint8]:
+        """Scrub to a time, and return the picture without the controls."""
+        self.time.fill(str(time_s))
+        self.page.add_style_tag(content=".replay-bar, .replay-scene > :not(canvas) { opacity: 0 }")
+        before = b""
+        while (png := self.page.screenshot()) != before:
+            before = png
+            self.page.wait_for_timeout(200)
+        return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"))
+
+    def close(self) -> None:
+        self.page.context.close()
+        assert self.faults == []
+        assert [url for url in self.requests if not url.startswith(("file:", "blob:"))] == []
+
+
+def pictured(user: PanelUser, folder: Path) -> NDArray[np.uint8]:
+    """Save the view as a picture, and read it."""
+    user.page.keyboard.press("Escape")  # nothing is selected, so nothing is outlined
+    choose(user, "Save a picture")
+    for label, value in zip(("Width [px]", "Height [px]"), SIZE, strict=True):
+        user.page.get_by_label(label).fill(str(value))
+        user.page.keyboard.press("Tab")
+    with user.page.expect_download() as download:
+        user.page.get_by_role("button", name="Save as PNG").click()
+    download.value.save_as(folder / "picture.png")
+    return np.asarray(Image.open(folder / "picture.png").convert("RGB"))
+
+
+def choose(user: PanelUser, command: str) -> None:
+    user.page.keyboard.press("Control+k")
+    user.page.get_by_role("combobox", name="Search commands").fill(command)
+    user.page.keyboard.press("Enter")
+
+
+def test_it_looks_as_the_page_does(log: Path, chromium: Any, tmp_path: Path) -> None:
+    """The page of `trundle play` and the replay, at one time from one place: the same picture."""
+    with played(log) as url:
+        user = PanelUser(chromium, url)
+        user.open("Timeline")
+        head = user.page.get_by_role("slider", name="Time")
+        head.focus()
+        head.press("End")
+        user.until(lambda: float(head.get_attribute("aria-valuenow")) == pytest.approx(1.0), what="for the end")
+        at_end = pictured(user, tmp_path)
+        choose(user, "Link to this view")
+        view = user.page.get_by_role("textbox", name="Link").input_value().partition("#")[2]
+        user.close()
+    assert main(("convert", str(log), "--to", "html", "-o", str(tmp_path / "run.html"))) == 0
+
+    replay = ReplayUser(chromium, f"{(tmp_path / 'run.html').as_uri()}#{view}")
+    seen = replay.show(1.0)
+    before = replay.show(AT_S)
+    replay.close()
+
+    difference = np.abs(seen.astype(int) - at_end.astype(int)).max(axis=-1)
+    assert (difference > 24).mean() < 0.005, "edges are smoothed differently, no more"
+    moved = (np.abs(before.astype(int) - at_end.astype(int)).max(axis=-1) > 24).mean()
+    assert moved > 0.01, "the ball is elsewhere at another time"
+
+
+def test_it_plays_and_stands_still(log: Path, chromium: Any, tmp_path: Path) -> None:
+    assert main(("convert", str(log), "--to", "html", "-o", str(tmp_path / "run.html"))) == 0
+    replay = ReplayUser(chromium, (tmp_path / "run.html").as_uri())
+    page = replay.page
+
+    page.wait_for_function("document.querySelector('input[type=range]').value > 0.05")
+    page.get_by_role("combobox", name="Speed").select_option("0.1×")
+    page.locator("body").press("Space")
+    page.get_by_role("button", name="Play").wait_for()
+    held = replay.now()
+    page.wait_for_timeout(300)
+    assert replay.now() == held
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function(f"document.querySelector('input[type=range]').value != {held}")
+    replay.close()

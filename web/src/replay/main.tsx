@@ -1,0 +1,91 @@
+/** A recording that plays in a file of its own: the world and its motion stand in the document. */
+
+import "../scene/conventions";
+import "../theme/tokens.css";
+import "../theme/base.css";
+import "../theme/controls.css";
+import "./replay.css";
+
+import { effect } from "@preact/signals";
+import { render } from "preact";
+
+import { linkedView } from "../app/view_link";
+import { isMapping, type Yaml } from "../displays/properties";
+import { ORIGIN } from "../scene/views/view";
+import { SceneInput } from "../scene/pointer_input";
+import type { Manifest } from "../scene/simulated_world";
+import { ThreeScene } from "../scene/three_scene";
+import { ViewList } from "../scene/views/view_list";
+import { Bar } from "./bar";
+import { Player } from "./player";
+import { RecordedWorld, unpacked } from "./recorded_world";
+
+interface About {
+  readonly title: string;
+  /** Simulated time [s]. */
+  readonly start: number;
+  readonly end: number;
+  readonly scene: Manifest["scene"];
+  /** The view at first, as in an .rviz file. */
+  readonly view: Yaml;
+}
+
+/** From where a recording without a view is seen [rad]. */
+const FIRST_LOOK: Readonly<Record<string, number>> = { Yaw: -1.05, Pitch: 0.4 };
+
+async function start(root: HTMLElement): Promise<void> {
+  const about = JSON.parse(textOf("about")) as About;
+  followTheme();
+  const host = Object.assign(document.createElement("div"), { className: "replay-scene" });
+  const bar = document.createElement("div");
+  root.append(host, bar);
+  const scene = new ThreeScene(host);
+  const views = new ViewList(scene, () => ORIGIN);
+  new SceneInput(scene, views, () => false);
+  const world = await RecordedWorld.read(scene, await unpacked(textOf("world")), about.scene);
+  const player = new Player(about.end - about.start);
+  effect(() => world.show(player.time.value));
+  scene.onTick((elapsed) => player.advance(elapsed));
+  lookFirst(views, about, world);
+  addEventListener("keydown", (event) => {
+    if (event.key !== " " || event.target instanceof HTMLSelectElement || event.target instanceof HTMLButtonElement) return;
+    event.preventDefault();
+    player.toggle();
+  });
+  render(<Bar player={player} title={about.title} start={about.start} />, bar);
+}
+
+/** Look from where the address or the file says, else at what moves. */
+function lookFirst(views: ViewList, { view }: About, world: RecordedWorld): void {
+  const first = linkedView(location.hash) ?? (isMapping(view) ? view : null);
+  if (first !== null) {
+    views.load({ Current: first });
+    return;
+  }
+  for (const property of views.current.peek().properties) {
+    const angle = FIRST_LOOK[property.name];
+    if (angle !== undefined) property.decode(angle);
+  }
+  views.frame(world.bounds());
+}
+
+function followTheme(): void {
+  const light = matchMedia("(prefers-color-scheme: light)");
+  const show = (): void => {
+    document.documentElement.dataset["theme"] = light.matches ? "light" : "dark";
+  };
+  show();
+  light.addEventListener("change", show);
+}
+
+function textOf(id: string): string {
+  return document.getElementById(id)?.textContent ?? "";
+}
+
+const root = document.getElementById("app");
+if (root !== null) {
+  start(root).catch((error: unknown) => {
+    const text = error instanceof Error ? error.message : String(error);
+    render(<p role="alert">The recording cannot be shown: {text}</p>, root);
+  });
+}
