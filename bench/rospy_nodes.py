@@ -2,9 +2,10 @@
 
     python -m bench.rospy_nodes FOLDER… [--list FILE]
 
-A node is a script that calls `rospy.init_node`, outside of tests. It starts in an environment whose Python knows no ROS
-but Trundle's, on a master of its own with a simulated clock that stands still. It is good if its name is registered, or
-if it ends by itself without a traceback (a tool that prints its usage).
+A node is a script that calls `rospy.init_node`, outside of tests and Python packages. It starts in an environment whose
+Python knows no ROS but Trundle's, on a master of its own with a simulated clock that stands still. It is good if its
+name is registered, or if it ends by itself without a traceback (a tool that prints its usage). `rospy_nodes.txt` is the
+table of 39 repositories.
 """
 
 import argparse
@@ -36,6 +37,8 @@ def find_nodes(folder: Path) -> Iterator[Path]:
     """Scripts that call `rospy.init_node`."""
     for root, folders, files in os.walk(folder):
         folders[:] = sorted(each for each in folders if each not in _SKIPPED and not each.startswith("."))
+        if "__init__.py" in files:
+            continue
         for name in sorted(files):
             path = Path(root, name)
             if path.is_symlink() or path.stat().st_size > 1_000_000 or path.suffix not in (".py", ""):
