@@ -45,9 +45,15 @@ test: $(READY)  ## the tests of every day, with what this machine has
 	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2 -m "not slow"
 
-test-all: $(READY) dist/.built  ## everything
+test-all: $(READY) dist/.built $(VENV)/.ray  ## everything
 	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2
+
+# Large, and not for every platform: without it its tests are skipped.
+$(VENV)/.ray: $(READY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt 'ray>=2.40,<3' || \
+	  echo "PyPI brought no Ray: make test-all skips what uses it"
+	@touch $@
 
 check: $(READY)  ## lint, types, layers, the format of C++
 	$(BIN)/python cpp/lint.py format --check

@@ -49,6 +49,7 @@ def sweep(
     *,
     output: "str | PathLike[str] | None" = None,
     workers: int | None = None,
+    address: str | None = None,
 ) -> "SweepResult":
     """Run a world many times with different values; needs the extra `sweep`.
 
@@ -58,6 +59,8 @@ def sweep(
         plan: a plan's file, or its content as a dictionary, whose relative paths start in the working directory.
         output: folder of the results; None: beside the plan's file, or `plan.sweep` in the working directory.
         workers: number of processes; None: one for each processor.
+        address: of a Ray cluster, "auto" for the one of this machine, "local" for a new one; None: processes of this
+            machine, without Ray.
 
     Raises:
         TrundleError: one sentence with file and line.
@@ -67,7 +70,7 @@ def sweep(
 
     from trundle.bringup.sweep.sweep import sweep_plan
 
-    return sweep_plan(plan, output=None if output is None else Path(output), workers=workers)
+    return sweep_plan(plan, output=None if output is None else Path(output), workers=workers, address=address)
 
 
 def dataset(

@@ -26,6 +26,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (PLAN.sweep)")
     parser.add_argument("--workers", type=int, metavar="N", help="number of processes (one for each processor)")
+    where = "Ray cluster that runs them: HOST:PORT, `auto` for the one of this machine, `local` for a new one"
+    parser.add_argument("--address", metavar="ADDR", help=where)
     parser.add_argument("--row", type=int, metavar="N", help="run row N again, in the browser; nothing is written")
     parser.add_argument("--headless", action="store_true", help="with --row: no browser page, print its result")
     parser.add_argument("--port", type=int, metavar="N", help="with --row: the page's port (8080, or a free one)")
@@ -54,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
         return replay(plan, args.row, headless=args.headless, port=args.port, allowed=page_access(args))
     from trundle.bringup.sweep.sweep import sweep
 
-    result = sweep(plan, output=args.output, workers=args.workers)
+    result = sweep(plan, output=args.output, workers=args.workers, address=args.address)
     print(f"{result.summary()}; {result.folder}")
     if result.interrupted:
         print(f"stopped; `trundle sweep {words[0]}` goes on", file=sys.stderr)

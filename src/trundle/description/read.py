@@ -172,7 +172,7 @@ def _expanded(
 ) -> str:
     from .xacro.expand import expand_xacro
 
-    return expand_xacro(path, arguments, packages=packages, report=report, data=data)
+    return expand_xacro(path, arguments, packages=packages, report=report, data=data, needs_all=True)
 
 
 def _find(what: str, packages: Packages) -> Path:

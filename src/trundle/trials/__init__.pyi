@@ -1,7 +1,6 @@
 from .analysis import numbers as numbers
 from .analysis import rank_correlation as rank_correlation
 from .analysis import worst_rows as worst_rows
-from .extras import import_extra as import_extra
 from .lock import lock_folder as lock_folder
 from .plan import Distribution as Distribution
 from .plan import Event as Event
@@ -18,6 +17,7 @@ from .row_result import RowResult as RowResult
 from .rows import Row as Row
 from .rows import Rows as Rows
 from .rows import quantile as quantile
+from .table import Table as Table
 from .variation_reader import read_variation as read_variation
 from .yaml_node import YamlNode as YamlNode
 from .yaml_node import as_number as as_number

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .extras import import_extra
+from trundle.extras import import_extra
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

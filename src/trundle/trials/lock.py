@@ -3,13 +3,23 @@
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import IO
 
 from trundle.diagnostics import UsageError
 
 try:
     import fcntl
-except ModuleNotFoundError:  # Windows, which has locks of its own
-    fcntl = None
+except ModuleNotFoundError:
+
+    def _lock(file: IO[bytes]) -> None:
+        import msvcrt
+
+        file.seek(0)
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # pyright: ignore[reportAttributeAccessIssue]
+else:
+
+    def _lock(file: IO[bytes]) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 @contextmanager
@@ -26,11 +36,8 @@ def lock_folder(folder: Path) -> Generator[None]:
     except OSError as error:
         raise UsageError(f"{folder}: {error.strerror}; give another folder with -o") from None
     with file:
-        if fcntl is not None:
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
-                raise UsageError(
-                    f"another sweep writes {folder}; wait for it, or give another folder with -o"
-                ) from None
+        try:
+            _lock(file)
+        except OSError:
+            raise UsageError(f"another sweep writes {folder}; wait for it, or give another folder with -o") from None
         yield

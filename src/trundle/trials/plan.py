@@ -86,6 +86,8 @@ class Plan:
     """Period at which stop conditions and measures over time are evaluated."""
     time_limit_s: float | None = None
     """Wall time of one run."""
+    memory_limit_bytes: int | None = None
+    """Resident memory of one run."""
     seed: int = 0
     seeds: tuple[int, ...] = ()
     """Seed of each repetition; empty: drawn from the plan's seed and the row's number."""

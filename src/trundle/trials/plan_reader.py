@@ -12,8 +12,8 @@ from .variation_reader import read_variation
 from .yaml_node import YamlNode, read_yaml
 
 _KEYS = (
-    "world", "duration", "every", "time_limit", "seed", "seeds", "repeat", "samples", "design", "plugins", "vary",
-    "set", "events", "stop", "measure", "pass",
+    "world", "duration", "every", "time_limit", "memory_limit", "seed", "seeds", "repeat", "samples", "design",
+    "plugins", "vary", "set", "events", "stop", "measure", "pass",
 )  # fmt: skip
 _DESIGNS: dict[str, Design] = {"random": "random", "latin_hypercube": "latin_hypercube", "sobol": "sobol"}
 _OVER: dict[str, Over] = {each: each for each in ("end", "start", "min", "max", "mean", "time")}
@@ -90,6 +90,7 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
         duration_s=found["duration"].number("duration", above=0),
         every_s=found["every"].number("every", above=0) if "every" in found else 0.1,
         time_limit_s=found["time_limit"].number("time_limit", above=0) if "time_limit" in found else None,
+        memory_limit_bytes=_bytes(found["memory_limit"]) if "memory_limit" in found else None,
         seed=found["seed"].whole("seed", at_least=0) if "seed" in found else 0,
         seeds=seeds,
         repetitions=len(seeds) or (found["repeat"].whole("repeat", at_least=1) if "repeat" in found else 1),
@@ -106,6 +107,11 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
         measures=measures,
         criteria=_formulas(found, "pass"),
     )
+
+
+def _bytes(node: YamlNode) -> int:
+    """Read a limit in megabytes."""
+    return round(node.number("memory_limit", above=0) * 1e6)
 
 
 def _world(node: YamlNode, folder: Path) -> str:

@@ -5,7 +5,6 @@ own, as soon as the last of them is there; at the end the groups become `results
 so that a killed sweep goes on from it, and the final table does not depend on the order in which rows came.
 """
 
-import hashlib
 import json
 import shutil
 from collections.abc import Iterator, Sequence
@@ -17,9 +16,7 @@ from msgspec import json as msgspec_json
 from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 
-from .plan import Plan
 from .row_result import RowResult
-from .rows import Rows
 from .table import Table
 
 GROUP_ROWS = 1000
@@ -30,20 +27,27 @@ _JOURNAL, _GROUPS, _PLAN, RESULTS = "journal.jsonl", "groups", "plan.json", "res
 class Results:
     """Results of one plan in a folder."""
 
-    def __init__(self, plan: Plan, rows: Rows, folder: Path) -> None:
+    def __init__(self, folder: Path, table: Table, *, rows: int, digest: str, text: str) -> None:
         """Open a folder; what is there of the same plan counts.
+
+        Args:
+            folder: made if it is not there.
+            table: its columns.
+            rows: number of rows.
+            digest: of everything that the results depend on.
+            text: of the plan, kept beside its results.
 
         Raises:
             UsageError: the folder has the results of another plan, or cannot be written.
         """
         self.folder = folder
-        self._table = Table(plan, rows)
-        self._rows = len(rows)
+        self._table = table
+        self._rows = rows
         try:
             (folder / _GROUPS).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"{folder}: {error.strerror}; give another folder with -o") from None
-        self._check_plan(plan)
+        self._check_plan(digest, text)
         self._waiting: dict[int, dict[int, RowResult]] = {}
         """Group → its rows in the journal."""
         self._full = {int(each.stem) for each in (folder / _GROUPS).glob("*.parquet")}
@@ -59,10 +63,10 @@ class Results:
             self._read_journal()
         self._journal: IO[bytes] | None = None
 
-    def _check_plan(self, plan: Plan) -> None:
-        path, now = self.folder / _PLAN, {"digest": plan_digest(plan), "rows": self._rows}
+    def _check_plan(self, digest: str, text: str) -> None:
+        path, now = self.folder / _PLAN, {"digest": digest, "rows": self._rows}
         if not path.exists():
-            write_atomically(path, json.dumps({**now, "text": plan.text}))
+            write_atomically(path, json.dumps({**now, "text": text}))
             return
         if {key: value for key, value in json.loads(path.read_text()).items() if key in now} != now:
             what = "has the results of another plan, or the plan or its world has changed since"
@@ -146,10 +150,3 @@ class Results:
             return self._table.read([self.folder / RESULTS])
         waiting = [result for group in self._waiting.values() for result in group.values()]
         return self._table.read([self._group_file(group) for group in sorted(self._full)], waiting)
-
-
-def plan_digest(plan: Plan) -> str:
-    """Return a digest of a plan, its world's file and its Python files."""
-    files = [Path(plan.world), *sorted({each.function[0] for each in plan.measures if each.function is not None})]
-    parts = [plan.text.encode(), *(path.read_bytes() for path in files if path.is_file())]
-    return hashlib.sha256(b"\0".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()

@@ -4,7 +4,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-Status = Literal["ok", "failed", "error", "timeout", "lost"]
+Status = Literal["ok", "failed", "error", "timeout", "memory", "lost"]
 
 
 class RowResult(Struct, frozen=True, omit_defaults=True):
@@ -16,4 +16,4 @@ class RowResult(Struct, frozen=True, omit_defaults=True):
     reason: str = ""
     time: float | None = None
     """Simulation time at its end [s]."""
-    measures: dict[str, float | None] = field(default_factory=dict[str, "float | None"])
+    measures: dict[str, float | str | None] = field(default_factory=dict[str, "float | str | None"])

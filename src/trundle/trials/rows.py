@@ -14,8 +14,8 @@ import numpy as np
 from msgspec import Struct
 
 from trundle.diagnostics import DescriptionError, UsageError
+from trundle.extras import import_extra
 
-from .extras import import_extra
 from .plan import Distribution, Plan, Value, Variation
 
 if TYPE_CHECKING:

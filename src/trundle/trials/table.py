@@ -1,31 +1,35 @@
 """Table of results: its columns, and Parquet files of it."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
-from .extras import import_extra
+from trundle.extras import import_extra
+
 from .plan import Plan
 from .row_result import RowResult
-from .rows import Rows, column_type
+from .rows import Row, Rows, column_type
 
 
 class Table:
     """Columns: row, status, reason, seed, time, then what varies and what is measured."""
 
-    def __init__(self, plan: Plan, rows: Rows) -> None:
+    def __init__(self, row: Callable[[int], Row], *, varied: Mapping[str, type], measured: Mapping[str, type]) -> None:
         """Declare the columns.
+
+        Args:
+            row: row of a number.
+            varied: quantity that varies → bool, int, float or str; other values are written as text.
+            measured: name of a measure → the same.
 
         Raises:
             UsageError: pyarrow is not installed.
         """
         self._arrow, self._parquet = import_extra("pyarrow"), import_extra("pyarrow.parquet")
-        self._rows = rows
+        self._row, self._varied, self._measured = row, varied, measured
         arrow = self._arrow
         types = {bool: arrow.bool_(), int: arrow.int64(), float: arrow.float64(), str: arrow.string()}
-        self._kinds = {each.name: column_type(each) for each in plan.vary}
-        self._measures = [each.name for each in plan.measures]
         self._schema = arrow.schema(
             [
                 ("row", arrow.int64()),
@@ -33,13 +37,22 @@ class Table:
                 ("reason", arrow.string()),
                 ("seed", arrow.int64()),
                 ("time", arrow.float64()),
-                *((name, types[kind]) for name, kind in self._kinds.items()),
-                *((name, arrow.float64()) for name in self._measures),
+                *((name, types[kind]) for name, kind in {**varied, **measured}.items()),
             ]
         )
 
+    @classmethod
+    def of_plan(cls, plan: Plan, rows: Rows) -> Self:
+        """Return the table of a plan.
+
+        Raises:
+            UsageError: pyarrow is not installed.
+        """
+        varied = {each.name: column_type(each) for each in plan.vary}
+        return cls(rows.row, varied=varied, measured=dict.fromkeys((each.name for each in plan.measures), float))
+
     def _table(self, results: Sequence[RowResult]) -> Any:
-        rows = [self._rows.row(result.row) for result in results]
+        rows = [self._row(result.row) for result in results]
         columns: dict[str, list[Any]] = {
             "row": [result.row for result in results],
             "status": [result.status for result in results],
@@ -47,9 +60,9 @@ class Table:
             "seed": [row.seed for row in rows],
             "time": [result.time for result in results],
         }
-        for name, kind in self._kinds.items():
+        for name, kind in self._varied.items():
             columns[name] = [kind(row.values[name]) for row in rows]
-        for name in self._measures:
+        for name in self._measured:
             columns[name] = [result.measures.get(name) for result in results]
         return self._arrow.table(columns, schema=self._schema)
 

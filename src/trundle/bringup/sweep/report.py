@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
-from trundle.trials import Plan, Results, Rows, lock_folder, numbers, rank_correlation, worst_rows
+from trundle.trials import Plan, Rows, lock_folder, numbers, rank_correlation, worst_rows
 
 from .report_charts import correlation_bars, histogram, scatter
 from .report_pictures import end_picture
 from .report_style import STYLE
-from .sweep import results_folder
+from .sweep import open_results, results_folder
 from .trial import TrialRunner
 
 _WORST = 6
@@ -36,8 +36,7 @@ def write_report(plan: Plan, *, output: Path | None = None) -> Path:
     if not folder.is_dir():
         raise UsageError(f"{folder}: no results; run `trundle sweep {plan.file}` first")
     with lock_folder(folder):
-        results = Results(plan, rows, folder)
-        table = results.read()
+        table = open_results(plan, rows, folder, TrialRunner(plan)).read()
     if not table.num_rows:
         raise UsageError(f"{folder}: no run has ended yet; `trundle sweep {plan.file}` goes on")
     path = folder / "report.html"

@@ -3,18 +3,19 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from trundle.diagnostics import UsageError
-from trundle.trials import Plan, Results, Rows, load_plan, lock_folder, read_plan
+from trundle.trials import Plan, Results, RowResult, Rows, Table, load_plan, lock_folder, read_plan
+from trundle.workers import Job, JobResult, Progress, run_rows
 
 from ..signals import stop_flag
-from .local_engine import LocalEngine
-from .progress import SweepProgress
-from .trial import TrialRunner
+from .digest import plan_digest
+from .trial import TrialRunner, run_row
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +24,7 @@ class SweepResult:
 
     folder: Path
     counts: dict[str, int]
-    """Status → number of rows: ok, failed (a criterion is not met), error, timeout, lost."""
+    """Status → number of rows: ok, failed (a criterion is not met), error, timeout, memory, lost."""
     total: int
     """Rows of the plan."""
     rate: float
@@ -54,30 +55,48 @@ def results_folder(plan: Plan, output: Path | None) -> Path:
     return output or Path(plan.file).with_suffix(".sweep")
 
 
-def sweep(plan: Plan, *, output: Path | None = None, workers: int | None = None) -> SweepResult:
+def open_results(plan: Plan, rows: Rows, folder: Path, runner: TrialRunner) -> Results:
+    """Open the results of a plan in a folder.
+
+    Raises:
+        UsageError: the folder has the results of another plan, or cannot be written.
+    """
+    digest = plan_digest(plan, runner.stage(rows.row(0)).written)
+    return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text)
+
+
+def sweep(
+    plan: Plan, *, output: Path | None = None, workers: int | None = None, address: str | None = None
+) -> SweepResult:
     """Run the rows of a plan that have no result yet.
 
     Args:
         plan: as read.
         output: folder of the results; None: beside the plan.
         workers: number of processes; None: one for each processor.
+        address: of a Ray cluster; None: this machine, without Ray.
 
     Raises:
         TrundleError: the plan cannot be run, or its results not be written.
     """
     if workers is not None and workers < 1:
         raise UsageError(f"{workers} workers; give at least 1")
-    rows = Rows(plan)
-    TrialRunner(plan).check(rows.row(0))
+    rows, runner = Rows(plan), TrialRunner(plan)
+    runner.check(rows.row(0))
     folder = results_folder(plan, output)
+    job = Job(make=partial(run_row, plan), time_limit_s=plan.time_limit_s, memory_limit_bytes=plan.memory_limit_bytes)
     with lock_folder(folder), stop_flag() as stop:
-        results = Results(plan, rows, folder)
-        progress = SweepProgress(len(rows), results.done)
-        count = min(workers or _processors(), max(len(rows) - results.done, 1))
+        results = open_results(plan, rows, folder, runner)
+        left = len(rows) - results.done
+        progress = Progress(len(rows), results.done)
         try:
-            if results.done < len(rows):
-                for result in LocalEngine(plan, workers=count).run(results.missing(), stop):
-                    if result is not None:
+            if left:
+                missing = results.missing()
+                for outcome in run_rows(
+                    job, missing, count=left, workers=workers, address=address, is_ending=stop.is_set
+                ):
+                    if outcome is not None:
+                        result = _result(outcome)
                         results.add(result)
                         progress.add(is_ok=result.status == "ok")
                     progress.show()
@@ -87,8 +106,19 @@ def sweep(plan: Plan, *, output: Path | None = None, workers: int | None = None)
         return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
 
 
+def _result(outcome: JobResult[RowResult]) -> RowResult:
+    if outcome.failure is not None:
+        return RowResult(outcome.row, outcome.failure, outcome.reason)
+    assert outcome.value is not None
+    return outcome.value
+
+
 def sweep_plan(
-    plan: "str | os.PathLike[str] | Mapping[str, object]", *, output: Path | None, workers: int | None
+    plan: "str | os.PathLike[str] | Mapping[str, object]",
+    *,
+    output: Path | None,
+    workers: int | None,
+    address: str | None,
 ) -> SweepResult:
     """See `trundle.sweep`."""
     if isinstance(plan, str | os.PathLike):
@@ -96,12 +126,7 @@ def sweep_plan(
     else:
         text = yaml.safe_dump(dict(plan), sort_keys=False)
         read = read_plan(text, file="plan", folder=Path.cwd())
-    result = sweep(read, output=output, workers=workers)
+    result = sweep(read, output=output, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result
-
-
-def _processors() -> int:
-    """Return the number of processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

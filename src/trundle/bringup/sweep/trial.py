@@ -11,7 +11,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError, Usa
 from trundle.packages import Packages
 from trundle.physics import Recompiler
 from trundle.spatial import NS_PER_S
-from trundle.trials import ARGUMENTS, Formula, Measure, Plan, Row, RowResult, Value, with_property
+from trundle.trials import ARGUMENTS, Formula, Measure, Plan, Row, RowResult, Rows, Value, with_property
 
 from ..loaded_simulation import LoadedSimulation
 from ..world_setup import LoadedWorld, load_world
@@ -140,13 +140,13 @@ class TrialRunner:
     def _values(self, row: Row) -> dict[str, object]:
         return {name: value for name, value in row.values.items() if "/" not in name}
 
-    def _call_functions(self, simulation: LoadedSimulation) -> dict[str, float | None]:
+    def _call_functions(self, simulation: LoadedSimulation) -> dict[str, float | str | None]:
         """Return what the plan's Python functions measure.
 
         Raises:
             UsageError: one raised an exception, or returned no number.
         """
-        found: dict[str, float | None] = {}
+        found: dict[str, float | str | None] = {}
         for measure in self._plan.measures:
             if measure.function is None:
                 continue
@@ -185,8 +185,14 @@ class TrialRunner:
         return RowResult(result.row, "ok", "; ".join(report.warnings), result.time, result.measures)
 
 
-def _mentioned(formula: Formula, measures: Mapping[str, float | None]) -> dict[str, float]:
-    return {name: value for name, value in measures.items() if name in formula.text and value is not None}
+def run_row(plan: Plan) -> Callable[[int], RowResult]:
+    """Return the function that runs a row of a plan by its number."""
+    rows, runner = Rows(plan), TrialRunner(plan)
+    return lambda number: runner.run(rows.row(number))
+
+
+def _mentioned(formula: Formula, measures: Mapping[str, float | str | None]) -> dict[str, float]:
+    return {name: value for name, value in measures.items() if name in formula.text and isinstance(value, float)}
 
 
 def _plain(value: object, formula: Formula) -> Value:

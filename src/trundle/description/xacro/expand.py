@@ -96,7 +96,13 @@ _URDF = frozenset(_URDF_TAGS.split())
 
 
 def expand_xacro(
-    path: Path, arguments: Mapping[str, str], *, packages: Packages, report: Diagnostics, data: bytes | None = None
+    path: Path,
+    arguments: Mapping[str, str],
+    *,
+    packages: Packages,
+    report: Diagnostics,
+    data: bytes | None = None,
+    needs_all: bool = False,
 ) -> str:
     """Expand a file; return the XML text.
 
@@ -106,6 +112,7 @@ def expand_xacro(
         packages: resolves `$(find …)`.
         report: takes rewrites and xacro's warnings.
         data: contents of the top file if it is a pipe; relative paths then start beside `path`.
+        needs_all: an argument that the file does not have is an error; xacro itself ignores it.
 
     Raises:
         DescriptionError: it cannot be expanded; the message is xacro's, with its file.
@@ -122,7 +129,10 @@ def expand_xacro(
     cursor = Cursor(Source(str(path)))
     with _LOCK, _patched(packages, report, path, data, cursor):
         try:
-            document: Any = xacro.process_file(str(path), mappings=dict(arguments), verbosity=0)
+            mappings = _Arguments(arguments)
+            document: Any = xacro.process_file(str(path), mappings=mappings, verbosity=0)
+            if needs_all:
+                mappings.check_used(arguments, path)
             return str(document.toprettyxml(indent="  "))
         except DescriptionError:
             raise
@@ -130,6 +140,28 @@ def expand_xacro(
             raise DescriptionError(cursor.at, "infinite recursion of elements, macros or properties") from None
         except Exception as error:  # xacro evaluates the file's own Python, which may raise anything
             raise description_error(error, cursor.at, map(str, xacro.all_includes)) from None
+
+
+class _Arguments(dict[str, str]):
+    """Arguments of a file, which notes those that it declares or uses."""
+
+    def __init__(self, given: Mapping[str, str]) -> None:
+        super().__init__(given)
+        self._used: set[str] = set()
+
+    def __contains__(self, name: object) -> bool:
+        self._used.add(str(name))
+        return super().__contains__(name)
+
+    def __getitem__(self, name: str) -> str:
+        self._used.add(name)
+        return super().__getitem__(name)
+
+    def check_used(self, given: Mapping[str, str], path: Path) -> None:
+        """Raise an error for an argument that the file does not have."""
+        if unknown := sorted(set(given) - self._used):
+            there = ", ".join(repr(name) for name in sorted(self._used)) or "none"
+            raise DescriptionError(Source(str(path)), f"no argument {unknown[0]!r}; arguments here: {there}")
 
 
 @contextmanager

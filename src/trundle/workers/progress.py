@@ -1,4 +1,4 @@
-"""Progress of a sweep: one line on a terminal, one now and then in a log."""
+"""Progress of a job: one line on a terminal, one now and then in a log."""
 
 import sys
 import time
@@ -7,14 +7,14 @@ _REDRAW_S = 0.2
 _LOG_S = 30.0
 
 
-class SweepProgress:
+class Progress:
     """Prints the number of rows, their rate and the time left to stderr."""
 
     def __init__(self, total: int, done: int) -> None:
         """Start the display.
 
         Args:
-            total: rows of the sweep.
+            total: rows of the job.
             done: rows that were there already.
         """
         self._total, self._before, self._done = total, done, done
