@@ -72,6 +72,23 @@ def test_of_many_rays_some_are_drawn_and_of_a_sonar_its_cone(tmp_path: Path) -> 
     assert cone.points[1::2, 0] == pytest.approx(1 + 2 * np.cos(np.pi / 4), abs=0.01)
 
 
+def test_of_all_sensors_there_are_the_points_that_rays_hit(tmp_path: Path) -> None:
+    """Also of those without <visualize>, each behind the word for its kind."""
+    scans = sensor("ray", _SCAN.format(3), visualize=False) + sensor("sonar", _SONAR, visualize=False)
+    sim, mounted = world(tmp_path, scans)
+    sight = RayOverlay(lambda: True, of_all=True)
+    sight.set_sensors(mounted)
+
+    sim.run(0.1)
+    lines = {line.id: line for line in sight.lines(sim.snapshot())}
+
+    assert set(lines) == {"rays eye::l::ray", "points eye::l::ray", "sonars eye::l::sonar"}
+    assert lines["points eye::l::ray"].kind == "points"
+    assert lines["points eye::l::ray"].points == pytest.approx(lines["rays eye::l::ray"].points[1::2])
+    sight.set_sensors([])
+    assert sight.lines(sim.snapshot()) == ()
+
+
 def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) -> None:
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(3), visualize=False) + sensor("sonar", _SONAR))
     sight = RayOverlay(lambda: False)

@@ -182,6 +182,19 @@ def test_the_help_names_the_keys_and_each_does_what_it_says(open_page: Open) -> 
     tab.get_by_role("button", name="2D Nav Goal", pressed=True).wait_for()
 
 
+def test_a_key_right_after_a_dialog_closed_is_the_pages(open_page: Open) -> None:
+    """Until the next frame the focus may still be inside of the dialog."""
+    tab = open_page()
+    tab.keyboard.press("?")
+    tab.get_by_role("dialog", name="Keys").wait_for()
+    tab.evaluate("""() => {
+        const dialog = document.querySelector("dialog");
+        dialog.close();
+        dialog.querySelector("button").dispatchEvent(new KeyboardEvent("keydown", { key: "[", bubbles: true }));
+    }""")
+    tab.locator("aside.left.rail").wait_for()
+
+
 def _resting_box(tab: Any, selector: str) -> dict[str, float]:
     """Box of an element once it no longer moves, as it does while the sheet closes."""
     box, before = tab.locator(selector).bounding_box(), None

@@ -1,6 +1,7 @@
 """A person chooses what is shown of a simulated world; the picture is checked by what it has where."""
 
-from collections.abc import Iterator
+import json
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -36,13 +37,21 @@ BOX_M = (0.346, 0.49)
 """Length and width of the box of even density with this mass and inertia: √(6 (iyy + izz − ixx) / m), …"""
 EYE = """<sensor name="eye" type="camera"><pose>0.3 0 0 0 0 0</pose><camera><horizontal_fov>1.5708</horizontal_fov>
 <image><width>80</width><height>60</height></image><clip><near>0.1</near><far>0.5</far></clip></camera></sensor>"""
+_RANGE = "<range><min>0.05</min><max>4</max></range>"
+_FAN = "<horizontal><samples>40</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></horizontal>"
+SCAN = f"""<sensor name="scan" type="ray"><pose>0.35 0 0.1 0 0 0</pose><update_rate>50</update_rate>
+<ray><scan>{_FAN}</scan>{_RANGE}</ray></sensor>"""
+SONAR = """<sensor name="sonar" type="sonar"><pose>0 0.25 0.1 1.5708 0 0</pose><update_rate>50</update_rate>
+<sonar><min>0.05</min><max>0.8</max><radius>0.2</radius></sonar></sensor>"""
+FLOOR = "<collision name='c'><geometry><box><size>9 9 0.2</size></box></geometry></collision>"
 WORLD = f"""<sdf version="1.6"><world name="yard"><wind><linear_velocity>3 0 0</linear_velocity></wind>
 <scene><background>0 0 0 1</background><grid>0</grid></scene>
+<model name="floor"><static>1</static><pose>0 0 -0.099 0 0 0</pose><link name="base">{FLOOR}</link></model>
 <model name="crate"><pose>-1 0 0.2 0 0 0</pose>
-<link name="base">{MASS}{_shapes("0.6 0.4 0.4", "0.4 0.4 0.4", "1 0 0")}</link></model>
+<link name="base">{MASS}{_shapes("0.6 0.4 0.4", "0.4 0.4 0.4", "1 0 0")}{SCAN}{SONAR}</link></model>
 <model name="gate"><pose>1 0 0.2 0 0 0</pose>
-<link name="base">{_shapes("0.4 0.4 0.4", "0.4 0.4 0.4", "0 0 1")}{EYE}</link>
-<link name="flap"><pose>0 0.6 0 0 0 0</pose>{_shapes("0.2 0.2 0.2", "0.2 0.2 0.2", "0 0 1")}</link>
+<link name="base"><inertial><mass>9</mass></inertial>{_shapes("0.4 0.4 0.4", "0.4 0.4 0.4", "0 0 1")}{EYE}</link>
+<link name="flap"><pose>0 0.6 0.1 0 0 0</pose>{_shapes("0.2 0.2 0.2", "0.2 0.2 0.2", "0 0 1")}</link>
 <joint name="hinge" type="revolute"><pose>0 -0.1 0 0 0 0</pose><parent>base</parent><child>flap</child>
 <axis><xyz>0 0 1</xyz><limit><lower>0</lower><upper>1.5708</upper></limit></axis></joint></model></world></sdf>"""
 RED, BLUE = (255, 0, 0), (0, 0, 255)
@@ -51,12 +60,42 @@ RED, BLUE = (255, 0, 0), (0, 0, 255)
 class Viewer(WorldUser):
     """Shows and hides parts; measures areas of the picture that changed."""
 
+    def __init__(self, browser: Any, url: str) -> None:
+        super().__init__(browser, url)
+        self.sent: list[dict[str, Any]] = []
+        """Text messages of the page to its server since it was loaded again."""
+        self.page.on("websocket", self._listen)
+        self.page.reload()
+        self.page.get_by_label("Connected").first.wait_for()
+
+    def _listen(self, socket: Any) -> None:
+        socket.on("framesent", self._note_sent)
+
+    def _note_sent(self, message: str | bytes) -> None:
+        if isinstance(message, str):
+            self.sent.append(json.loads(message))
+
+    def is_asked_for(self, topic: str) -> bool:
+        """True while the page subscribes to a topic."""
+        channel = self._client.channels[topic]["id"]
+        asked: set[int] = set()
+        for message in self.sent:
+            asked |= {each["id"] for each in message.get("subscriptions", []) if each["channelId"] == channel}
+            asked -= set(message.get("subscriptionIds", []))
+        return bool(asked)
+
     def show(self, *parts: str) -> None:
         """Press entries of the View menu."""
         self.button("Show in the view").click()
         for part in parts:
             self.page.get_by_role("menuitemcheckbox", name=part, exact=True).click()
         self.page.keyboard.press("Escape")
+
+    def toggle(self, model: str, part: str) -> None:
+        """Show or hide a part of one model, by its inspector."""
+        self.pick(model)
+        self.page.locator(".inspector").get_by_role("button", name=part, exact=True).click()
+        self.run("Select nothing")
 
     def run(self, command: str) -> None:
         """Run a command by its name."""
@@ -70,9 +109,9 @@ class Viewer(WorldUser):
         self.page.keyboard.press("Escape")
         return checked == "true"
 
-    def until_changed(self, before: Picture, where: Any, what: str = "") -> None:
+    def until_changed(self, before: Picture, where: Callable[[Mask], object], what: str = "") -> None:
         """Wait until the mask (height, width) of what changed is as wanted."""
-        self.until(lambda: where((self.picture().astype(int) - before).any(axis=-1)), what=what)
+        self.until(lambda: where(np.any(self.picture() != before, axis=-1)), what=what)
 
 
 def _within(mask: Mask, x: tuple[float, float], y: tuple[float, float]) -> Mask:
@@ -115,24 +154,20 @@ def test_visuals_are_hidden_transparent_or_their_edges(user: Viewer) -> None:
 
 def test_collisions_are_shown_around_what_is_smaller(user: Viewer) -> None:
     before = user.picture()
-    user.show("Collisions")
+    user.toggle("crate", "Collisions")
     user.until_changed(before, lambda mask: _within(mask, (-1.28, -1.22), (-0.15, 0.15)).all())
-    user.show("Collisions")
+    user.until_changed(before, lambda mask: not _within(mask, (0.5, 2.4), (-1.4, 1.4)).any())
+    user.toggle("crate", "Collisions")
     user.until_changed(before, lambda mask: not mask.any())
 
 
 def test_an_inertia_is_the_box_of_even_density(user: Viewer) -> None:
     """Of one model alone, by its inspector; the box is turned by the inertia's own axes."""
     before = user.picture()
-    user.pick("crate")
-    selected = user.page.locator(".inspector").get_by_role("button", name="Inertias", exact=True)
-    selected.click()
-    user.run("Select nothing")
+    user.toggle("crate", "Inertias")
     user.until_changed(before, lambda mask: abs(_area(mask) - BOX_M[0] * BOX_M[1]) < 0.01)
     user.until_changed(before, lambda mask: not _within(mask, (0, 2.4), (-1.4, 1.4)).any())
-    user.pick("crate")
-    selected.click()
-    user.run("Select nothing")
+    user.toggle("crate", "Inertias")
     user.until_changed(before, lambda mask: not mask.any())
 
 
@@ -157,6 +192,37 @@ def test_a_camera_has_the_pyramid_that_it_sees(user: Viewer) -> None:
     user.until_changed(before, lambda mask: _within(mask, (1.78, 1.82), (-0.4, 0.4)).any(axis=1).all())
     user.show("Cameras")
     user.until_changed(before, lambda mask: not mask.any())
+
+
+def test_contacts_are_asked_for_while_they_are_shown(user: Viewer) -> None:
+    """The crate rests on its corners, where its collision is, once a step was made."""
+    user.button("Step 1").click()
+    before = user.picture()
+    assert not user.is_asked_for("trundle/contacts")
+    user.show("Contacts")
+    corners = [(-1 + 0.3 * x, 0.2 * y) for x in (-1, 1) for y in (-1, 1)]
+    around = [((x - 0.01, x + 0.01), (y - 0.01, y + 0.01)) for x, y in corners]
+    user.until_changed(before, lambda mask: all(_within(mask, *corner).any() for corner in around))
+    assert user.is_asked_for("trundle/contacts")
+    user.show("Contacts")
+    user.until_changed(before, lambda mask: not mask.any())
+    assert not user.is_asked_for("trundle/contacts")
+
+
+def test_lidars_and_sonars_are_drawn_while_they_are_shown(user: Viewer) -> None:
+    """Forty rays from x = −0.65 to the gate's face at x = 0.8; the sonar looks along y and meets nothing."""
+    before = user.picture()
+    user.show("Lidar points", "Sonar cones")
+    user.button("Play").click()
+    user.until_changed(before, lambda mask: _within(mask, (0.78, 0.83), (-0.15, 0.15)).mean() > 0.2)
+    user.page.get_by_role("banner").get_by_role("button", name="Pause").click()
+    user.until_changed(before, lambda mask: _within(mask, (-1.2, -0.8), (0.8, 1.04)).mean() > 0.1)
+    user.until_changed(before, lambda mask: not _within(mask, (-0.6, 0.7), (-0.1, 0.1)).any())
+    user.show("Lidar points", "Sonar cones", "Lidar rays")
+    user.until_changed(before, lambda mask: _within(mask, (-0.6, 0.7), (-0.02, 0.02)).mean() > 0.2)
+    user.show("Lidar rays")
+    user.until_changed(before, lambda mask: not mask.any())
+    assert not user.is_asked_for("trundle/ranges")
 
 
 def test_wind_and_origin_are_marked_and_remembered(user: Viewer) -> None:

@@ -110,14 +110,20 @@ def test_joints_lines_and_the_clock_arrive(page: PageServer) -> None:
     points = np.arange(9.0, dtype=np.float32).reshape(3, 3)
     page.put_joints(40, joints)
     page.put_lines(41, [Line(id="ray é", rgba=(1, 2, 3, 255), points=points, kind="pairs")])
+    page.put_ranges(41, [Line(id="points", rgba=(1, 2, 3, 255), points=points, kind="points")])
+    page.put_contacts(41, np.arange(9.0).reshape(1, 9))
     page.put_state(ClockState(time_ns=42, paused=True, speed=None, recording=Recording(7)))
     with ProtocolClient(page.url) as client:
-        for name in ("joints", "lines", "state"):
+        for name in ("joints", "lines", "ranges", "contacts", "state"):
             client.subscribe(f"trundle/{name}")
             client.until(lambda name=name: client.payloads(f"trundle/{name}"))
         client.until(lambda: 42 in client.times)
 
     assert client.payloads("trundle/joints") == [struct.pack("<QII6d", 40, 12, 2, *range(6))]
+    assert client.payloads("trundle/contacts") == [struct.pack("<QII9d", 41, 12, 1, *range(9))]
+    assert client.payloads("trundle/ranges") == [
+        struct.pack("<QII6s4BII9f", 41, 1, 6, b"points", 1, 2, 3, 255, 2, 3, *range(9))
+    ]
     name = "ray é".encode()
     assert client.payloads("trundle/lines") == [
         struct.pack("<QII", 41, 1, len(name)) + name + struct.pack("<4BII9f", 1, 2, 3, 255, 1, 3, *range(9))

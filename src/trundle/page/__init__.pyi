@@ -35,9 +35,11 @@ from .send_buffer import SendBuffer as SendBuffer
 from .session import JointSlider as JointSlider
 from .session import RvizFile as RvizFile
 from .session import Session as Session
+from .streams import CONTACTS as CONTACTS
 from .streams import JOINTS as JOINTS
 from .streams import LINES as LINES
 from .streams import POSES as POSES
+from .streams import RANGES as RANGES
 from .streams import STATE as STATE
 from .streams import ClockState as ClockState
 from .streams import Line as Line

@@ -37,7 +37,15 @@ from .rviz_saving import save_rviz
 from .session import Session
 from .session_channel import SessionChannel
 from .wire import AddFile, FromServer, OpenMailbox, Respond, SetNotice, SetSession, SetWorld, Start, ToServer
-from .world_channels import BoxChannel, PosesChannel, StateChannel, WorldChannel, joints_channel, lines_channel
+from .world_channels import (
+    BoxChannel,
+    PosesChannel,
+    StateChannel,
+    WorldChannel,
+    contacts_channel,
+    joints_channel,
+    line_channels,
+)
 from .world_requests import RenderModel
 
 _NO_GRAPH = "this page has no ROS graph"
@@ -62,7 +70,8 @@ class Page:
         self._state = StateChannel()
         boxes: tuple[BoxChannel, ...] = ()
         if start.bag is None:
-            boxes = (self._state, PosesChannel(self._world), joints_channel(self._world), lines_channel())
+            world = self._world
+            boxes = (self._state, PosesChannel(world), joints_channel(world), contacts_channel(world), *line_channels())
         self._boxes: dict[str, BoxChannel] = {box.topic: box for box in boxes}
         self.hub = Hub(
             session_id=str(time.time_ns()),

@@ -22,7 +22,19 @@ from .errors import PageError
 from .mailbox import Mailbox, Piece
 from .requests import GraphAction, Request
 from .session import Session
-from .streams import ARRAY_HEADER, IMAGE_HEADER, JOINTS, LINES, POSES, STATE, ClockState, Line, line_pieces
+from .streams import (
+    ARRAY_HEADER,
+    CONTACTS,
+    IMAGE_HEADER,
+    JOINTS,
+    LINES,
+    POSES,
+    RANGES,
+    STATE,
+    ClockState,
+    Line,
+    line_pieces,
+)
 from .wire import (
     AddFile,
     BagFile,
@@ -226,6 +238,14 @@ class PageServer:
     def put_lines(self, time_ns: int, lines: Iterable[Line]) -> None:
         """Show these lines and no others."""
         self._put(LINES, line_pieces(time_ns, tuple(lines)))
+
+    def put_contacts(self, time_ns: int, contacts: NDArray[np.float64]) -> None:
+        """Show the contacts (contacts, 9): both bodies, position [m], force of first on second [N], depth [m]."""
+        self._put_rows(CONTACTS, time_ns, contacts)
+
+    def put_ranges(self, time_ns: int, lines: Iterable[Line]) -> None:
+        """Show what range sensors measure, and nothing of those before."""
+        self._put(RANGES, line_pieces(time_ns, tuple(lines)))
 
     def put_image(self, topic: str, time_ns: int, rgb: NDArray[np.uint8]) -> None:
         """Show a camera's newest picture (height, width, 3) on its topic of the manifest; for runs without ROS."""

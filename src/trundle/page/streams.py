@@ -1,7 +1,7 @@
 """Contents of the mailboxes between a simulation and the page's server: raw arrays behind a small header."""
 
 import struct
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import msgspec
 import numpy as np
@@ -13,10 +13,13 @@ POSES = "trundle/poses"
 JOINTS = "trundle/joints"
 STATE = "trundle/state"
 LINES = "trundle/lines"
+CONTACTS = "trundle/contacts"
+RANGES = "trundle/ranges"
 DROPS = "trundle/drops"
 
 ARRAY_HEADER = struct.Struct("<QII")
-"""Time [ns], generation of the world, rows: before the poses, (bodies, 7) f64, and the joints, (joints, 3) f64."""
+"""Time [ns], generation of the world, rows: before the poses, (bodies, 7) f64, the joints, (joints, 3) f64, and the
+contacts, (contacts, 9) f64."""
 IMAGE_HEADER = struct.Struct("<QIII")
 """Time [ns], height, width, channels, before the pixels."""
 LINES_HEADER = struct.Struct("<QI")
@@ -53,15 +56,20 @@ class ClockState(msgspec.Struct, frozen=True, kw_only=True):
     """Given where the run can be recorded; None: it is not."""
 
 
+LineKind: TypeAlias = Literal["strip", "pairs", "points"]
+_KINDS: tuple[LineKind, ...] = ("strip", "pairs", "points")
+"""By their number on the wire."""
+
+
 class Line(msgspec.Struct, frozen=True, kw_only=True):
-    """A drawn line."""
+    """A drawn line, or points."""
 
     id: str
     rgba: tuple[int, int, int, int]
     """0 to 255."""
     points: NDArray[np.float32]
     """(points, 3) in the world frame [m]."""
-    kind: Literal["strip", "pairs"] = "strip"
+    kind: LineKind = "strip"
     """Pairs are lines from each even point to the next."""
 
 
@@ -71,6 +79,6 @@ def line_pieces(time_ns: int, lines: tuple[Line, ...]) -> list[bytes]:
     for line in lines:
         name = line.id.encode()
         points = np.ascontiguousarray(line.points, dtype="<f4")
-        kind = LINE_KIND.pack(*line.rgba, int(line.kind == "pairs"), len(points))
+        kind = LINE_KIND.pack(*line.rgba, _KINDS.index(line.kind), len(points))
         pieces += (len(name).to_bytes(4, "little"), name, kind, points.tobytes())
     return pieces

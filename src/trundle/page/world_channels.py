@@ -10,7 +10,7 @@ from .channel import Channel, Client
 from .mailbox import Mailbox
 from .outbox import Buffer
 from .protocol import ENCODING
-from .streams import ARRAY_HEADER, JOINTS, LINES, POSES, STATE, WORLD
+from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, POSES, RANGES, STATE, WORLD
 
 _XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
 """Columns of a pose on the wire, of x y z qw qx qy qz."""
@@ -175,9 +175,14 @@ class StateChannel(BoxChannel):
         return message
 
 
-def lines_channel() -> BoxChannel:
-    """Channel of lines."""
-    return BoxChannel(LINES, encoding=LINES.replace("/", "."), period_s=0.0)
+def line_channels() -> tuple[BoxChannel, ...]:
+    """Channels of lines: what is drawn always, and what range sensors measure."""
+    return tuple(BoxChannel(topic, encoding=LINES.replace("/", "."), period_s=0.0) for topic in (LINES, RANGES))
+
+
+def contacts_channel(world: WorldChannel) -> RowsChannel:
+    """Channel of contacts."""
+    return RowsChannel(CONTACTS, world, period_s=0.0)
 
 
 def joints_channel(world: WorldChannel) -> RowsChannel:

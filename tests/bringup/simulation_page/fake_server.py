@@ -25,6 +25,8 @@ class FakeServer:
         self.poses: list[tuple[int, Any]] = []
         self.joints: list[tuple[int, Any]] = []
         self.lines: list[Any] = []
+        self.contacts: list[Any] = []
+        self.ranges: list[Any] = []
         self.images: list[tuple[str, int, Any]] = []
         self.pictures: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
         self.notices: list[tuple[str, str | None]] = []
@@ -69,6 +71,12 @@ class FakeServer:
 
     def put_lines(self, time_ns: int, lines: Any) -> None:
         self.lines.append((time_ns, list(lines)))
+
+    def put_contacts(self, time_ns: int, contacts: Any) -> None:
+        self.contacts.append((time_ns, np.array(contacts)))
+
+    def put_ranges(self, time_ns: int, lines: Any) -> None:
+        self.ranges.append((time_ns, list(lines)))
 
     def put_image(self, topic: str, time_ns: int, rgb: Any) -> None:
         self.images.append((topic, time_ns, rgb))

@@ -14,6 +14,9 @@ import { SceneInput } from "../scene/pointer_input";
 import { ThreeScene } from "../scene/three_scene";
 import { ViewList } from "../scene/views/view_list";
 import { BodyOverlays } from "../scene/overlays/body_overlays";
+import { ContactMarks } from "../scene/overlays/contact_marks";
+import { RangeLines } from "../scene/overlays/range_lines";
+import type { Manifest } from "../scene/simulated_world";
 import { SelectionOutline } from "../scene/world/selection_outline";
 import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
@@ -29,7 +32,7 @@ import { makeTheme } from "./theme";
 import { UndoHistory } from "./undo";
 import type { Shell } from "./shell";
 import { makeEditor } from "./world_edits";
-import { allModels } from "./world_nodes";
+import { allModels, type ScopedModel } from "./world_nodes";
 
 /** Fetch what the page is for; throws a sentence. */
 export async function fetchSession(address: string): Promise<Session> {
@@ -85,7 +88,10 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
     scene.element.style.cursor = tools.current.value.cursor;
   });
   new SelectionOutline(scene, world, () => outlinedBodies(page));
-  new BodyOverlays(scene, world, ({ models }) => allModels(models));
+  const modelsOf = ({ models }: Manifest): readonly ScopedModel[] => allModels(models);
+  new BodyOverlays(scene, world, modelsOf);
+  new ContactMarks(scene, world, connection, modelsOf);
+  new RangeLines(scene, world, connection);
   scene.onTick((elapsed) => displays.update(view.now(), elapsed));
   const shell: Shell = mount(root, { page, panels, commands, sceneHost, frozen });
   startDisplays(shell);

@@ -28,7 +28,9 @@ export function Dialog({ title, class: extra = "", onClose, children }: DialogPr
       aria-label={title}
       onClose={onClose}
       onPointerDown={(event) => event.target === event.currentTarget && onClose()}
-      onKeyDown={(event) => event.stopPropagation()}
+      onKeyDown={(event) => {
+        if (event.currentTarget.open) event.stopPropagation(); // one that was just closed may have the focus until the next frame
+      }}
     >
       <div class="tabs">
         <h2>{title}</h2>

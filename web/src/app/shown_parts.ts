@@ -15,15 +15,22 @@ export const PART_NAMES: Readonly<Record<Part, string>> = {
   joints: "Joints",
   centres: "Centres of mass",
   inertias: "Inertias",
+  contacts: "Contacts",
   frames: "Link frames",
   cameras: "Cameras",
+  rays: "Lidar rays",
+  points: "Lidar points",
+  sonars: "Sonar cones",
 };
 
 export const WORLD_PART_NAMES: Readonly<Record<WorldPart, string>> = { grid: "Grid", origin: "World origin", wind: "Wind" };
 
-/** Parts that a page can show: of a recorded run there is only what is drawn from the poses. */
-export function partsOf(_page: Page): readonly Part[] {
-  return PARTS;
+/** Parts that only a running simulation has. */
+const LIVE: readonly Part[] = ["contacts", "rays", "points", "sonars"];
+
+/** Parts that a page can show. */
+export function partsOf({ session }: Page): readonly Part[] {
+  return session.kind === "simulation" ? PARTS : PARTS.filter((part) => !LIVE.includes(part));
 }
 
 export function isWorldPartShown({ world }: Pick<Page, "world">, part: WorldPart): boolean {

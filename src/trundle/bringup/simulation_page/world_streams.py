@@ -9,7 +9,7 @@ from msgspec import UNSET
 from numpy.typing import NDArray
 
 from trundle.model import World
-from trundle.page import JOINTS, LINES, POSES, ClockState, PageServer, Recording, TimelineSpan
+from trundle.page import CONTACTS, JOINTS, LINES, POSES, RANGES, ClockState, PageServer, Recording, TimelineSpan
 from trundle.sensors import CameraReading, CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation, Snapshot
 from trundle.timeline import Timeline
@@ -18,6 +18,7 @@ from ..actor_bones import ActorBones
 from ..ray_overlay import RayOverlay
 from ..realtime_pacer import RealtimePacer
 from .body_numbers import BodyNumbers
+from .contact_rows import ContactRows
 from .controls import Recorder
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
@@ -56,6 +57,7 @@ class WorldStreams:
         self._offered_file = offered_file
         self._wall_ns = wall_ns
         self._rays = RayOverlay(lambda: server.is_watched(LINES))
+        self._ranges = RayOverlay(lambda: server.is_watched(RANGES), of_all=True)
         self._bodies = BodyNumbers()
         self._builder = WorldBuilder()
         self._generation = server.generation
@@ -105,6 +107,8 @@ class WorldStreams:
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
         self._set_missing(missing_meshes(simulation.world))
         self._rays.set_sensors(sensors)
+        self._ranges.set_sensors(sensors)
+        self._contacts = ContactRows(simulation, self._bodies)
         if not self._has_graph:
             self._listen([sensor for sensor in sensors if isinstance(sensor, CameraSensor)])
 
@@ -124,7 +128,7 @@ class WorldStreams:
         self._server.put_image(topic, reading.time_ns, reading.rgb)
 
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
-        """Send the page what is due: poses and lines at 30 Hz, joints and the clock at 10 Hz, if they are watched."""
+        """Send the page what is due: poses, lines and contacts at 30 Hz, joints and clock at 10 Hz, if watched."""
         now = self._wall_ns()
         if now < self._frame_due_ns and not at_once:
             return
@@ -139,6 +143,10 @@ class WorldStreams:
             server.put_poses(time_ns, self._bodies.rows(poses))
         if server.is_watched(LINES):
             server.put_lines(time_ns, [*plugin_lines(self._simulation), *self._rays.lines(snapshot)])
+        if server.is_watched(RANGES):
+            server.put_ranges(time_ns, self._ranges.lines(snapshot))
+        if server.is_watched(CONTACTS):
+            server.put_contacts(time_ns, self._contacts.read())
         if now < self._slow_due_ns and not at_once:
             return
         self._slow_due_ns = now + _SLOW_NS

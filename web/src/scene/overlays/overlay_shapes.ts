@@ -14,7 +14,7 @@ export const COLOURS = { x: 0xff5b52, y: 0x56cc40, z: 0x4f9dff, axis: 0xf2b134, 
 const materials = new Map<string, MeshBasicMaterial | LineBasicMaterial>();
 
 /** A flat material in front of what it is in; shared, so not to be disposed of. */
-function flat(colour: number, opacity = 1): MeshBasicMaterial {
+export function flat(colour: number, opacity = 1): MeshBasicMaterial {
   return shared(`${colour} ${opacity}`, () => new MeshBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false, side: DoubleSide }));
 }
 

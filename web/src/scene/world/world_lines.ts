@@ -1,11 +1,15 @@
-/** Lines that plugins draw and rays of lidars, from `trundle/lines`. */
+/** Lines that plugins draw and rays of lidars, from `trundle/lines` and `trundle/ranges`. */
 
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Line, LineBasicMaterial, LineSegments, SRGBColorSpace } from "three";
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, SRGBColorSpace } from "three";
 
 import { NOT_PICKED } from "../picking";
 
 const HEADER = 12;
-const [STRIP, PAIRS] = [0, 1];
+const [STRIP, POINTS] = [0, 2];
+/** Width of a point [px]. */
+const POINT = 4;
+/** Types of three.js, by the kinds of the wire: strip, pairs, points. */
+const TYPES = ["Line", "LineSegments", "Points"];
 
 interface ReadLine {
   readonly id: string;
@@ -27,6 +31,7 @@ export function readLines(message: DataView): ReadLine[] | null {
       const byte = (i: number): number => message.getUint8(at + i) / 255;
       const rgba = [byte(0), byte(1), byte(2), byte(3)] as const;
       const kind = message.getUint32(at + 4, true);
+      if (kind > POINTS) return null;
       const points = new Float32Array(3 * message.getUint32(at + 8, true));
       at += 12;
       for (let i = 0; i < points.length; i += 1, at += 4) points[i] = message.getFloat32(at, true);
@@ -39,8 +44,10 @@ export function readLines(message: DataView): ReadLine[] | null {
   return lines;
 }
 
+type Drawn = Line<BufferGeometry, LineBasicMaterial> | Points<BufferGeometry, PointsMaterial>;
+
 export class WorldLines extends Group {
-  private readonly drawn = new Map<string, Line<BufferGeometry, LineBasicMaterial>>();
+  private readonly drawn = new Map<string, Drawn>();
 
   constructor() {
     super();
@@ -59,12 +66,12 @@ export class WorldLines extends Group {
 
   private draw({ id, rgba: [red, green, blue, alpha], kind, points }: ReadLine): void {
     let drawn = this.drawn.get(id);
-    if (drawn !== undefined && (drawn.type === "LineSegments") !== (kind === PAIRS)) {
+    if (drawn !== undefined && drawn.type !== TYPES[kind]) {
       this.drop(id);
       drawn = undefined;
     }
     if (drawn === undefined) {
-      drawn = kind === STRIP ? new Line(new BufferGeometry(), new LineBasicMaterial()) : new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+      drawn = create(kind);
       drawn.frustumCulled = false;
       this.drawn.set(id, drawn);
       this.add(drawn);
@@ -84,6 +91,13 @@ export class WorldLines extends Group {
     drawn.geometry.dispose();
     drawn.material.dispose();
   }
+}
+
+function create(kind: number): Drawn {
+  const geometry = new BufferGeometry();
+  if (kind === POINTS) return new Points(geometry, new PointsMaterial({ size: POINT, sizeAttenuation: false }));
+  const material = new LineBasicMaterial();
+  return kind === STRIP ? new Line(geometry, material) : new LineSegments(geometry, material);
 }
 
 /** Set points in the buffer that is there, if they fit. */
