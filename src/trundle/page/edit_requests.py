@@ -33,10 +33,11 @@ class MoveJoint(Action, frozen=True, tag="joint"):
             raise ValueError("give one of 'position', 'velocity' and 'effort'")
 
 
-_Quaternion: TypeAlias = tuple[_Number, _Number, _Number, _Number]
+Quaternion: TypeAlias = tuple[_Number, _Number, _Number, _Number]
 
 
-def _check_direction(quaternion: _Quaternion) -> None:
+def check_direction(quaternion: Quaternion) -> None:
+    """Check that a quaternion is not zero."""
     if sum(part * part for part in quaternion) < 1e-12:
         raise ValueError("the quaternion of an orientation is not zero")
 
@@ -48,12 +49,12 @@ class SetPose(Action, frozen=True, tag="pose"):
     link: Name
     position: Triple
     """In the world [m]."""
-    orientation: _Quaternion
+    orientation: Quaternion
     """Quaternion wxyz, of any length but zero."""
 
     def __post_init__(self) -> None:
         """Check that the quaternion has a direction."""
-        _check_direction(self.orientation)
+        check_direction(self.orientation)
 
 
 class Carry(SetPose, frozen=True, tag="carry"):
@@ -136,12 +137,12 @@ class PlaceLight(Action, frozen=True, tag="place_light"):
     light: Name
     position: Triple
     """In the world [m]."""
-    orientation: _Quaternion
+    orientation: Quaternion
     """Quaternion wxyz, of any length but zero."""
 
     def __post_init__(self) -> None:
         """Check that the quaternion has a direction."""
-        _check_direction(self.orientation)
+        check_direction(self.orientation)
 
 
 class SetPhysics(Action, frozen=True, tag="physics"):

@@ -8,6 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from .draft_requests import DraftAction
 from .edit_requests import Action, EditAction
 from .world_requests import InsertAction, ModelAction, RenderModel, SaveWorld
 
@@ -133,6 +134,7 @@ ClientAction: TypeAlias = (
     | SaveWorld
     | InsertAction
     | ModelAction
+    | DraftAction
     | MoveSlider
     | MoveJoystick
     | SaveRviz

@@ -9,6 +9,9 @@ from .catalog import find_world_plugin as find_world_plugin
 from .catalog import is_cosmetic as is_cosmetic
 from .catalog import is_sensor_plugin as is_sensor_plugin
 from .catalog import require_plugin as require_plugin
+from .documentation import PluginDocumentation as PluginDocumentation
+from .documentation import PluginParameter as PluginParameter
+from .documentation import plugin_documentation as plugin_documentation
 from .plugin import Hooks as Hooks
 from .plugin import Plugin as Plugin
 from .plugin import VisualPlugin as VisualPlugin

@@ -131,6 +131,10 @@ class XmlElement:
         """Return all elements below, in file order."""
         return [XmlElement(each) for each in self.raw.iterdescendants("*")]
 
+    def ancestors(self) -> "list[XmlElement]":
+        """Return the elements around, innermost first."""
+        return [XmlElement(each) for each in self.raw.iterancestors()]
+
     def put(self, tag: str, text: str | None = None) -> "XmlElement":
         """Return the first child with a tag, appended if there is none; a text replaces its own."""
         child = self.find(tag)

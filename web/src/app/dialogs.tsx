@@ -2,6 +2,8 @@
 
 import type { JSX } from "preact";
 
+import { AskDialog } from "../editor/ask_dialog";
+import { SaveModel } from "../editor/save_model";
 import { Help } from "./help";
 import { NoticeList } from "./notice_list";
 import { Palette } from "./palette";
@@ -13,11 +15,14 @@ import { LinkDialog } from "./view_link_dialog";
 
 export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const dialog = shell.dialog.value;
+  const question = shell.editor.question.value;
+  if (question !== null) return <AskDialog shell={shell} question={question} />;
   if (dialog === "palette") return <Palette shell={shell} />;
   if (dialog === "help") return <Help shell={shell} />;
   if (dialog === "picture") return <PictureDialog shell={shell} />;
   if (dialog === "link") return <LinkDialog shell={shell} />;
   if (dialog === "save") return <SaveDialog shell={shell} />;
   if (dialog === "save_world") return <SaveWorld shell={shell} />;
+  if (dialog === "save_model") return <SaveModel shell={shell} />;
   return dialog === "notices" ? <NoticeList shell={shell} /> : null;
 }

@@ -3,6 +3,7 @@
 import { Box3, Quaternion, Sphere, Vector3, type Mesh, type Object3D } from "three";
 
 import { isEnabled, withMembers } from "../displays/group";
+import { bodiesOfPart } from "../editor/model_editor";
 import { NoTransform, type Transform } from "../frames/transform";
 import type { JointInfo, LinkInfo, ModelInfo } from "../scene/simulated_world";
 import type { Page, Selection } from "./page";
@@ -33,6 +34,7 @@ export function selectedBodies(page: Page, selection: Selection | null): readonl
     const link = findLink(page, selection.model, selection.link);
     return link === null ? [] : [link.body];
   }
+  if (selection.kind === "part") return bodiesOfPart(page.world.manifest.value?.draft ?? null, selection.part);
   if (selection.kind !== "joint") return [];
   const child = findJoint(page, selection.model, selection.joint)?.child ?? "";
   const link = findLink(page, selection.model, child);
@@ -114,6 +116,7 @@ export function targetPose(page: Page, target: string): Transform | null {
 /** Bodies with an outline: the selected link's is broad, its model's thin, and what is hovered thin. */
 export function outlinedBodies(page: Page): { readonly thin: readonly number[]; readonly broad: readonly number[] } {
   const selection = page.selection.value;
+  if (selection?.kind === "part" && selection.part.length > 0) return { thin: selectedBodies(page, page.hovered.value), broad: selectedBodies(page, selection) };
   const isPart = selection?.kind === "link" || selection?.kind === "joint";
   const whole = isPart ? selectedBodies(page, { kind: "model", model: selection.model }) : selectedBodies(page, selection);
   return { thin: [...whole, ...selectedBodies(page, page.hovered.value)], broad: isPart ? selectedBodies(page, selection) : [] };

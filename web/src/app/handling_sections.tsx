@@ -23,6 +23,9 @@ export function ModelButtons({ shell, name, model }: { readonly shell: Shell; re
           Hold in the air
         </Button>
       )}
+      <Button small tone="line" onClick={() => void shell.editor.begin(name)}>
+        Edit model…
+      </Button>
       <Button small tone="line" onClick={() => copyModel(shell, name)}>
         Copy
       </Button>

@@ -2,6 +2,7 @@
 
 import type { JSX } from "preact";
 
+import { PartForm } from "../editor/part_form";
 import { NoTransform } from "../frames/transform";
 import { Button } from "../theme/button";
 import { Icon, type IconName } from "../theme/icons";
@@ -17,6 +18,10 @@ import { LightSections, WorldSections } from "./world_sections";
 
 export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
   const selection = shell.page.selection.value;
+  const { draft } = shell.editor;
+  if (selection?.kind === "part") {
+    return draft.value === null ? <p class="empty">It is no longer edited.</p> : <PartForm shell={shell} draft={draft.value} path={selection.part} />;
+  }
   if (selection === null) return <p class="empty">Nothing is selected. Press something in the scene or in a tree.</p>;
   return (
     <div class="scroll inspector">
@@ -26,9 +31,11 @@ export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
+type Shown = Exclude<Selection, { readonly kind: "part" }>;
+
 interface SelectionProps {
   readonly shell: Shell;
-  readonly selection: Selection;
+  readonly selection: Shown;
 }
 
 function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
@@ -91,7 +98,7 @@ function asPose<T>(found: T | NoTransform): T | null {
   return found instanceof NoTransform ? null : found;
 }
 
-const ICONS: Readonly<Record<Selection["kind"], IconName>> = { world: "world", light: "light", model: "model", link: "link", joint: "joint", frame: "frame", picked: "select" };
+const ICONS: Readonly<Record<Shown["kind"], IconName>> = { world: "world", light: "light", model: "model", link: "link", joint: "joint", frame: "frame", picked: "select" };
 
 function Title({ shell, selection }: SelectionProps): JSX.Element {
   const { name, of, source } = titleOf(shell, selection);
@@ -124,7 +131,7 @@ export function shortSource(source: string): string {
   return source.split("/").slice(-2).join("/");
 }
 
-function titleOf(shell: Shell, selection: Selection): { name: string; of: string; source: string | null } {
+function titleOf(shell: Shell, selection: Shown): { name: string; of: string; source: string | null } {
   const { page } = shell;
   if (selection.kind === "picked") return { name: selection.title, of: "", source: null };
   if (selection.kind === "world") return { name: page.world.manifest.value?.name ?? "world", of: "world", source: null };

@@ -10,10 +10,12 @@ import "../theme/layout.css";
 import "../theme/tree.css";
 import "../theme/displays.css";
 import "../theme/inspector.css";
+import "../theme/editor.css";
 import "../theme/scene.css";
 import "../theme/dialogs.css";
 import "../theme/phone.css";
 import "../theme/dockview.css";
+import { editorCommands } from "../editor/editor_commands";
 import type { Panel } from "../panels/panel";
 import { App } from "./app";
 import { modelCommands } from "./model_edits";
@@ -41,7 +43,7 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, panels, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell));
+  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
   rememberShown(page);
   listenForKeys(commands);
   acceptDroppedRviz(shell);

@@ -3,6 +3,7 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 
 import type { DisplayList } from "../displays/display_list";
+import type { PartPath } from "../editor/draft";
 import type { FrameTree } from "../frames/frame_tree";
 import type { Connection } from "../protocol/connection";
 import type { SceneView } from "../scene/scene_view";
@@ -20,6 +21,8 @@ export type Selection =
   | { readonly kind: "world" }
   | { readonly kind: "light"; readonly light: string }
   | { readonly kind: "frame"; readonly frame: string }
+  /** Of the model that is edited. */
+  | { readonly kind: "part"; readonly part: PartPath }
   /** Something that a display drew: fields of what was picked. */
   | { readonly kind: "picked"; readonly title: string; readonly fields: Readonly<Record<string, unknown>> };
 
@@ -52,6 +55,20 @@ export interface UndoStack {
   redo(): void;
 }
 
+/** The page's own stack. */
+export interface PageUndo extends UndoStack {
+  /** While there is another stack, it is the one whose edits are taken back. */
+  defer(other: ReadonlySignal<DeferredUndo | null>): void;
+}
+
+/** Edits that something else remembers. */
+export interface DeferredUndo {
+  readonly undoTitle: string | null;
+  readonly redoTitle: string | null;
+  undo(): void;
+  redo(): void;
+}
+
 export interface Page {
   /** As it is now: what reads it in an effect or a component follows its changes. */
   readonly session: Session;
@@ -65,7 +82,7 @@ export interface Page {
   readonly selection: Signal<Selection | null>;
   readonly hovered: Signal<Selection | null>;
   readonly commands: Commands;
-  readonly undo: UndoStack;
+  readonly undo: PageUndo;
   readonly drive: Drive;
   readonly theme: Signal<"light" | "dark">;
 }

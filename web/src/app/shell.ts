@@ -3,6 +3,7 @@
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
 import type { Display } from "../displays/display";
+import { ModelEditor } from "../editor/model_editor";
 import type { Panel } from "../panels/panel";
 import { cameraTopics } from "./camera_topics";
 import { CommandList } from "./commands";
@@ -13,7 +14,7 @@ import type { Page } from "./page";
 import { ViewVideo } from "./view_video";
 import { isBoolean, recall, remember } from "./storage";
 
-export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "picture" | "link" | null;
+export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | null;
 
 /** An .rviz file that is shown. */
 export interface RvizFileInfo {
@@ -53,6 +54,7 @@ export class Shell {
 
   /** The video that is being recorded of the view. */
   readonly video: ViewVideo;
+  readonly editor: ModelEditor;
 
   constructor(
     readonly page: Page,
@@ -66,6 +68,7 @@ export class Shell {
     this.layout = new Layout(page.session.kind);
     this.notices = new Notices(page);
     this.video = new ViewVideo(page.scene);
+    this.editor = new ModelEditor(page, this.notices);
     this.dock = new Dock(page, panels, this.layout);
     effect(() => remember("cameras", this.showsCameras.value));
   }

@@ -1,8 +1,8 @@
 /** Edits that can be taken back, newest last. */
 
-import { computed, signal } from "@preact/signals";
+import { computed, signal, type ReadonlySignal } from "@preact/signals";
 
-import type { UndoStack } from "./page";
+import type { DeferredUndo, PageUndo } from "./page";
 
 interface Edit {
   readonly title: string;
@@ -12,11 +12,17 @@ interface Edit {
 
 const DEPTH = 200;
 
-export class UndoHistory implements UndoStack {
+export class UndoHistory implements PageUndo {
   private readonly done = signal<readonly Edit[]>([]);
   private readonly undone = signal<readonly Edit[]>([]);
-  readonly undoTitle = computed(() => this.done.value.at(-1)?.title ?? null);
-  readonly redoTitle = computed(() => this.undone.value.at(-1)?.title ?? null);
+  private readonly others = signal<ReadonlySignal<DeferredUndo | null> | null>(null);
+  private readonly other = computed(() => this.others.value?.value ?? null);
+  readonly undoTitle = computed(() => (this.other.value === null ? (this.done.value.at(-1)?.title ?? null) : this.other.value.undoTitle));
+  readonly redoTitle = computed(() => (this.other.value === null ? (this.undone.value.at(-1)?.title ?? null) : this.other.value.redoTitle));
+
+  defer(other: ReadonlySignal<DeferredUndo | null>): void {
+    this.others.value = other;
+  }
 
   run(title: string, redo: () => void, undo: () => void): void {
     redo();
@@ -29,6 +35,11 @@ export class UndoHistory implements UndoStack {
   }
 
   undo(): void {
+    const other = this.other.peek();
+    if (other !== null) {
+      other.undo();
+      return;
+    }
     const edit = this.done.peek().at(-1);
     if (edit === undefined) return;
     edit.undo();
@@ -37,6 +48,11 @@ export class UndoHistory implements UndoStack {
   }
 
   redo(): void {
+    const other = this.other.peek();
+    if (other !== null) {
+      other.redo();
+      return;
+    }
     const edit = this.undone.peek().at(-1);
     if (edit === undefined) return;
     edit.redo();

@@ -4,6 +4,7 @@ import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
+import { DraftTree } from "../editor/draft_tree";
 import type { Manifest } from "../scene/simulated_world";
 import { Icon } from "../theme/icons";
 import { Tree, type TreeRow } from "../theme/tree";
@@ -24,6 +25,8 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
     const said = session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
     return <p class="empty">{said}</p>;
   }
+  const draft = shell.editor.draft.value;
+  if (draft !== null) return <DraftTree shell={shell} draft={draft} />;
   const seen = seenNodes(root.value, isOpen, search.value);
   const byKey = new Map(seen.map((each) => [each.node.key, each.node]));
   const selected = keyOf(selection.value);

@@ -73,6 +73,19 @@ export interface RequestAnswer {
   readonly lost?: readonly string[];
   /** True if an .rviz file was saved; false: one is in the way. */
   readonly saved?: boolean;
+  /** Address of a part of the model that is edited. */
+  readonly part?: readonly string[];
+  /** Folder that a model was saved in. */
+  readonly folder?: string;
+  /** Name of what was put into the world. */
+  readonly name?: string;
+  /** Programs that a model's plugins would run, if the person agrees. */
+  readonly code?: readonly string[];
+  /** What a model that is edited can be given. */
+  readonly plugins?: readonly { readonly filename: string; readonly about: string }[];
+  readonly sensors?: readonly string[];
+  readonly joints?: readonly string[];
+  readonly meshes?: readonly string[];
 }
 
 export interface Connection {

@@ -3,6 +3,7 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Object3D } from "three";
 
+import type { Draft } from "../editor/draft";
 import type { Transform } from "../frames/transform";
 import type { ShownParts } from "./overlays/shown_parts";
 
@@ -108,6 +109,8 @@ export interface Manifest {
   readonly lights: readonly LightInfo[];
   readonly cameras: readonly CameraInfo[];
   readonly frames: readonly { readonly frame: string; readonly parent: string; readonly body: number }[];
+  /** Copy of a model that is edited, in whose place it is shown. */
+  readonly draft?: Draft | null;
 }
 
 /** The clock of the simulation or recording. */

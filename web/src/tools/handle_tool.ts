@@ -168,7 +168,10 @@ export abstract class HandleTool extends BaseTool {
     if (drawn.release !== null) void this.send(target, drawn.release);
     const [after, before] = [drawn.place(to), drawn.place(from)];
     const isMoved = !to.position.equals(from.position) || !to.orientation.equals(from.orientation);
-    if (isCancelled) void this.send(target, before);
+    if (target.isRemembered === true) {
+      if (isCancelled || !isMoved) drawn.move(from);
+      else void this.send(target, after);
+    } else if (isCancelled) void this.send(target, before);
     else if (isMoved) void this.editor.edit(target.title, after.request, after.fields, before.fields);
     this.context.scene.invalidate();
   }
@@ -183,6 +186,7 @@ export abstract class HandleTool extends BaseTool {
   private ask({ target, drawn, to }: Dragged): void {
     this.sinceAsked = 0;
     const asked = drawn.move(to);
+    if (asked === null) return;
     this.requests.send(() => this.send(target, asked));
   }
 

@@ -3,6 +3,7 @@
 import type { Object3D } from "three";
 
 import type { Selection } from "../app/page";
+import { isDraftBody, pathOfLink } from "../editor/draft";
 import { SELECTABLE } from "../scene/box_picking";
 import type { Pick, PointerTarget, Selectable } from "../scene/scene_view";
 
@@ -11,7 +12,8 @@ export function selectionOf(pick: Pick | null): Selection | null {
   for (let at: Object3D | null = pick.object; at !== null; at = at.parent) {
     const selectable = at.userData[SELECTABLE] as Selectable | undefined;
     if (selectable !== undefined) return { kind: "picked", title: nameOf(at), fields: selectable.describe(pick.index) };
-    if (typeof at.userData["body"] === "number") return linkOf(String(at.userData["name"]));
+    const body: unknown = at.userData["body"];
+    if (typeof body === "number") return isDraftBody(body) ? { kind: "part", part: pathOfLink(String(at.userData["name"])) } : linkOf(String(at.userData["name"]));
   }
   return null;
 }

@@ -65,7 +65,7 @@ class Insertion:
         model, robot = self._shape(action.model) if action.is_shape else self._read(action.model)
         if not action.runs_code and (code := user_files(model, self._contents.environment)):
             return {"code": code}
-        name = _free_name(model.name, {each.name for each in self._simulation.models})
+        name = free_name(model.name, {each.name for each in self._simulation.models})
         pose = Pose(action.position) @ model.world_from_model
         self._contents.spawn(replace(model, name=name, world_from_model=pose), robot)
         return {"name": name}
@@ -91,7 +91,7 @@ class Insertion:
         world = self._simulation.world
         x, y, z = action.position
         light = Light(
-            name=_free_name(f"{action.type}_light", {light.name for light in world.lights}),
+            name=free_name(f"{action.type}_light", {light.name for light in world.lights}),
             type=action.type,
             at=world.at,
             world_from_light=Pose((x, y, z + _LIGHT_HEIGHT_M[action.type])),
@@ -143,6 +143,7 @@ def shape_sdf(kind: str) -> str:
     )
 
 
-def _free_name(name: str, taken: Collection[str]) -> str:
+def free_name(name: str, taken: Collection[str]) -> str:
+    """Return a name that is not taken: `name`, `name_0`, …"""
     numbered = (f"{name}_{number}" for number in itertools.count())
     return name if name not in taken else next(each for each in numbered if each not in taken)

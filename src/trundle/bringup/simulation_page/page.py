@@ -6,8 +6,10 @@ from pathlib import Path
 from typing import Self
 
 from trundle.bridge import WORLD_FRAME
-from trundle.diagnostics import TrundleError
+from trundle.diagnostics import TrundleError, UsageError
 from trundle.page import (
+    BeginDraft,
+    DraftAction,
     InsertAction,
     ModelAction,
     Play,
@@ -29,6 +31,7 @@ from ..shared_page import SharedPage
 from ..world_contents import BareContents, WorldContents
 from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
+from .drafting import Drafting
 from .insertion import Insertion
 from .model_edits import ModelEdits
 from .model_pictures import ModelPictures
@@ -88,6 +91,7 @@ class SimulationPage:
         self._streams = WorldStreams(
             self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
         )
+        self._drafting = Drafting(self._server.respond, self._contents, here)
         self._pictures = WorldPictures(self._server.respond_picture)
         self._set_simulation(simulation, sensors, recorder, timeline)
 
@@ -161,6 +165,7 @@ class SimulationPage:
                 paused = self._handle(request, pacer, paused=paused)
             except TrundleError as error:
                 self._server.respond(request.id, reason_of(error))
+        self._show_draft()
         self._controls.let_lapsed_go()
         if self._controls.step(pacer) or requests:
             self.update(pacer, paused=paused, at_once=True)
@@ -176,6 +181,11 @@ class SimulationPage:
             self._server.respond(request.id, **self._insertion.handle(request.action))
             pacer.restart()
             return paused
+        if isinstance(request.action, DraftAction):
+            self._drafting.handle(request.id, request.action, self._simulation)
+            return paused or isinstance(request.action, BeginDraft)
+        if isinstance(request.action, Play | Step) and self._drafting.is_open:
+            raise UsageError("time stands still while a model is edited: finish or leave it first")
         if isinstance(request.action, ModelAction):
             self._model_edits.handle(request.action)
             pacer.restart()
@@ -186,6 +196,11 @@ class SimulationPage:
             paused = self._controls.handle(request.action, pacer, paused=paused)
         self._server.respond(request.id)
         return paused
+
+    def _show_draft(self) -> None:
+        """Show the draft's edits since the last call."""
+        for draft in self._drafting.poll(self._simulation, self._model_edits):
+            self._streams.show_draft(draft)
 
     def _respond_picture(self, request_id: int, drawn: bytes | str) -> None:
         """Answer with a picture, or with the reason why there is none."""
@@ -205,6 +220,7 @@ class SimulationPage:
         self._streams.close()
         self._pictures.close()
         self._saver.close()
+        self._drafting.close()
         self._model_pictures.close()
         self._page.release(shows_world=True)
 

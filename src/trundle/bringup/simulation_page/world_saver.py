@@ -83,7 +83,7 @@ class WorldSaver:
         lost = {"lost": saved.lost[:_MAX_LOST]}
         if request.file is None:
             return {"sdf": saved.sdf.decode(), **lost}
-        if not _write(self._root, file, saved.sdf, replace=request.replace):
+        if not write_file(self._root, file, saved.sdf, replace=request.replace):
             return {"exists": request.file}
         return {"file": request.file, **lost}
 
@@ -99,7 +99,7 @@ def find_target(root: Path, name: str) -> Path:
         UsageError: it leads elsewhere, or is no name for a world.
     """
     parts = name.split("/")
-    if not all(_PART.fullmatch(part) and not part.endswith((" ", ".")) for part in parts):
+    if not all(map(is_file_name, parts)):
         raise UsageError(
             f"{name!r}: a world is saved below the folder where Trundle was started; write a name such as "
             "worlds/mine.sdf, of letters, digits, blanks and . _ + -"
@@ -107,11 +107,16 @@ def find_target(root: Path, name: str) -> Path:
     if PurePosixPath(name).suffix not in _SUFFIXES:
         raise UsageError(f"{name!r}: the name of a world ends in {' or '.join(_SUFFIXES)}")
     target = root.joinpath(*parts)
-    _check_inside(root, target)
+    check_inside(root, target)
     return target
 
 
-def _check_inside(root: Path, target: Path) -> None:
+def is_file_name(part: str) -> bool:
+    """True for the name of a file or folder that can be written on any system."""
+    return _PART.fullmatch(part) is not None and not part.endswith((" ", "."))
+
+
+def check_inside(root: Path, target: Path) -> None:
     """Refuse a file that a link leads out of the root, or that is none."""
     folder = target.parent
     while not os.path.lexists(folder):
@@ -123,7 +128,7 @@ def _check_inside(root: Path, target: Path) -> None:
         raise UsageError(f"{target.relative_to(root)}: this is no file; choose another name")
 
 
-def _write(root: Path, file: Path, content: bytes, *, replace: bool) -> bool:
+def write_file(root: Path, file: Path, content: bytes, *, replace: bool) -> bool:
     """Write a file; False: another one has come into the way.
 
     Raises:
@@ -131,7 +136,7 @@ def _write(root: Path, file: Path, content: bytes, *, replace: bool) -> bool:
     """
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        _check_inside(root, file)
+        check_inside(root, file)
         if replace:
             write_atomically(file, content)
             return True

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from msgspec import UNSET
@@ -20,10 +21,11 @@ from ..realtime_pacer import RealtimePacer
 from .body_numbers import BodyNumbers
 from .contact_rows import ContactRows
 from .controls import Recorder
+from .drafting import ShownDraft
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
 from .missing_meshes import missing_meshes
-from .world_builder import WorldBuilder
+from .world_builder import BuiltWorld, WorldBuilder
 
 _MESHES = "meshes"
 """Notice of the page."""
@@ -63,6 +65,9 @@ class WorldStreams:
         self._generation = server.generation
         self._cameras: set[CameraSensor] = set()
         """Cameras whose pictures go to the page from here."""
+        self._built: BuiltWorld | None = None
+        """World that the page has."""
+        self._draft = ShownDraft(entry=None, resources=[], files={})
         self._frame_due_ns = self._slow_due_ns = 0
         self._state: ClockState | None = None
         self._missing: str | None = None
@@ -157,7 +162,19 @@ class WorldStreams:
     def _publish_world(self) -> None:
         while (built := self._builder.poll()) is not None:
             self._simulation.report.extend(built.report.findings)
-            self._server.set_world(built.manifest, built.files)
+            self._built = built
+            self._server.set_world(self._with_draft(built), built.files)
+
+    def show_draft(self, draft: ShownDraft) -> None:
+        """Show a model that is edited, beside the world."""
+        self._draft = draft
+        if self._built is not None:
+            self._server.set_world(self._with_draft(self._built), draft.files)
+
+    def _with_draft(self, built: BuiltWorld) -> dict[str, Any]:
+        """Return a manifest with the draft, whose files stay as long as it is there."""
+        resources = [*built.manifest["resources"], *self._draft.resources]
+        return built.manifest | {"draft": self._draft.entry, "resources": resources}
 
     def _joint_rows(self, snapshot: Snapshot) -> NDArray[np.float64]:
         columns = (snapshot.joint_positions, snapshot.joint_velocities, snapshot.joint_efforts)

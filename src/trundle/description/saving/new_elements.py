@@ -34,7 +34,7 @@ class Elements:
 
     def of(self, part: Model | Light) -> XmlElement:
         """Return an <include> of a model path's part, else a copy of its XML, else the part as it is written."""
-        return self._include(part) or self._copy(part) or self.written(part)
+        return self._include(part) or self.copied(part) or self.written(part)
 
     def _include(self, part: Model | Light) -> XmlElement | None:
         file = Path(part.at.file).absolute()
@@ -49,8 +49,8 @@ class Elements:
                 continue
         return None
 
-    def _copy(self, part: Model | Light) -> XmlElement | None:
-        """Return a copy of the element that a part was read from."""
+    def copied(self, part: Model | Light) -> XmlElement | None:
+        """Return a copy of the element that a part was read from; None if there is none, or it is a URDF's."""
         file = Path(part.at.file)
         try:
             document = XmlDocument.read(file)

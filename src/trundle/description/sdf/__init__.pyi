@@ -1,3 +1,5 @@
+from .auto_inertia import enclosed_volume as enclosed_volume
+from .auto_inertia import uniform_inertial as uniform_inertial
 from .context import DEEPEST as DEEPEST
 from .context import Context as Context
 from .extra_joint import read_extra_joint as read_extra_joint

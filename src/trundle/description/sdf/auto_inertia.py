@@ -1,6 +1,7 @@
 """<inertial auto="true"> of SDF 1.11: mass properties from collision volumes and densities."""
 
 import math
+from collections.abc import Iterable, Sequence
 
 from trundle.model import Box, Capsule, Collision, Cone, Cylinder, Ellipsoid, Geometry, Inertial, Link, Sphere
 from trundle.spatial import Pose, Vector3
@@ -35,14 +36,35 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     if not total > 0.0:
         report.warn(node.at, f"link {link.name!r}: no collision for an automatic inertia; 1 kg and 1 kg·m² are used")
         return Inertial()
+    return _combined(bodies, link.inertial.mass if inertial.find("mass") is not None else total)
+
+
+def _combined(bodies: Sequence[tuple[float, Pose, Vector3]], mass: float) -> Inertial:
+    """Return the inertial of bodies (mass, pose, moments), scaled to a mass [kg]."""
     tensors = [
-        (mass, pose.position, rotate_inertia((*moments, 0.0, 0.0, 0.0), pose.quaternion))
-        for mass, pose, moments in bodies
+        (each, pose.position, rotate_inertia((*moments, 0.0, 0.0, 0.0), pose.quaternion))
+        for each, pose, moments in bodies
     ]
     total, centre, tensor = sum_inertias(tensors)
-    mass = link.inertial.mass if inertial.find("mass") is not None else total
     ixx, iyy, izz, ixy, ixz, iyz = (value * mass / total for value in tensor)
     return Inertial(mass=mass, link_from_com=Pose(centre), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz))
+
+
+def enclosed_volume(collisions: Iterable[Collision]) -> float | None:
+    """Return the volume of a link's collisions [m³]; None where a shape has no closed formula."""
+    found = [volume_and_moments(collision.geometry) for collision in collisions]
+    return None if None in found else sum(each[0] for each in found if each is not None)
+
+
+def uniform_inertial(collisions: Sequence[Collision], mass: float) -> Inertial | None:
+    """Return the inertial of a link whose collisions are of one material; None as `enclosed_volume`."""
+    if not enclosed_volume(collisions):
+        return None
+    bodies: list[tuple[float, Pose, Vector3]] = []
+    for collision in collisions:
+        volume, (x, y, z) = volume_and_moments(collision.geometry) or (0.0, (0.0, 0.0, 0.0))
+        bodies.append((volume, _pose(collision), (x * volume, y * volume, z * volume)))
+    return _combined(bodies, mass)
 
 
 def _pose(collision: Collision) -> Pose:

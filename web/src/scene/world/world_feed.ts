@@ -147,7 +147,7 @@ export class WorldFeed implements SimulatedWorld {
     const background = scene.background.map((part) => Math.round(255 * part));
     this.scene.background.value = `rgb(${background.join(", ")})`;
     this.sky.visible = scene.sky;
-    this.files.show(manifest.files);
+    this.files.show([...manifest.files.filter(({ id }) => id !== manifest.draft?.of), ...(manifest.draft?.files ?? [])]);
     this.lighting.setContents(this.scene.world, scene.shadows);
     this.scene.invalidate();
   }

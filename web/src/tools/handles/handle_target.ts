@@ -6,6 +6,7 @@ import { findJoint, findLink, findModel } from "../../app/framing";
 import type { Selection } from "../../app/page";
 import { orientationOf, poseFields, type Fields } from "../../app/world_edits";
 import { allModels, bodiesOf } from "../../app/world_nodes";
+import { partTarget } from "../../editor/part_target";
 import type { Transform } from "../../frames/transform";
 import type { JointInfo, LightInfo, SixNumbers } from "../../scene/simulated_world";
 import { fixed } from "../../theme/format";
@@ -26,13 +27,15 @@ export interface HandleTarget {
   readonly axis: { readonly direction: Vector3; readonly turns: boolean } | null;
   /** Place of the handles in the world; null: it is gone. */
   pose(): Transform | null;
+  /** True: what it moves remembers the edit, which is only asked for. */
+  readonly isRemembered?: boolean;
   /** A drag begins; returns what it asks for on its way, and at its end. */
   begin(): Drawn;
 }
 
 export interface Drawn {
-  /** While it is dragged. */
-  move(to: Transform): Asked;
+  /** While it is dragged; null: nothing is asked before its end. */
+  move(to: Transform): Asked | null;
   /** To end the drag, before what is asked for last; null: nothing. */
   readonly release: Asked | null;
   place(to: Transform): Asked;
@@ -49,6 +52,8 @@ export function targetOf(editor: WorldEditor, selection: Selection | null): Hand
       return modelTarget(editor, selection.model, selection.link);
     case "joint":
       return jointTarget(editor, selection.model, selection.joint);
+    case "part":
+      return partTarget(editor, selection.part);
     case "light": {
       const light = editor.world.manifest.value?.lights.find(({ name }) => name === selection.light);
       return light === undefined || light.body !== null ? null : lightTarget(light);

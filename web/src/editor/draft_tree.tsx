@@ -1,0 +1,129 @@
+/** The tree of the model that is edited, in place of the world's, with what can be added below it. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+
+import type { Selection } from "../app/page";
+import type { Shell } from "../app/shell";
+import { Button } from "../theme/button";
+import { count, fixed } from "../theme/format";
+import { Icon } from "../theme/icons";
+import { StatusShape } from "../theme/status_shape";
+import { Tree, type TreeRow } from "../theme/tree";
+import type { Draft, DraftPart, PartPath } from "./draft";
+import { iconOf } from "./part_icons";
+import { PartDrawer } from "./part_drawer";
+
+interface TreeProps {
+  readonly shell: Shell;
+  readonly draft: Draft;
+}
+
+export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
+  const { editor, page } = shell;
+  const shut = useSignal<ReadonlySet<string>>(new Set());
+  const isAdding = useSignal(draft.parts.length === 1);
+  const selected = page.selection.value?.kind === "part" ? keyOf(page.selection.value.part) : null;
+  const byKey = new Map(draft.parts.map((part) => [keyOf(part.part), part]));
+  const select = (key: string): void => {
+    const part = byKey.get(key);
+    if (part !== undefined) page.selection.value = selectionOf(part);
+  };
+  return (
+    <>
+      <div class="editing">
+        <Icon name="edit" />
+        <span class="n">
+          Editing <b>{draft.name}</b>
+        </span>
+        <Button icon="close" label="Leave the editor" small onClick={() => editor.leave()} />
+      </div>
+      <div class="scroll">
+        <Tree
+          label="Model"
+          rows={rows(draft, shut.value, selected)}
+          onToggle={(key, open) => {
+            const next = new Set(shut.value);
+            if (open) next.delete(key);
+            else next.add(key);
+            shut.value = next;
+          }}
+          onSelect={select}
+          onHover={(key) => {
+            const part = key === null ? undefined : byKey.get(key);
+            page.hovered.value = part === undefined ? null : selectionOf(part);
+          }}
+        />
+      </div>
+      {isAdding.value && <PartDrawer shell={shell} draft={draft} onClose={() => (isAdding.value = false)} />}
+      <Verdict draft={draft} />
+      <div class="foot">
+        <Button icon="plus" class="add" tone="line" on={isAdding.value} onClick={() => (isAdding.value = !isAdding.value)}>
+          Add
+        </Button>
+        <span class="sp" />
+        <Button onClick={() => (shell.dialog.value = "save_model")}>Save…</Button>
+        <Button tone="primary" onClick={() => void editor.finish()}>
+          Finish
+        </Button>
+      </div>
+    </>
+  );
+}
+
+/** How many findings there are, worst first. */
+function Verdict({ draft }: { readonly draft: Draft }): JSX.Element {
+  const findings = draft.parts.flatMap((part) => part.findings);
+  const errors = findings.filter(({ severity }) => severity === "error").length;
+  const warnings = findings.length - errors;
+  const said = [errors > 0 ? count(errors, "error") : "", warnings > 0 ? count(warnings, "warning") : ""].filter((text) => text !== "");
+  return (
+    <p class="verdict sm t2" role="status" aria-label="Check">
+      <StatusShape level={errors > 0 ? "error" : warnings > 0 ? "warn" : "ok"} label="" />
+      {said.length === 0 ? "No errors or warnings" : said.join(", ")}
+    </p>
+  );
+}
+
+function keyOf(path: PartPath): string {
+  return JSON.stringify(path);
+}
+
+function selectionOf({ part }: DraftPart): Selection {
+  return { kind: "part", part };
+}
+
+function rows(draft: Draft, shut: ReadonlySet<string>, selected: string | null): readonly TreeRow[] {
+  const shown = draft.parts.filter(({ part }) => {
+    for (let end = part.length - 2; end >= 0; end -= 2) if (shut.has(keyOf(part.slice(0, end))) !== isShutAtFirst(part.slice(0, end))) return false;
+    return true;
+  });
+  return shown.map((part) => {
+    const key = keyOf(part.part);
+    const hasMore = draft.parts.some((each) => each.part.length > part.part.length && keyOf(each.part.slice(0, part.part.length)) === key);
+    return {
+      key,
+      depth: part.part.length / 2,
+      open: hasMore ? shut.has(key) === isShutAtFirst(part.part) : undefined,
+      selected: key === selected,
+      content: (
+        <>
+          <Icon name={iconOf(part)} />
+          <span class="n">{part.name}</span>
+          <span class="r">{part.mass === null ? part.detail : `${fixed(part.mass, part.mass < 0.1 ? 3 : 2)} kg`}</span>
+          <Worst part={part} />
+        </>
+      ),
+    };
+  });
+}
+
+/** Links show what is on them only when they are opened. */
+function isShutAtFirst(part: PartPath): boolean {
+  return part.length > 0;
+}
+
+function Worst({ part }: { readonly part: DraftPart }): JSX.Element | null {
+  const [first] = [...part.findings].sort((a, b) => a.severity.localeCompare(b.severity));
+  return first === undefined ? null : <StatusShape level={first.severity === "error" ? "error" : "warn"} label={first.text} />;
+}

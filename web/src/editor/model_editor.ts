@@ -1,0 +1,134 @@
+/** Edits of the draft: asked of the server, which answers with the draft as it is then. */
+
+import { computed, signal } from "@preact/signals";
+import { Box3, Vector3 } from "three";
+
+import type { Notices } from "../app/notices";
+import type { Page } from "../app/page";
+import { poseFields, type Fields } from "../app/world_edits";
+import { bodiesOf } from "../app/world_nodes";
+import type { Transform } from "../frames/transform";
+import type { RequestAnswer } from "../protocol/connection";
+import { bodyOf, findPart, type Draft, type FieldValue, type PartPath } from "./draft";
+
+/** From what is there to a new model, and half of what the view shows around it [m]. */
+const BESIDE = 1.5;
+
+/** Something that is done only if the person agrees. */
+export interface Question {
+  readonly title: string;
+  readonly text: string;
+  readonly action: string;
+  readonly run: () => void;
+}
+
+export class ModelEditor {
+  readonly draft = computed<Draft | null>(() => this.page.world.manifest.value?.draft ?? null);
+  readonly question = signal<Question | null>(null);
+
+  constructor(
+    private readonly page: Page,
+    private readonly notices: Notices,
+  ) {
+    page.undo.defer(
+      computed(() => {
+        const draft = this.draft.value;
+        if (draft === null) return null;
+        return { undoTitle: draft.undo, redoTitle: draft.redo, undo: () => void this.ask("Undo", "draft_undo"), redo: () => void this.ask("Redo", "draft_redo") };
+      }),
+    );
+  }
+
+  /** Edit a copy of a model, or a new one beside all that can move. */
+  async begin(model: string | null): Promise<void> {
+    const { world, views } = this.page;
+    const movable = (world.manifest.peek()?.models ?? []).filter((each) => !each.static);
+    const box = world.bounds(movable.flatMap(bodiesOf));
+    const x = box.isEmpty() ? 0 : Math.ceil(10 * (box.max.x + BESIDE)) / 10;
+    const answer = await this.ask("Edit model", "begin_draft", { model, position: [x, 0, 0] });
+    if (answer === null) return;
+    this.select([]);
+    if (model === null) views.frame(new Box3(new Vector3(x - BESIDE, -BESIDE, 0), new Vector3(x + BESIDE, BESIDE, 1)));
+  }
+
+  set(part: PartPath, field: string, value: FieldValue): void {
+    const selection = this.page.selection.peek();
+    void this.ask("Edit", "draft_set", { part, field, value }).then((answer) => {
+      if (answer?.part === undefined || field !== "@name" || selection !== this.page.selection.peek()) return;
+      this.select(answer.part);
+    });
+  }
+
+  place(part: PartPath, { position, orientation }: Transform): Promise<RequestAnswer | null> {
+    return this.ask("Move", "draft_place", { part, ...poseFields(position, orientation) });
+  }
+
+  /** Add a part to what is selected, and select it. */
+  async add(kind: string, type: string): Promise<void> {
+    const selection = this.page.selection.peek();
+    await this.change("Add", "draft_add", { into: selection?.kind === "part" ? selection.part : [], kind, type });
+  }
+
+  async copy(part: PartPath): Promise<void> {
+    await this.change("Copy", "draft_copy", { part });
+  }
+
+  async remove(part: PartPath): Promise<void> {
+    await this.change("Remove", "draft_remove", { part });
+  }
+
+  /** Put the draft into the world; asks before a model's own code is run. */
+  async finish(runsCode = false): Promise<void> {
+    const answer = await this.ask("Finish", "draft_finish", { runs_code: runsCode });
+    if (answer?.name !== undefined) this.page.selection.value = { kind: "model", model: answer.name };
+    if (answer?.code === undefined) return;
+    const text = `Plugins of this model are programs, which would run on the machine that simulates: ${answer.code.join(", ")}`;
+    this.question.value = { title: "Run the model's code?", text, action: "Run it", run: () => void this.finish(true) };
+  }
+
+  leave(): void {
+    const throwAway = (): void => {
+      void this.ask("Leave", "draft_leave").then((answer) => {
+        if (answer !== null) this.page.selection.value = null;
+      });
+    };
+    if (this.draft.peek()?.undo == null) throwAway();
+    else this.question.value = { title: "Leave the editor?", text: "What was changed is thrown away, but for what was saved.", action: "Throw it away", run: throwAway };
+  }
+
+  async ask(title: string, request: string, fields: Fields = {}): Promise<RequestAnswer | null> {
+    try {
+      return await this.page.connection.request(request, fields);
+    } catch (error) {
+      this.notices.report(title, error instanceof Error ? error.message : String(error));
+      return null;
+    }
+  }
+
+  private async change(title: string, request: string, fields: Fields): Promise<void> {
+    const answer = await this.ask(title, request, fields);
+    if (answer?.part !== undefined) this.select(answer.part);
+  }
+
+  private select(part: PartPath): void {
+    this.page.selection.value = { kind: "part", part };
+  }
+}
+
+/** Bodies of a part: of a link its own, of a joint its child's, of the model all. */
+export function bodiesOfPart(draft: Draft | null, path: PartPath): readonly number[] {
+  if (draft === null) return [];
+  const all = draft.parts.flatMap((part) => bodyOf(part) ?? []);
+  if (path.length === 0) return all;
+  const part = findPart(draft, path);
+  if (part?.tag === "joint") {
+    const child = part.sections.flatMap(({ fields }) => fields).find(({ name }) => name === "child")?.value;
+    return typeof child === "string" ? bodiesOfPart(draft, [...path.slice(0, -2), "link", child]) : [];
+  }
+  for (let end = path.length; end > 0; end -= 2) {
+    const around = findPart(draft, path.slice(0, end));
+    const body = around === null ? null : bodyOf(around);
+    if (body !== null) return [body];
+  }
+  return [];
+}

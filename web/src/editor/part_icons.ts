@@ -1,0 +1,18 @@
+/** Icons of the parts of a model. */
+
+import type { IconName } from "../theme/icons";
+import type { DraftPart } from "./draft";
+
+const ICONS: Readonly<Record<string, IconName>> = {
+  model: "model",
+  link: "link",
+  joint: "joint",
+  plugin: "plugin",
+  visual: "eye",
+  collision: "box",
+  sensor: "sensor",
+};
+
+export function iconOf({ tag, detail }: Pick<DraftPart, "tag" | "detail">): IconName {
+  return tag === "sensor" && /camera|depth/.test(detail) ? "camera" : (ICONS[tag] ?? "frame");
+}
