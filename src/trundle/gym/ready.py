@@ -1,6 +1,6 @@
 """Makers of the ready environments, as Gymnasium calls them."""
 
-from .environments import make_task, make_vec_task
+from .environments import make, make_vec
 from .ready_tasks import READY
 from .single_env import SimulationEnv
 from .vector_env import SimulationVectorEnv
@@ -9,7 +9,7 @@ from .vector_env import SimulationVectorEnv
 def make_ready(*, name: str, render_mode: str | None = None, camera: str | None = None) -> SimulationEnv:
     """Make a ready environment; see `trundle.gym.make`."""
     file, task = READY[name]
-    return make_task(file, task, render_mode=render_mode, camera=camera)
+    return make(file, render_mode=render_mode, camera=camera, **task)
 
 
 def make_ready_vec(
@@ -22,4 +22,4 @@ def make_ready_vec(
 ) -> SimulationVectorEnv:
     """Make many worlds of a ready environment; see `trundle.gym.make_vec`."""
     file, task = READY[name]
-    return make_vec_task(file, task, num_envs=num_envs, threads=threads, render_mode=render_mode, camera=camera)
+    return make_vec(file, num_envs=num_envs, threads=threads, render_mode=render_mode, camera=camera, **task)

@@ -15,7 +15,7 @@ from .observations import Computed, JointPositions, JointVelocities, LinkPositio
 from .sensor_observations import LidarRanges
 from .states import WorldStates
 from .twist_action import TwistAction
-from .worlds import Task
+from .worlds import TaskArguments
 
 _FOLDER = Path(trundle.packages.__file__).parent / "worlds"
 _Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ def _disturb(simulation: Simulation, random: np.random.Generator) -> None:
     cart_pole.joint_velocities = random.uniform(-0.05, 0.05, 2)
 
 
-CART_POLE = Task(
+CART_POLE = TaskArguments(
     observations=[JointPositions("slider", "hinge"), JointVelocities("slider", "hinge")],
     actions=EffortAction("slider"),
     reward=_upright,
@@ -73,7 +73,7 @@ def _place_goal_of_arm(simulation: Simulation, random: np.random.Generator) -> N
     simulation["arm"].joint_positions = [0.0, 0.5]
 
 
-ARM_REACH = Task(
+ARM_REACH = TaskArguments(
     observations=[
         LinkPosition("marker", relative_to="hand"),
         JointPositions("shoulder", "elbow"),
@@ -91,6 +91,7 @@ GOAL_M = 0.25
 _TOUCH_M = 0.33
 """Distance of the middles of robot and pillar at which the episode ends [m]."""
 _BONUS = 2.0
+_PERIOD_S = 0.2
 
 
 def _goal_in_robot(states: WorldStates) -> _Array:
@@ -110,7 +111,7 @@ def _progress(states: WorldStates) -> _Array:
     """Return the way towards the goal in this step [m], a bonus at the goal, and its negative at the pillar."""
     way = (states.link_positions("marker") - states.link_positions("chassis"))[:, :2]
     closing = (way * states.link_twists("chassis")[:, :2]).sum(axis=1) / np.sqrt(np.square(way).sum(axis=1))
-    return closing * DRIVE_TO_GOAL.period_s + _BONUS * _has_arrived(states) - _BONUS * _has_crashed(states)
+    return closing * _PERIOD_S + _BONUS * _has_arrived(states) - _BONUS * _has_crashed(states)
 
 
 def _place_goal_and_pillar(simulation: Simulation, random: np.random.Generator) -> None:
@@ -123,14 +124,14 @@ def _place_goal_and_pillar(simulation: Simulation, random: np.random.Generator) 
     simulation["robot"].set_pose(Pose.from_rpy(0.0, 0.0, 0.08, 0.0, 0.0, heading))
 
 
-DRIVE_TO_GOAL = Task(
+DRIVE_TO_GOAL = TaskArguments(
     observations=[Computed(_goal_in_robot, low=[-4.0, -4.0], high=[4.0, 4.0]), LidarRanges("scan")],
     actions=TwistAction("robot", max_forward=0.6, max_yaw_rate=2.0, backward=False),
     reward=_progress,
     terminated=lambda states: _has_arrived(states) | _has_crashed(states),
     reset=_place_goal_and_pillar,
     max_steps=40,
-    period_s=0.2,
+    period_s=_PERIOD_S,
 )
 
 READY = {

@@ -1,7 +1,7 @@
 """Worlds of an environment: one description, many states, a task."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, Required, TypeAlias, TypedDict
 
 import numpy as np
 from gymnasium import spaces
@@ -38,6 +38,18 @@ class Task(Struct, frozen=True, kw_only=True):
     """Steps after which an episode is truncated."""
     period_s: float = 0.02
     """Simulated time of a step [s], a multiple of the world's time step."""
+
+
+class TaskArguments(TypedDict, total=False):
+    """Fields of `Task`, as the makers of environments take them."""
+
+    observations: Required[Observations]
+    actions: Required[Action | Sequence[Action]]
+    reward: Required[Callable[[WorldStates], _Array]]
+    terminated: Callable[[WorldStates], NDArray[np.bool_]] | None
+    reset: Callable[[LoadedSimulation, np.random.Generator], None] | None
+    max_steps: int | None
+    period_s: float
 
 
 class Step(Struct, frozen=True):

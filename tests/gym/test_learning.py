@@ -1,0 +1,101 @@
+"""Training of the ready environments up to a stated score, and the policies that come of it."""
+
+import gymnasium
+import numpy as np
+import pytest
+
+from trundle import gym
+from trundle.diagnostics import UsageError
+
+_JUDGED = 10_000
+"""Seed of the first of the episodes that no training saw."""
+
+
+def trained(name: str, *, enough: float, worlds: int, iterations: int, steps: int = 64) -> gym.MlpPolicy:
+    """Return the first policy whose mean return in 32 worlds of other seeds is enough."""
+    envs, judges = gymnasium.make_vec(name, num_envs=worlds), gymnasium.make_vec(name, num_envs=32)
+    best = -np.inf
+    for iteration in gym.train(envs, iterations=iterations, steps=steps):
+        if iteration.number % 3 == 2:
+            best = max(best, gym.score(judges, iteration.policy, seed=_JUDGED).mean())
+            if best > enough:
+                return iteration.policy
+    pytest.fail(f"{name}: the best score is {best:.2f}, not {enough}")
+
+
+def test_a_policy_learns_to_balance_a_pole_and_is_the_same_from_its_file(tmp_path) -> None:
+    policy = trained("Trundle/CartPole-v0", enough=475.0, worlds=16, iterations=30)
+    policy.save(tmp_path / "policy.npz")
+
+    again = gym.MlpPolicy.load(tmp_path / "policy.npz")
+
+    seen = np.random.default_rng(0).standard_normal((5, 4))
+    assert (again(seen) == policy(seen)).all()
+    assert again(seen[0]).shape == (1,)
+
+
+@pytest.mark.slow
+def test_a_policy_learns_to_reach() -> None:
+    trained("Trundle/ArmReach-v0", enough=45.0, worlds=64, iterations=30)
+
+
+def test_training_gives_the_same_policy_again_with_any_number_of_threads() -> None:
+    def weights(threads: int) -> list[bytes]:
+        envs = gymnasium.make_vec("Trundle/CartPole-v0", num_envs=6, threads=threads)
+        last = list(gym.train(envs, iterations=2, steps=20, seed=4))[-1]
+        return [each.tobytes() for each in last.policy.parameters]
+
+    assert weights(1) == weights(2)
+
+
+def test_steps_and_returns_are_counted() -> None:
+    envs = gymnasium.make_vec("Trundle/CartPole-v0", num_envs=3)
+    last = list(gym.train(envs, iterations=2, steps=50))[-1]
+
+    assert last.steps == 300
+    assert 10.0 < last.mean_return < 100.0
+
+
+def test_observations_by_name_cannot_be_learned_from() -> None:
+    envs = gymnasium.make_vec("Trundle/CartPole-v0", num_envs=1)
+    envs.single_observation_space = gymnasium.spaces.Dict({"tilt": envs.single_observation_space})
+    with pytest.raises(UsageError, match="one array of numbers, not Dict"):
+        next(gym.train(envs, iterations=1))
+
+
+def _save(file, **changed: np.ndarray) -> None:
+    arrays = {"layer_0": np.ones((4, 1)), "layer_1": np.zeros(1), "mean": np.zeros(4), "deviation": np.ones(4)}
+    np.savez(file, **{**arrays, "low": -np.ones(1), "high": np.ones(1), **changed})
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"layer_0": np.ones((3, 1))},
+        {"layer_1": np.full(1, np.nan)},
+        {"layer_2": np.ones((1, 1))},
+        {"deviation": np.zeros(4)},
+        {"high": np.ones(2)},
+        {"mean": np.array([None] * 4)},
+        {"low": np.array(["a"])},
+        {"mean": np.array(1.0)},
+        {"note": np.zeros(9 << 20)},
+    ],
+)
+def test_a_file_that_is_no_policy_is_refused(tmp_path, changed) -> None:
+    file = tmp_path / "policy.npz"
+    _save(file)
+    assert gym.MlpPolicy.load(file)(np.ones(4)) == [1.0]
+    _save(file, **changed)
+
+    with pytest.raises(UsageError, match=r"policy\.npz: not a policy"):
+        gym.MlpPolicy.load(file)
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04 no zip", b"text", b"\x93NUMPY\x01\x00"])
+def test_a_file_of_other_bytes_is_refused(tmp_path, content) -> None:
+    (tmp_path / "policy.npz").write_bytes(content)
+    with pytest.raises(UsageError, match="not a policy"):
+        gym.MlpPolicy.load(tmp_path / "policy.npz")
+    with pytest.raises(UsageError, match="not a policy"):
+        gym.MlpPolicy.load(tmp_path / "none.npz")
