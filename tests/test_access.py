@@ -128,3 +128,47 @@ def test_an_origin_that_is_none_is_named(origin: str) -> None:
 def test_a_host_that_is_none_is_named(host: str) -> None:
     with pytest.raises(UsageError, match="not the name of a host"):
         AllowedNames(hosts=(host,))
+
+
+LOOK = "lookonly"
+VIEW: dict[str, object] = {"view_token": LOOK}
+RIGHTS = {
+    "loopback": (VIEW, _asked(HERE), False),
+    "loopback, by a link for looking": (VIEW, _asked(HERE, query=f"?token={LOOK}"), True),
+    "loopback, beside a page for looking": (
+        VIEW,
+        _asked(HERE, "http://localhost:8080", cookie=f"trundle-8080-view={LOOK}"),
+        False,
+    ),
+    "the token": (CLOSED | VIEW, _asked(HERE, query=f"?token={TOKEN}"), False),
+    "the other token": (CLOSED | VIEW, _asked(HERE, query=f"?token={LOOK}"), True),
+    "its cookie": (CLOSED | VIEW, _asked(HERE, "http://localhost:8080", cookie=f"trundle-8080-view={LOOK}"), True),
+    "both cookies": (
+        CLOSED | VIEW,
+        _asked(HERE, "http://localhost:8080", cookie=f"trundle-8080-view={LOOK}; trundle-8080={TOKEN}"),
+        False,
+    ),
+    "its cookie under the other name": (CLOSED | VIEW, _asked(HERE, cookie=f"trundle-8080={LOOK}"), None),
+    "its cookie, by another page": (CLOSED | VIEW, _asked(HERE, EVIL, cookie=f"trundle-8080-view={LOOK}"), None),
+    "a name of ours, with its cookie": (VIEW, _asked("pc.example:8080", cookie=f"trundle-8080-view={LOOK}"), True),
+    "no such token": (CLOSED, _asked(HERE, query=f"?token={LOOK}"), None),
+    "an empty token": (CLOSED, _asked(HERE, query="?token="), None),
+}
+
+
+@pytest.mark.parametrize(("access", "request_", "is_view_only"), RIGHTS.values(), ids=RIGHTS)
+def test_a_link_for_looking_gives_no_other_right(
+    access: dict[str, object], request_: PageRequest, is_view_only: bool | None
+) -> None:
+    """None: it is refused."""
+    rules = _access(**access)
+    assert (rules.refusal(request_) is not None) == (is_view_only is None)
+    if is_view_only is not None:
+        assert rules.is_view_only(request_) == is_view_only
+
+
+def test_the_token_for_looking_has_a_link_and_a_cookie_of_its_own() -> None:
+    access = _access(**VIEW)
+    fields = access.answer_fields(_asked(HERE, query=f"?token={LOOK}"))
+    assert access.view_url("127.0.0.1", 8080) == f"http://127.0.0.1:8080/?token={LOOK}"
+    assert fields["Set-Cookie"] == f"trundle-8080-view={LOOK}; Path=/; HttpOnly; SameSite=Strict"

@@ -47,6 +47,8 @@ class Access:
     needs_token: bool = False
     """True if the token is required; always so off loopback."""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
+    view_token: str | None = None
+    """Token of requests that may look and change nothing; None: there is none."""
     serves_local_pages: bool = False
     """True: pages of every port of this machine are served, as for a server without a page of its own."""
     serves_null_origin: bool = False
@@ -57,17 +59,27 @@ class Access:
 
     def url(self, address: str, port: int) -> str:
         """Return the URL, with the token if required."""
-        query = f"/?token={self.token}" if self._is_closed else ""
-        return f"http://{f'[{address}]' if ':' in address else address}:{port}{query}"
+        return self._url(address, port, self.token if self.asks_token else None)
+
+    def view_url(self, address: str, port: int) -> str:
+        """Return the URL of a page that may look and change nothing."""
+        assert self.view_token is not None, "there is a token for looking"
+        return self._url(address, port, self.view_token)
 
     def refusal(self, request: PageRequest) -> str | None:
         """Return the reason for refusing a request, as a sentence; None: it is served."""
+        return None if self._has_token(request, self.view_token) else self._control_refusal(request)
+
+    def is_view_only(self, request: PageRequest) -> bool:
+        """True if a request that is served may look and change nothing: its URL says so, or it has no other right."""
+        return _is_in_query(request, self.view_token) or self._control_refusal(request) is not None
+
+    def _control_refusal(self, request: PageRequest) -> str | None:
+        """Return the reason for refusing a request that may change things."""
         words = self.words
-        if self.is_open or self._has_token_in_query(request):
+        if self.is_open or self._has_token(request, self.token):
             return None
-        if self._has_token_in_cookie(request) and _is_own(request):
-            return None
-        if self._is_closed:
+        if self.asks_token:
             return f"{words.server} asks for its token: {words.token}"
         if request.origin is not None and _plain(request.origin) in map(_plain, self.allowed.origins):
             return None
@@ -100,18 +112,23 @@ class Access:
             "Referrer-Policy": "no-referrer",
             "X-Content-Type-Options": "nosniff",
         }
-        if self._has_token_in_query(request):
-            fields["Set-Cookie"] = f"{self._cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+        for token in (self.token, self.view_token):
+            if token is not None and _is_in_query(request, token):
+                fields["Set-Cookie"] = f"{self._cookie(token)}={token}; Path=/; HttpOnly; SameSite=Strict"
         return fields
 
     @property
-    def _is_closed(self) -> bool:
+    def asks_token(self) -> bool:
+        """True if requests need a token."""
         return self.needs_token or not is_loopback(self.host)
 
-    @property
-    def _cookie(self) -> str:
-        """Cookie name; the port distinguishes pages of one host."""
-        return f"trundle-{self.port}"
+    def _url(self, address: str, port: int, token: str | None) -> str:
+        query = "" if token is None else f"/?token={token}"
+        return f"http://{f'[{address}]' if ':' in address else address}:{port}{query}"
+
+    def _cookie(self, token: str) -> str:
+        """Cookie name; the port distinguishes pages of one host, and each kind of token has a cookie of its own."""
+        return f"trundle-{self.port}{'-view' if token == self.view_token else ''}"
 
     def _serves_origin(self, origin: str) -> bool:
         """True for local pages and files, where they are served."""
@@ -121,20 +138,26 @@ class Access:
         is_web = bool(separator) and scheme in ("http", "https")
         return self.serves_local_pages and is_web and is_loopback(_name(authority))
 
-    def _has_token_in_query(self, request: PageRequest) -> bool:
-        return self._matches(parse_qs(request.target.partition("?")[2]).get("token", [""])[-1])
-
-    def _has_token_in_cookie(self, request: PageRequest) -> bool:
+    def _has_token(self, request: PageRequest, token: str | None) -> bool:
+        """True if a request has a token in its URL, or one of this server's own page as a cookie."""
+        if token is None:
+            return False
         kept = [pair.strip().partition("=") for pair in request.cookie.split(";")]
-        return any(name == self._cookie and self._matches(value) for name, _, value in kept)
-
-    def _matches(self, text: str) -> bool:
-        return secrets.compare_digest(text.encode(), self.token.encode())
+        is_kept = any(name == self._cookie(token) and _is_same(value, token) for name, _, value in kept)
+        return _is_in_query(request, token) or (is_kept and _is_own(request))
 
     def _allows_host(self, host: str | None) -> bool:
         name = _name(host)
         names = ("localhost", socket.gethostname(), self.host, *self.allowed.hosts)
         return bool(name) and (is_address(name) or name in map(_name, names))
+
+
+def _is_in_query(request: PageRequest, token: str | None) -> bool:
+    return token is not None and _is_same(parse_qs(request.target.partition("?")[2]).get("token", [""])[-1], token)
+
+
+def _is_same(text: str, token: str) -> bool:
+    return secrets.compare_digest(text.encode(), token.encode())
 
 
 def _is_own(request: PageRequest) -> bool:

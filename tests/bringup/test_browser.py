@@ -11,7 +11,9 @@ import pytest
 from tests.graphs import until
 from tests.shell.terminal import Terminal
 
-from trundle.bringup.browser import has_browser
+from trundle.bringup.browser import announce_page, has_browser
+from trundle.page import PageServer, Session
+from trundle.page_address import PageAddress
 
 RUN = (sys.executable, "-m", "trundle", "run", "model://rp2w", "--no-ros", "--no-sensors", "--port", "0")
 SHORT = ("--duration", "0.2", "--speed", "max")
@@ -50,6 +52,17 @@ def test_a_person_may_want_the_url_only(env: Mapping[str, str], opened: Path, tm
 
         assert terminal.wait() == 0
         assert not opened.exists()
+
+
+@pytest.mark.parametrize("needs_token", [True, False])
+def test_the_link_that_only_allows_looking_is_printed_where_the_page_asks_for_a_token(needs_token: bool) -> None:
+    said: list[str] = []
+    at = PageAddress(port=0, needs_token=needs_token)
+    with PageServer.start(Session(title="t", kind="graph"), at=at) as page:
+        announce_page(page, at, said.append, opens_browser=False)
+
+        assert said == [f"see it at {page.url}", *([f"look only at {page.view_url}"] if needs_token else [])]
+        assert ("?token=" in page.url) == needs_token
 
 
 def test_a_script_opens_nothing(env: Mapping[str, str], opened: Path) -> None:

@@ -40,6 +40,7 @@ def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
         "title": "test", "kind": "simulation", "version": trundle.__version__, "robot": "cart", "rviz": None,
         "fixed_frame": None, "panels": [], "plots": [], "images": [], "drive_topic": None, "sliders": [],
         "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
+        "view_only": False, "view_token": page.view_url.partition("?token=")[2], "asks_token": False,
     }  # fmt: skip
     page.set_session(Session(title="other", kind="graph"))
     with ProtocolClient(page.url) as client:

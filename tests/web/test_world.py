@@ -86,14 +86,14 @@ def test_a_hidden_model_is_not_drawn_and_a_selected_one_has_an_outline(cubes: Wo
     cubes.page.evaluate("world.hidden.value = new Set(['red'])")
     plain = cubes.picture()
     assert _columns(plain, _RED) is None
-    cubes.page.evaluate("outlined.value = { thin: [], broad: [8] }")
+    cubes.page.evaluate("outlined.value = [{ thin: [], broad: [8], colour: '--accent' }]")
     outlined = cubes.picture()
     first, last = _columns(plain, _BLUE) or (0, 0)
     row = outlined[180].astype(int)
     lit = np.flatnonzero(row.sum(axis=-1) > 60)
     assert (lit[0], lit[-1]) == (first - 2, last + 2)
     assert _columns(outlined, _BLUE) == (first, last)
-    cubes.page.evaluate("outlined.value = { thin: [], broad: [] }")
+    cubes.page.evaluate("outlined.value = []")
     assert (cubes.picture() == plain).all()
 
 

@@ -13,6 +13,7 @@ import type {
   TopicInfo,
   TopicStatistics,
   RequestAnswer,
+  SharedSelection,
 } from "../src/protocol/connection";
 import type { RosMessage } from "../src/protocol/ros_types";
 
@@ -37,6 +38,8 @@ export class FakeConnection implements Connection {
   readonly calls: { readonly name: string; readonly request: RosMessage }[] = [];
   readonly driven: { readonly topic: string; readonly linear: number; readonly angular: number }[] = [];
   readonly released: string[] = [];
+  /** What the others were shown of the selection. */
+  readonly presented: (SharedSelection | null)[] = [];
   /** Texts of types' definitions. */
   readonly definitions = new Map<string, string>();
   readonly assets = new Map<string, ArrayBuffer>();
@@ -153,6 +156,9 @@ export class FakeConnection implements Connection {
 
   release(topic: string): void {
     this.released.push(topic);
+  }
+  present(selection: SharedSelection | null): void {
+    this.presented.push(selection);
   }
 }
 

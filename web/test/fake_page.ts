@@ -35,6 +35,9 @@ export const SESSION: Session = {
   sliders: [],
   joystick: false,
   foxglove: "ws://localhost:8080/",
+  view_only: false,
+  view_token: "look",
+  asks_token: false,
   node: "/trundle_page_1",
 };
 
@@ -160,6 +163,7 @@ export class FakeTools implements ToolBox {
     icon,
     properties: [],
     cursor: "default",
+    acts: false,
     hint: signal(""),
     activate: () => undefined,
     deactivate: () => undefined,
@@ -231,5 +235,6 @@ export function fakePage(session: Partial<Session> = {}): FakePage {
       },
     }),
     theme: signal("dark"),
+    people: signal({ you: 1, people: [] }),
   };
 }

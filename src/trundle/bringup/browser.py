@@ -5,19 +5,34 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Mapping
+from typing import Protocol
+
+from trundle.page_address import PageAddress
 
 
-def announce_page(url: str, say: Callable[[str], None], *, opens_browser: bool = True) -> None:
+class ServedPage(Protocol):
+    """URLs of a page."""
+
+    @property
+    def url(self) -> str: ...
+    @property
+    def view_url(self) -> str: ...
+
+
+def announce_page(page: ServedPage, at: PageAddress, say: Callable[[str], None], *, opens_browser: bool = True) -> None:
     """Print the URL of a page, and open it in the browser of a person who sees this terminal.
 
     Args:
-        url: of the page.
+        page: the page.
+        at: address that was asked for; where that needs a token, the link that only allows looking is printed, too.
         say: prints a line.
         opens_browser: False: print only.
     """
-    say(f"see it at {url}")
+    say(f"see it at {page.url}")
+    if at.needs_token:
+        say(f"look only at {page.view_url}")
     if opens_browser and sys.stdout.isatty() and sys.stderr.isatty():
-        threading.Thread(target=_open, args=(url,), daemon=True).start()  # finding and starting it takes seconds
+        threading.Thread(target=_open, args=(page.url,), daemon=True).start()  # finding and starting it takes seconds
 
 
 def _open(url: str) -> None:

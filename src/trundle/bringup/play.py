@@ -41,6 +41,8 @@ class PlayOptions:
     port: int | None = None
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
+    view_only: bool = False
+    """True: print a second link, which only allows looking, and ask for the token of the first."""
     opens_browser: bool = True
     """Open the page where there is a display; False: print its URL only."""
     speed: float = 1.0
@@ -50,7 +52,7 @@ class PlayOptions:
     @property
     def address(self) -> PageAddress:
         """Address of the page."""
-        return PageAddress(host=self.host, port=self.port, allowed=self.allowed)
+        return PageAddress(host=self.host, port=self.port, allowed=self.allowed, needs_token=self.view_only)
 
 
 def play(file: Path, options: PlayOptions) -> int:
@@ -68,7 +70,7 @@ def play(file: Path, options: PlayOptions) -> int:
     robot = find_robot(simulation.world)
     session = Session(title=file.name, kind="log", robot=None if robot is None else robot.name, fixed_frame=WORLD_FRAME)
     with stop_flag() as stop, PageServer.start(session, at=options.address) as server:
-        announce_page(server.url, show.line, opens_browser=options.opens_browser)
+        announce_page(server, options.address, show.line, opens_browser=options.opens_browser)
         LogPage(server, log, simulation, options).run(stop)
     return 130
 
@@ -86,7 +88,7 @@ def play_bag(file: Path, options: PlayOptions) -> int:
     session = Session(title=file.name, kind="bag")
     with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
         say = Console(sys.stderr, Diagnostics()).line
-        announce_page(server.url, say, opens_browser=options.opens_browser)
+        announce_page(server, options.address, say, opens_browser=options.opens_browser)
         while not stop.wait(_ALIVE_S) and server.alive:
             pass
     return 130

@@ -122,7 +122,7 @@ class SharedPage:
             self._server, self._findings, self._notices = server, None, 0
             if self._session is not started:
                 server.set_session(self._session)
-        announce_page(server.url, self._say, opens_browser=self._opens_browser)
+        announce_page(server, self._at, self._say, opens_browser=self._opens_browser)
         self._say(f"Foxglove connects to {server.foxglove_url}")
         return server
 

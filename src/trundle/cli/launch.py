@@ -111,6 +111,7 @@ def main(args: argparse.Namespace) -> int:
         view_port=args.view_port,
         host=args.host,
         allowed=page_access(args),
+        view_only=args.view_only,
         opens_browser=not args.no_browser,
         renderer=args.renderer,
         output="log" if args.log else "screen" if args.screen else None,

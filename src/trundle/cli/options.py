@@ -28,6 +28,8 @@ def add_page_access(parser: argparse.ArgumentParser) -> None:
         ("--allow-origin", "ORIGIN", "accept web pages of this origin, such as https://robot.example:8443; repeatable"),
     ):
         parser.add_argument(option, action="append", default=[], metavar=metavar, help=what)
+    what = "print a second link, which only allows looking; all else then needs the first one, with its token"
+    parser.add_argument("--view-only", action="store_true", help=what)
     what = "print the page's URL only; else it is opened where a terminal has a display"
     parser.add_argument("--no-browser", action="store_true", help=what)
 

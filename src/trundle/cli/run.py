@@ -63,6 +63,7 @@ def main(args: argparse.Namespace) -> int:
         headless=args.headless,
         host=args.host,
         allowed=page_access(args),
+        view_only=args.view_only,
         opens_browser=not args.no_browser,
         port=args.port,
         duration_s=args.duration,

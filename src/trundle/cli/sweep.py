@@ -52,8 +52,10 @@ def main(args: argparse.Namespace) -> int:
     plan = load_plan(Path(words[0]))
     if args.row is not None:
         from trundle.bringup.sweep.replay import replay
+        from trundle.page_address import PageAddress
 
-        return replay(plan, args.row, headless=args.headless, port=args.port, allowed=page_access(args))
+        at = PageAddress(port=args.port, allowed=page_access(args), needs_token=args.view_only)
+        return replay(plan, args.row, None if args.headless else at)
     from trundle.bringup.sweep.sweep import sweep
 
     result = sweep(plan, output=args.output, workers=args.workers, address=args.address)

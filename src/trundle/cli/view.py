@@ -33,6 +33,7 @@ def main(args: argparse.Namespace) -> int:
         host=args.host,
         port=args.port,
         allowed=page_access(args),
+        view_only=args.view_only,
         opens_browser=not args.no_browser,
     )
     return view(options)

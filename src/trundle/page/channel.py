@@ -13,6 +13,11 @@ _ids = itertools.count(1)
 class Client(Protocol):
     """Client as a channel sees it."""
 
+    @property
+    def is_view_only(self) -> bool:
+        """True if the client may look and change nothing."""
+        ...
+
     def send_message(self, channel: "Channel", time_ns: int, pieces: Sequence[Buffer]) -> None:
         """Send a message of a channel that the client subscribes to.
 

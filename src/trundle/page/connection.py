@@ -24,10 +24,18 @@ class ChannelTable(Protocol):
 class Connection:
     """Client of the protocol; used on the loop only."""
 
-    def __init__(self, outbox: Outbox, channels: ChannelTable, *, is_own: bool) -> None:
-        """Create; `is_own`: it speaks `trundle.v1`."""
+    def __init__(self, outbox: Outbox, channels: ChannelTable, *, is_own: bool, is_view_only: bool = False) -> None:
+        """Create.
+
+        Args:
+            outbox: queue to the client.
+            channels: what it can subscribe to.
+            is_own: it speaks `trundle.v1`.
+            is_view_only: it may look and change nothing.
+        """
         self.outbox = outbox
         self.is_own = is_own
+        self.is_view_only = is_view_only
         self.drops: dict[str, int] = {}
         """Messages dropped so far, by topic."""
         self.drops_changed = False

@@ -34,7 +34,7 @@ _ONCE = ("Host", "Origin")
 class Page(Protocol):
     """Content of the page."""
 
-    def session_json(self) -> bytes:
+    def session_json(self, is_view_only: bool) -> bytes:
         """Return what `/session.json` says."""
         ...
 
@@ -50,7 +50,7 @@ class Page(Protocol):
         """Return a picture of a model as PNG; raises PictureError."""
         ...
 
-    def join(self, outbox: Outbox, *, is_own: bool) -> Connection:
+    def join(self, outbox: Outbox, *, is_own: bool, is_view_only: bool) -> Connection:
         """Add a client."""
         ...
 
@@ -100,8 +100,9 @@ class HttpServer:
             response.headers.update(response_fields(self._access, _page_request(request), path=request.path))
         return response
 
-    async def _session(self, _: web.Request) -> web.StreamResponse:
-        return _fresh(web.Response(body=self._page.session_json(), content_type="application/json"))
+    async def _session(self, request: web.Request) -> web.StreamResponse:
+        session = self._page.session_json(self._access.is_view_only(_page_request(request)))
+        return _fresh(web.Response(body=session, content_type="application/json"))
 
     async def _world_file(self, request: web.Request) -> web.StreamResponse:
         file = self._page.world_files().get(request.path) or self._page.world_files().get(request.path[1:])
@@ -162,6 +163,7 @@ class HttpServer:
         client = self._page.join(
             Outbox(own, broken=lambda _: transport.abort(), dropped=lambda stream: client.count_drop(stream)),
             is_own=web_socket.ws_protocol == TRUNDLE,
+            is_view_only=self._access.is_view_only(_page_request(request)),
         )
         try:
             while await self._receive(client, await web_socket.receive()):

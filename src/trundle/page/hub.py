@@ -7,7 +7,7 @@ from typing import Protocol
 
 from .channel import Channel
 from .connection import Connection
-from .protocol import ENCODING, WARNING, time_message
+from .protocol import CONTROL_CAPABILITIES, ENCODING, WARNING, time_message
 
 _FRAME_S = 0.032
 """Wait after a poll that brought something: a little less than the owner's period, 33 ms."""
@@ -96,7 +96,9 @@ class Hub:
         client.send_json({
             "op": "serverInfo",
             "name": "trundle",
-            "capabilities": self._capabilities,
+            "capabilities": [
+                each for each in self._capabilities if not (client.is_view_only and each in CONTROL_CAPABILITIES)
+            ],
             "supportedEncodings": [ENCODING],
             "metadata": {},
             "sessionId": self._session_id,

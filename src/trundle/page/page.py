@@ -20,6 +20,7 @@ from .hub import Hub
 from .mailbox import Mailbox
 from .outbox import Outbox
 from .owner import MAX_IN_FLIGHT, Owner, PictureError, respond
+from .people import PeopleChannel
 from .protocol import (
     CAPABILITIES,
     ERROR,
@@ -27,6 +28,7 @@ from .protocol import (
     ClientOperation,
     FetchAsset,
     PageRequest,
+    Presence,
     Subscribe,
     Unsubscribe,
     operation_decoder,
@@ -36,7 +38,19 @@ from .ros_graph import RosGraph
 from .rviz_saving import save_rviz
 from .session import Session
 from .session_channel import SessionChannel
-from .wire import AddFile, FromServer, OpenMailbox, Respond, SetNotice, SetSession, SetWorld, Start, ToServer
+from .view_only import allows, allows_binary, allows_request
+from .wire import (
+    AddFile,
+    FromServer,
+    OpenMailbox,
+    Respond,
+    Served,
+    SetNotice,
+    SetSession,
+    SetWorld,
+    Start,
+    ToServer,
+)  # fmt: skip
 from .world_channels import (
     BoxChannel,
     PosesChannel,
@@ -57,7 +71,7 @@ class Page:
 
     def __init__(self, start: Start, *, loop: GraphLoop, assets: Assets, send: Callable[[FromServer], None]) -> None:
         """Create; `send` writes a message to the owner."""
-        self.foxglove_url = ""
+        self.addresses = Served(url="", foxglove_url="", view_url="")
         self._session: Session = start.session
         self._has_graph = start.graph is not None
         self._messages = loop.messages
@@ -66,6 +80,7 @@ class Page:
         self._tasks: set[asyncio.Task[None]] = set()
         self._model_pictures = asyncio.Semaphore(1)
         self._session_channel = SessionChannel(self.session_json)
+        self._people = PeopleChannel()
         self._world = WorldChannel()
         self._state = StateChannel()
         boxes: tuple[BoxChannel, ...] = ()
@@ -78,8 +93,8 @@ class Page:
             capabilities=CAPABILITIES + (GRAPH_CAPABILITIES if self._has_graph else ()),
             simulated_time_ns=self._simulated_time_ns,
         )
-        self.hub.add_channels([self._session_channel, self._world, *boxes])
-        self.hub.polled += boxes
+        self.hub.add_channels([self._session_channel, self._people, self._world, *boxes])
+        self.hub.polled += [self._people, *boxes]
         self._bag = None if start.bag is None else BagSource(open_bag(Path(start.bag.path)), start.bag, self.hub)
         if self._bag is not None:
             self.hub.polled.append(self._bag)
@@ -135,11 +150,18 @@ class Page:
 
     # -- for HTTP
 
-    def session_json(self) -> bytes:
-        """Return what `/session.json` says."""
+    def session_json(self, is_view_only: bool) -> bytes:
+        """Return what `/session.json` says; who may only look gets no address that allows more."""
         fields = msgspec.to_builtins(self._session)
-        node = None if self._graph is None else self._graph.node_name
-        more = {"version": version("trundle"), "foxglove": self.foxglove_url, "node": node}
+        at = self.addresses
+        more = {
+            "version": version("trundle"),
+            "foxglove": at.view_url.replace("http:", "ws:", 1) if is_view_only else at.foxglove_url,
+            "node": None if self._graph is None else self._graph.node_name,
+            "view_only": is_view_only,
+            "view_token": at.view_url.partition("?token=")[2],
+            "asks_token": "?token=" in at.url,
+        }
         return msgspec.json.encode(fields | more)
 
     def world_files(self) -> Mapping[str, bytes]:
@@ -169,9 +191,9 @@ class Page:
 
     # -- for clients
 
-    def join(self, outbox: Outbox, *, is_own: bool) -> Connection:
+    def join(self, outbox: Outbox, *, is_own: bool, is_view_only: bool) -> Connection:
         """Add a client."""
-        client = Connection(outbox, self.hub, is_own=is_own)
+        client = Connection(outbox, self.hub, is_own=is_own, is_view_only=is_view_only)
         self.hub.add_client(client)
         if self._graph is not None:
             self._graph.join(client)
@@ -192,13 +214,16 @@ class Page:
             if is_text:
                 self._operate(client, operation_decoder.decode(message), message)
             elif self._graph is not None:
-                self._graph.receive(client, message)
+                if allows_binary(client, message):
+                    self._graph.receive(client, message)
             else:
                 client.send_status(ERROR, _NO_GRAPH)
         except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
             client.send_status(ERROR, f"a message cannot be read: {error}")
 
     def _operate(self, client: Connection, operation: ClientOperation, message: bytes) -> None:
+        if not allows(client, operation):
+            return
         match operation:
             case Subscribe():
                 client.subscribe(operation)
@@ -208,6 +233,8 @@ class Page:
                 self._update_watched()
             case FetchAsset():
                 self._assets.fetch(client, operation)
+            case Presence(selection):
+                self._people.select(client, selection)
             case PageRequest():
                 self._request(client, operation.id, message)
             case _ if self._graph is not None:
@@ -223,6 +250,8 @@ class Page:
             action = _action_decoder.decode(message)
         except msgspec.ValidationError as error:
             respond(client, client_id, f"not a request: {error}")
+            return
+        if not allows_request(client, client_id, action):
             return
         match action:
             case Definition(type_name):

@@ -80,7 +80,7 @@ class PageServer:
         self._watched: frozenset[str] = frozenset()
         self._boxes: dict[str, Mailbox] = {}
         self._generation = 0
-        self._addresses = Served(url="", foxglove_url="")
+        self._addresses = Served(url="", foxglove_url="", view_url="")
         self._threads = [
             threading.Thread(target=run, name="trundle-page", daemon=True) for run in (self._receive, self._send_all)
         ]
@@ -128,6 +128,7 @@ class PageServer:
             reserved_ports=at.reserved_ports,
             hosts=at.allowed.hosts,
             origins=at.allowed.origins,
+            needs_token=at.needs_token,
             session=session,
             graph=graph,
             bag=bag,
@@ -150,6 +151,11 @@ class PageServer:
     def foxglove_url(self) -> str:
         """Address for Foxglove and Lichtblick, with the token: `ws://127.0.0.1:8080/?token=…`."""
         return self._addresses.foxglove_url
+
+    @property
+    def view_url(self) -> str:
+        """Address of a page that may look and change nothing: `http://127.0.0.1:8080/?token=…`."""
+        return self._addresses.view_url
 
     @property
     def alive(self) -> bool:

@@ -16,6 +16,8 @@ SCHEMA_ENCODING = "ros1msg"
 CAPABILITIES = ("assets", "time")
 GRAPH_CAPABILITIES = ("clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph")
 """Further ones of a page that has a ROS graph."""
+CONTROL_CAPABILITIES = ("clientPublish", "services")
+"""Capabilities that clients which may only look are not offered."""
 
 _MAX_LIST = 10_000
 _MAX_NAME = 1_000
@@ -141,6 +143,22 @@ class Release(Operation, frozen=True, tag="trundle/release"):
     topic: Name
 
 
+class SharedSelection(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unknown_fields=True):
+    """Selection of a person in the simulated world."""
+
+    kind: Literal["model", "link", "joint", "light"]
+    model: Name = ""
+    link: Name = ""
+    joint: Name = ""
+    light: Name = ""
+
+
+class Presence(Operation, frozen=True, tag="trundle/presence"):
+    """Show the others what this client has selected."""
+
+    selection: SharedSelection | None
+
+
 class PageRequest(Operation, frozen=True, tag="trundle/request"):
     """Request to the page's owner; `request` and its fields are read by `trundle.page.requests`."""
 
@@ -161,6 +179,7 @@ ClientOperation: TypeAlias = (
     | FetchAsset
     | Drive
     | Release
+    | Presence
     | PageRequest
 )
 operation_decoder = msgspec.json.Decoder(ClientOperation)

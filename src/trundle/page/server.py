@@ -7,6 +7,7 @@ Run as `python -m trundle.page.server` by `PageServer.start` alone. Standard inp
 import contextlib
 import logging
 import os
+import secrets
 import signal
 import socket
 import sys
@@ -55,6 +56,7 @@ def main() -> None:
             port=start.port,
             reserved_ports=start.reserved_ports,
             allowed=AllowedNames(hosts=start.hosts, origins=start.origins),
+            needs_token=start.needs_token,
         )
         listening = listen(address)
     except EOFError:
@@ -74,14 +76,20 @@ def main() -> None:
 async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: PageAddress, pipe: OwnerPipe) -> Page:
     """Serve the page and say where it is."""
     port = int(listening.getsockname()[1])
-    access = Access(host=at.host, port=port, allowed=at.allowed)
+    access = Access(
+        host=at.host, port=port, allowed=at.allowed, needs_token=at.needs_token, view_token=secrets.token_urlsafe(16)
+    )
     page = Page(start, loop=loop, assets=Assets(os.environ, Path(start.source)), send=pipe.send)
     reachable = "127.0.0.1" if at.host in ("0.0.0.0", "") else at.host
     authority = f"[{reachable}]:{port}" if ":" in reachable else f"{reachable}:{port}"
-    page.foxglove_url = f"ws://{authority}/?token={access.token}"
+    page.addresses = Served(
+        url=access.url(reachable, port),
+        foxglove_url=f"ws://{authority}/?token={access.token}",
+        view_url=access.view_url(reachable, port),
+    )
     await HttpServer(page, access, ClientFiles()).start(listening)
     loop.spawn(page.run()).add_done_callback(_end)
-    pipe.send(Served(url=access.url(reachable, port), foxglove_url=page.foxglove_url))
+    pipe.send(page.addresses)
     return page
 
 

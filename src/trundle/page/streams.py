@@ -16,6 +16,7 @@ LINES = "trundle/lines"
 CONTACTS = "trundle/contacts"
 RANGES = "trundle/ranges"
 DROPS = "trundle/drops"
+PEOPLE = "trundle/people"
 
 ARRAY_HEADER = struct.Struct("<QII")
 """Time [ns], generation of the world, rows: before the poses, (bodies, 7) f64, the joints, (joints, 3) f64, and the

@@ -44,6 +44,7 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     reserved_ports: tuple[int, ...] = ()
     hosts: tuple[str, ...]
     origins: tuple[str, ...]
+    needs_token: bool = False
     session: Session
     graph: GraphAddress | None
     """None: no graph."""
@@ -105,6 +106,8 @@ class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 
     url: str
     foxglove_url: str
+    view_url: str
+    """URL of a page that may look and change nothing."""
 
 
 class Refused(msgspec.Struct, frozen=True, tag=True):

@@ -5,9 +5,12 @@ import type { JSX } from "preact";
 import type { ConnectionState } from "../protocol/connection";
 import { Button } from "../theme/button";
 import { clock, count } from "../theme/format";
+import { Icon } from "../theme/icons";
 import { MenuButton, type MenuItem } from "../theme/menu";
 import { StatusShape } from "../theme/status_shape";
 import { Clock } from "./clock";
+import { canControl, LOOKS_ONLY } from "./looking";
+import { colourOf, nameOf } from "./people";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 import { switchTheme } from "./theme";
@@ -19,7 +22,8 @@ export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
     <header class="bar" aria-label="Trundle">
       <Mark />
       {!phone && <Title shell={shell} />}
-      {simulates(page) ? <SimulationControls shell={shell} /> : <Freeze shell={shell} />}
+      {!canControl(page) && <LookingOnly isShort={phone} />}
+      {simulates(page) ? canControl(page) && <SimulationControls shell={shell} /> : <Freeze shell={shell} />}
       {!phone && <span class="sep" />}
       <Clock shell={shell} />
       <span class="sp" />
@@ -28,6 +32,7 @@ export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
         <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />
       )}
       {!phone && <span class="sep" />}
+      <PeopleHere shell={shell} />
       <Connected shell={shell} />
       {phone ? <More shell={shell} /> : <Corner shell={shell} />}
     </header>
@@ -86,6 +91,35 @@ function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
+function LookingOnly({ isShort }: { readonly isShort: boolean }): JSX.Element {
+  return (
+    <span class="looking" data-tip={`${LOOKS_ONLY} Time, robots, topics and the world are changed by others.`} tabIndex={0}>
+      <Icon name="eye" />
+      {isShort ? "Look" : "Looking only"}
+    </span>
+  );
+}
+
+/** How many people are at the page, where there are several; the menu says who. */
+function PeopleHere({ shell }: { readonly shell: Shell }): JSX.Element | null {
+  const { you, people } = shell.page.people.value;
+  if (people.length < 2) return null;
+  const label = count(people.length, "person", "people");
+  const items = (): readonly MenuItem[] =>
+    people.map((person) => ({
+      title: person.number === you ? `${nameOf(person)}, you` : nameOf(person),
+      ...(person.view_only ? { detail: "looks only" } : {}),
+      colour: colourOf(person),
+      disabled: person.selection === null || person.number === you,
+      run: () => (shell.page.selection.value = person.selection),
+    }));
+  return (
+    <MenuButton label={label} icon="people" items={items}>
+      {shell.layout.isPhone.value ? people.length : label}
+    </MenuButton>
+  );
+}
+
 function PlayShape({ paused }: { readonly paused: boolean }): JSX.Element {
   return (
     <svg class="i" viewBox="0 0 16 16" aria-hidden="true">
@@ -108,7 +142,7 @@ function Freeze({ shell }: { readonly shell: Shell }): JSX.Element {
 
 function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const state = shell.page.world.state.value;
-  if (state?.recording === undefined) return null;
+  if (state?.recording === undefined || !canControl(shell.page)) return null;
   const since = state.recording?.since_ns;
   const running = since !== undefined;
   const text = running ? `Recording ${clock((state.time_ns - since) / 1e9, 0)}` : "Record";
@@ -163,7 +197,7 @@ function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
 function More({ shell }: { readonly shell: Shell }): JSX.Element {
   const { commands, page } = shell;
   const items = (): readonly MenuItem[] => {
-    const shown = commands.all.peek().filter(({ id, group }) => group === "Simulation" && id !== "play_pause");
+    const shown = commands.all.peek().filter(({ id, group }) => group === "Simulation" && id !== "play_pause" && canControl(page));
     return [
       ...shown.map(({ title, run, enabled }) => ({ title, run, disabled: !(enabled?.() ?? true) })),
       { title: page.theme.peek() === "dark" ? "Light theme" : "Dark theme", run: () => switchTheme(page.theme) },

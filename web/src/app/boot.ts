@@ -26,6 +26,8 @@ import { freezable } from "./freeze";
 import { outlinedBodies, targetPose } from "./framing";
 import { mount } from "./mount";
 import type { Page } from "./page";
+import { followPeople } from "./people";
+import { labelOthers, othersOutlines } from "./people_marks";
 import { liveSession, type Session } from "./session";
 import { startDisplays, startView } from "./start";
 import { makeTheme } from "./theme";
@@ -63,7 +65,7 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   feedTransforms(frames, view, names);
   const world = new WorldFeed(connection, scene, frames, fixedFrame);
   const views: ViewList = new ViewList(scene, (target) => targetPose(page, target));
-  const editor = first.kind !== "simulation" ? null : makeEditor(world, () => shell);
+  const editor = first.kind !== "simulation" || first.view_only ? null : makeEditor(world, () => shell);
   const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered, editor });
   const displays: DisplayStore = new DisplayStore({ connection: view, names, frames, scene, undo, views, tools });
   const drive = new Drive({
@@ -72,11 +74,12 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
       return session.value;
     },
   });
+  const people = followPeople(connection, selection);
   const page: Page = {
     get session() {
       return session.value;
     },
-    connection, frames, scene, views, world, displays, tools, selection, hovered, commands, undo, drive, theme,
+    connection, frames, scene, views, world, displays, tools, selection, hovered, commands, undo, drive, theme, people,
   };
 
   effect(() => {
@@ -87,7 +90,8 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   effect(() => {
     scene.element.style.cursor = tools.current.value.cursor;
   });
-  new SelectionOutline(scene, world, () => outlinedBodies(page));
+  new SelectionOutline(scene, world, () => [...othersOutlines(page), { ...outlinedBodies(page), colour: "--accent" }]);
+  labelOthers(page);
   const modelsOf = ({ models }: Manifest): readonly ScopedModel[] => allModels(models);
   new BodyOverlays(scene, world, modelsOf);
   new ContactMarks(scene, world, connection, modelsOf);

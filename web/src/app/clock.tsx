@@ -6,6 +6,7 @@ import { useEffect, useState } from "preact/hooks";
 import { fixed, rosTime } from "../theme/format";
 import { MenuButton } from "../theme/menu";
 import { StatusShape } from "../theme/status_shape";
+import { canControl } from "./looking";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 
@@ -25,7 +26,7 @@ export function Clock({ shell }: { readonly shell: Shell }): JSX.Element {
         <span class="of">{session.kind === "bag" ? "ROS time" : "sim time"}</span>
       </span>
       <Factor factor={factor} speed={state?.speed ?? null} />
-      {!shell.layout.isPhone.value && state !== null && <Speed shell={shell} speed={state.speed} />}
+      {!shell.layout.isPhone.value && state !== null && canControl(shell.page) && <Speed shell={shell} speed={state.speed} />}
     </>
   );
 }

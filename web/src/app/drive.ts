@@ -27,6 +27,7 @@ export class Drive {
   /** Topics of velocities that a node which does not only watch listens to, the session's first. */
   readonly topics = computed<readonly string[]>(() => {
     const { connection, session } = this.page;
+    if (session.view_only) return [];
     const { types, subscribers } = connection.graph.value;
     const published = [...connection.topics.value.values()].map(({ name, type }) => [name, type] as const);
     const typed = [...published, ...types].flatMap(([name, type]) => (TWISTS.includes(type) ? [name] : []));

@@ -24,7 +24,7 @@ export function ModelJoints({ shell, name, model }: { readonly shell: Shell; rea
       <h3>
         Joints of {model.name}
         <span class="sp" />
-        <Button small onClick={zero}>
+        <Button small disabled={!canEdit(shell)} onClick={zero}>
           All to zero
         </Button>
       </h3>
@@ -130,7 +130,7 @@ function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly 
         lower={lower}
         upper={upper}
         text={`${fixed(shown, decimals)} ${unit}`}
-        disabled={shell.page.session.kind !== "simulation"}
+        disabled={!canEdit(shell)}
         onInput={(to) => {
           if (held.value === null) start.value = isVelocity ? 0 : value;
           held.value = to;

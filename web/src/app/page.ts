@@ -11,6 +11,7 @@ import type { SimulatedWorld } from "../scene/simulated_world";
 import type { Views } from "../scene/view_controller";
 import type { ToolBox } from "../tools/tool";
 import type { Drive } from "./drive";
+import type { People } from "./people";
 import type { Session } from "./session";
 
 /** What is selected, in tree or scene. */
@@ -85,4 +86,6 @@ export interface Page {
   readonly undo: PageUndo;
   readonly drive: Drive;
   readonly theme: Signal<"light" | "dark">;
+  /** Who is at this page. */
+  readonly people: ReadonlySignal<People>;
 }

@@ -2,6 +2,7 @@
 
 import { toggleFollowing } from "./following";
 import { frameSelection } from "./framing";
+import { canControl } from "./looking";
 import { chooseRviz } from "./open_rviz";
 import type { Command } from "./page";
 import { download, rvizFile, save } from "./rviz_foot";
@@ -37,8 +38,8 @@ export function pageCommands(shell: Shell): readonly Command[] {
     { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
     { ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"), enabled: () => undo.redoTitle.peek() !== null },
     command("open_rviz", "Displays", "Open an .rviz file", () => chooseRviz(shell)),
-    { ...command("save_rviz", "Displays", "Save the .rviz file", () => save(shell)), enabled: () => rvizFile(shell)?.writable === true },
-    command("save_rviz_as", "Displays", "Save as .rviz", () => (dialog.value = "save")),
+    { ...command("save_rviz", "Displays", "Save the .rviz file", () => save(shell)), enabled: () => rvizFile(shell)?.writable === true && canControl(page) },
+    { ...command("save_rviz_as", "Displays", "Save as .rviz", () => (dialog.value = "save")), enabled: () => canControl(page) },
     command("download_rviz", "Displays", "Download as .rviz", () => download(shell)),
     command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
     command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),

@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 import { saveFile, sentence } from "../panels/use";
 import { Button } from "../theme/button";
 import { count } from "../theme/format";
+import { canControl } from "./looking";
 import type { RvizFileInfo, Shell } from "./shell";
 
 export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | null {
@@ -17,7 +18,7 @@ export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | nu
         {count(changes, "change")}, not saved
       </span>
       <span class="sp" />
-      {file?.writable === true ? (
+      {file?.writable === true && canControl(shell.page) ? (
         <Button small tone="line" onClick={() => save(shell)}>
           Save
         </Button>
@@ -26,9 +27,11 @@ export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | nu
           <Button small onClick={() => download(shell)}>
             Download
           </Button>
-          <Button small tone="line" onClick={() => (shell.dialog.value = "save")}>
-            Save as
-          </Button>
+          {canControl(shell.page) && (
+            <Button small tone="line" onClick={() => (shell.dialog.value = "save")}>
+              Save as
+            </Button>
+          )}
         </>
       )}
     </div>

@@ -22,6 +22,12 @@ export interface Session {
   readonly sliders: readonly { readonly name: string; readonly lower: number; readonly upper: number; readonly position: number }[];
   readonly joystick: boolean;
   readonly foxglove: string;
+  /** True: the server does nothing for this page that changes anything. */
+  readonly view_only: boolean;
+  /** Token of links that only allow looking. */
+  readonly view_token: string;
+  /** True: without a token nobody is served. */
+  readonly asks_token: boolean;
   /** The page's node on the graph. */
   readonly node: string | null;
 }

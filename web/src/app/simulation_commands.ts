@@ -1,5 +1,6 @@
 /** Commands of the simulation's clock. */
 
+import { canControl } from "./looking";
 import type { Command, Page } from "./page";
 import type { Shell } from "./shell";
 
@@ -16,7 +17,7 @@ export function simulationCommands(shell: Shell): readonly Command[] {
     title,
     group: "Simulation",
     ...(keys === undefined ? {} : { keys }),
-    enabled: () => page.connection.state.peek().kind === "connected",
+    enabled: () => page.connection.state.peek().kind === "connected" && canControl(page),
     run: act,
   });
   const clock = [

@@ -4,6 +4,8 @@ import type { JSX } from "preact";
 
 import { Button } from "../theme/button";
 import { isIcon } from "../theme/icons";
+import type { Tool } from "../tools/tool";
+import { canControl } from "./looking";
 import type { Command } from "./page";
 import type { Shell } from "./shell";
 
@@ -21,7 +23,7 @@ export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
   return (
     <>
       <div class="tools float" role="toolbar" aria-label="Tools">
-        {tools.tools.map((tool) => {
+        {offeredTools(shell).map((tool) => {
           const name = SHORT[tool.name] ?? tool.name;
           const icon = isIcon(tool.icon) ? tool.icon : "select";
           const common = { icon, label: name, keys: keyOf(shell, tool.shortcut), on: tool === current, onClick: () => tools.use(tool.className) };
@@ -43,6 +45,10 @@ export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
+function offeredTools({ page }: Shell): readonly Tool[] {
+  return page.tools.tools.filter(({ acts }) => !acts || canControl(page));
+}
+
 /** rviz's letter, with Shift where the letter drives the robot. */
 function keyOf(shell: Shell, shortcut: string): string {
   const letter = shortcut.toUpperCase();
@@ -50,7 +56,7 @@ function keyOf(shell: Shell, shortcut: string): string {
 }
 
 export function toolCommands(shell: Shell): readonly Command[] {
-  return shell.page.tools.tools
+  return offeredTools(shell)
     .filter((tool) => tool.shortcut !== "")
     .flatMap((tool) => {
       const letter = tool.shortcut.toUpperCase();

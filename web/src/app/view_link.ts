@@ -7,10 +7,13 @@ const KEY = "#view=";
 /** Longest text of a view [characters]. */
 const LONGEST = 4000;
 
-/** The page's address with the current view. */
-export function linkTo(views: Pick<Views, "current">, address: string): string {
+/** The page's address with the current view; with a token, another address of the page. */
+export function linkTo(views: Pick<Views, "current">, address: string, token: string | null = null): string {
   const short = (_: string, value: unknown): unknown => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
-  return `${address.split("#")[0] ?? ""}${KEY}${encodeURIComponent(JSON.stringify(views.current.peek().save(), short))}`;
+  const url = new URL(address);
+  url.hash = "";
+  if (token !== null) url.searchParams.set("token", token);
+  return `${url.href}${KEY}${encodeURIComponent(JSON.stringify(views.current.peek().save(), short))}`;
 }
 
 /** The view that a link's end holds, as an .rviz file would; null: none that can be read. */

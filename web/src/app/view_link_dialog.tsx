@@ -1,4 +1,4 @@
-/** The link to the current view, to be copied. */
+/** The link to the current view, to be copied; one of its own kind only allows looking. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -6,13 +6,22 @@ import { useMemo, useRef } from "preact/hooks";
 
 import { Button } from "../theme/button";
 import { Dialog } from "./dialog";
+import type { Session } from "./session";
 import type { Shell } from "./shell";
 import { linkTo } from "./view_link";
+
+function linkText({ asks_token, view_only }: Session, looks: boolean): string {
+  if (!looks) return "Whoever can open this page sees it from here.";
+  const text = "Whoever has this link sees the page from here, and can drive and change nothing.";
+  return asks_token || view_only ? text : `${text} On this machine the page opens without a link, too; --view-only makes it ask for one.`;
+}
 
 export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const field = useRef<HTMLInputElement>(null);
   const copied = useSignal(false);
-  const link = useMemo(() => linkTo(shell.page.views, location.href), [shell]);
+  const { session, views } = shell.page;
+  const looks = useSignal(session.view_only);
+  const link = useMemo(() => linkTo(views, location.href, looks.value ? session.view_token : null), [views, session, looks.value]);
   const copy = (): void => {
     field.current?.select();
     if (!window.isSecureContext) return; // Ctrl C copies what is selected
@@ -21,7 +30,17 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   return (
     <Dialog title="Link to this view" class="save" onClose={() => (shell.dialog.value = null)}>
       <div class="form">
-        <p class="t2">Whoever can open this page sees it from here.</p>
+        {!session.view_only && (
+          <div role="group" aria-label="What the link allows">
+            <Button small on={!looks.value} onClick={() => (looks.value = false)}>
+              Look and control
+            </Button>
+            <Button small on={looks.value} onClick={() => (looks.value = true)}>
+              Look only
+            </Button>
+          </div>
+        )}
+        <p class="t2">{linkText(session, looks.value)}</p>
         <label class="field">
           <input ref={field} aria-label="Link" readOnly value={link} autoFocus onFocus={(event) => event.currentTarget.select()} />
         </label>

@@ -4,6 +4,7 @@ import { Euler, Quaternion, type Vector3 } from "three";
 
 import type { SimulatedWorld } from "../scene/simulated_world";
 import type { WorldEditor } from "../tools/world_editor";
+import { canControl } from "./looking";
 import type { Page } from "./page";
 import type { Shell } from "./shell";
 
@@ -44,7 +45,7 @@ export function makeEditor(world: SimulatedWorld, shell: () => Shell): WorldEdit
 
 /** True if what is shown is simulated now, and can be changed. */
 export function canEdit(shell: Shell): boolean {
-  return shell.page.session.kind === "simulation";
+  return shell.page.session.kind === "simulation" && canControl(shell.page);
 }
 
 /** A pose as requests have it: position [m] and a quaternion wxyz. */

@@ -2,6 +2,7 @@
 
 import type { JSX } from "preact";
 
+import { canControl, Controls } from "../app/looking";
 import { Button } from "../theme/button";
 import { fixed } from "../theme/format";
 import { NumberField } from "../theme/number_field";
@@ -16,16 +17,18 @@ function Joints({ page }: PanelProps): JSX.Element {
     <div class="scroll">
       {groups.length === 0 && <div class="empty">No joints can be moved here: no joint_state_publisher_gui runs, and nothing is simulated.</div>}
       {state.fault.value !== "" && <div class="fault pad" role="alert">{state.fault.value}</div>}
-      {groups.map(({ title, sliders }) => (
-        <section key={title} aria-label={`Joints of ${title}`}>
-          <h4 class="headline">{title}</h4>
-          <div class="sliders">
-            {sliders.map((slider) => (
-              <JointRow key={slider.key} slider={slider} isDegrees={state.isDegrees.value} />
-            ))}
-          </div>
-        </section>
-      ))}
+      <Controls page={page}>
+        {groups.map(({ title, sliders }) => (
+          <section key={title} aria-label={`Joints of ${title}`}>
+            <h4 class="headline">{title}</h4>
+            <div class="sliders">
+              {sliders.map((slider) => (
+                <JointRow key={slider.key} slider={slider} isDegrees={state.isDegrees.value} />
+              ))}
+            </div>
+          </section>
+        ))}
+      </Controls>
     </div>
   );
 }
@@ -72,12 +75,16 @@ function Actions({ page }: PanelProps): JSX.Element {
   const unit = state.isDegrees.value ? "°" : "rad";
   return (
     <>
-      <Button small onClick={() => state.allToZero()}>
-        All to zero
-      </Button>
-      <Button small onClick={() => state.randomize()}>
-        Randomize
-      </Button>
+      {canControl(page) && (
+        <>
+          <Button small onClick={() => state.allToZero()}>
+            All to zero
+          </Button>
+          <Button small onClick={() => state.randomize()}>
+            Randomize
+          </Button>
+        </>
+      )}
       <Button small on={state.isDegrees.value} label={`Angles in ${unit}`} onClick={() => void (state.isDegrees.value = !state.isDegrees.value)}>
         {unit}
       </Button>

@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
+import { canControl, LOOKS_ONLY } from "../app/looking";
 import { fixed } from "../theme/format";
 import { AXIS_NAMES, BUTTON_NAMES } from "./joystick/gamepad_axes";
 import { joystickState, type JoystickState } from "./joystick/joystick_state";
@@ -14,7 +15,7 @@ const RIGHT = [3, 4] as const;
 
 function Joystick({ page }: PanelProps): JSX.Element {
   const state = joystickState(page);
-  const isAsked = page.session.joystick;
+  const isAsked = page.session.joystick && canControl(page);
   useEffect(() => {
     if (!isAsked) return;
     state.start();
@@ -25,6 +26,7 @@ function Joystick({ page }: PanelProps): JSX.Element {
       state.stop();
     };
   }, [state, isAsked]);
+  if (!canControl(page)) return <div class="empty">{LOOKS_ONLY}</div>;
   if (!isAsked) return <div class="empty">No node reads a joystick: start joy's joy_node.</div>;
   return (
     <div class="scroll">

@@ -3,6 +3,7 @@
 import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 
+import { Controls } from "../app/looking";
 import type { Page } from "../app/page";
 import type { ParameterValue } from "../protocol/connection";
 import { Checkbox } from "../theme/checkbox";
@@ -29,6 +30,7 @@ function Parameters({ page }: PanelProps): JSX.Element {
       {state.isFiltering.value && <FilterField label="Filter parameters" value={state.filter} />}
       <div class="scroll">
         {rows.length === 0 && <div class="empty">{parameters.size === 0 ? "There are no parameters." : "No parameter has this in its name."}</div>}
+        <Controls page={page}>
         <Tree
           label="Parameters"
           rows={rows.map((row) => treeRow(page, row, row.name === state.selected.value))}
@@ -40,6 +42,7 @@ function Parameters({ page }: PanelProps): JSX.Element {
             state.closed.value = closed;
           }}
         />
+        </Controls>
       </div>
     </div>
   );

@@ -4,6 +4,7 @@ import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
+import { Controls } from "../app/looking";
 import { Checkbox } from "../theme/checkbox";
 import { plain } from "../theme/format";
 import { NumberField } from "../theme/number_field";
@@ -59,17 +60,19 @@ function Server({ page, name }: PanelProps & { readonly name: string }): JSX.Ele
     <div class="main">
       <div class="scroll">
         {server.fault.value !== "" && <div class="fault pad" role="alert">{server.fault.value}</div>}
-        {groups.map((group) => (
-          <section key={group.id} aria-label={group.name}>
-            {groups.length > 1 && <h4 class="headline">{group.name}</h4>}
-            {group.options.map((option) => (
-              <div key={option.name} class="formrow" title={option.description}>
-                <span class="label">{option.name}</span>
-                <Editor server={server} option={option} />
-              </div>
-            ))}
-          </section>
-        ))}
+        <Controls page={page}>
+          {groups.map((group) => (
+            <section key={group.id} aria-label={group.name}>
+              {groups.length > 1 && <h4 class="headline">{group.name}</h4>}
+              {group.options.map((option) => (
+                <div key={option.name} class="formrow" title={option.description}>
+                  <span class="label">{option.name}</span>
+                  <Editor server={server} option={option} />
+                </div>
+              ))}
+            </section>
+          ))}
+        </Controls>
       </div>
     </div>
   );

@@ -3,6 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import type { JSX } from "preact";
 
+import { Controls } from "../app/looking";
 import type { Connection, ServiceInfo } from "../protocol/connection";
 import type { RosMessage } from "../protocol/ros_types";
 import { Button } from "../theme/button";
@@ -85,7 +86,7 @@ function Services({ page }: PanelProps): JSX.Element {
   return (
     <Split
       head={state.isFiltering.value && <FilterField label="Filter services" value={state.filter} />}
-      detail={selected !== undefined && <Detail key={selected.name} call={state.call(selected)} onClose={() => void (state.selected.value = null)} />}
+      detail={selected !== undefined && <Detail key={selected.name} page={page} call={state.call(selected)} onClose={() => void (state.selected.value = null)} />}
     >
       {state.shown.value.length === 0 && <div class="empty">There are no services.</div>}
       {state.shown.value.length > 0 && (
@@ -116,16 +117,18 @@ function Services({ page }: PanelProps): JSX.Element {
   );
 }
 
-function Detail({ call, onClose }: { readonly call: Call; readonly onClose: () => void }): JSX.Element {
+function Detail({ page, call, onClose }: PanelProps & { readonly call: Call; readonly onClose: () => void }): JSX.Element {
   const { service, form, answer, fault, isRunning } = call;
   return (
     <>
       <div class="toolrow">
         <strong class="n">{service.name}</strong>
         <span class="sp" />
-        <Button small tone="line" disabled={isRunning.value} onClick={() => void call.run()}>
-          {isRunning.value ? "Calling …" : "Call"}
-        </Button>
+        <Controls page={page}>
+          <Button small tone="line" disabled={isRunning.value} onClick={() => void call.run()}>
+            {isRunning.value ? "Calling …" : "Call"}
+          </Button>
+        </Controls>
         <Button small icon="close" label="Close" onClick={onClose} />
       </div>
       <div class="scroll">

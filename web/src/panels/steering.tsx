@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
 import type { Drive, Held } from "../app/drive";
+import { canControl, LOOKS_ONLY } from "../app/looking";
 import { Combo } from "../theme/combo";
 import { fixed } from "../theme/format";
 import { NumberField } from "../theme/number_field";
@@ -29,7 +30,7 @@ function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
         <Axis drive={drive} which="angular" name="Turning, w" unit="rad/s" />
         <div class={isHeld ? "sm held" : "sm t2"} role="status">
           {isHeld && `Driving ${topic ?? ""}. Let go to stop.`}
-          {!isHeld && (topic === null ? `Nothing listens to ${session.drive_topic ?? "velocities"} yet.` : "Hold a slider to drive; let go to stop.")}
+          {!isHeld && (!canControl({ session }) ? LOOKS_ONLY : topic === null ? `Nothing listens to ${session.drive_topic ?? "velocities"} yet.` : "Hold a slider to drive; let go to stop.")}
         </div>
       </div>
     </div>

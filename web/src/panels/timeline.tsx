@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 
+import { canControl } from "../app/looking";
 import { Button } from "../theme/button";
 import { Select } from "../theme/select";
 import { StatusShape } from "../theme/status_shape";
@@ -99,9 +100,9 @@ function Head({ state, span, share }: ShareProps & { readonly state: TimelineSta
   return (
     <div
       ref={area}
-      class={span.isSeekable ? "headarea" : "headarea fixed"}
+      class={state.canSeek() ? "headarea" : "headarea fixed"}
       onPointerDown={(event) => {
-        if (!span.isSeekable) return;
+        if (!state.canSeek()) return;
         event.currentTarget.setPointerCapture(event.pointerId);
         state.scrub.value = now;
         drag(event);
@@ -119,12 +120,12 @@ function Head({ state, span, share }: ShareProps & { readonly state: TimelineSta
         aria-valuemax={span.end}
         aria-valuenow={now}
         aria-valuetext={timeText(now)}
-        aria-disabled={!span.isSeekable}
+        aria-disabled={!state.canSeek()}
         tabIndex={0}
         style={{ left: share(now), "--at": share(now) }}
         onKeyDown={(event) => {
           const to = keys[event.key];
-          if (to === undefined || !span.isSeekable) return;
+          if (to === undefined || !state.canSeek()) return;
           event.preventDefault();
           go(to);
         }}
@@ -151,7 +152,7 @@ function Lane({ name, children }: { readonly name: string; readonly children: JS
 /** A mark, whose name is edited in place; an empty name removes it. */
 function MarkFlag({ state, mark, left }: { readonly state: TimelineState; readonly mark: Mark; readonly left: string }): JSX.Element {
   return (
-    <span class="mark-flag" style={{ left }} onClick={() => state.span()?.isSeekable === true && state.seek(mark.time)}>
+    <span class="mark-flag" style={{ left }} onClick={() => state.canSeek() && state.seek(mark.time)}>
       <TextField label={`Mark at ${timeText(mark.time)}`} class="small bare" value={mark.name} onCommit={(name) => state.rename(mark, name.trim())} />
     </span>
   );
@@ -165,15 +166,19 @@ function Actions({ page }: PanelProps): JSX.Element | null {
   const speed = Object.entries(SPEEDS).find(([, factor]) => factor === (world?.speed ?? null))?.[0] ?? `${world?.speed ?? 1}×`;
   return (
     <>
-      <Button small icon={isPaused ? "play" : "pause"} disabled={world === null} onClick={() => state.do(isPaused ? "play" : "pause")}>
-        {isPaused ? "Play" : "Pause"}
-      </Button>
-      <Button small icon="step" label="Step 1" disabled={world === null} onClick={() => state.do("step", { count: 1 })} />
-      <Select label="Speed" value={speed} choices={Object.keys(SPEEDS)} onChange={(name) => state.do("speed", { factor: SPEEDS[name] ?? null })} />
+      {canControl(page) && (
+        <>
+          <Button small icon={isPaused ? "play" : "pause"} disabled={world === null} onClick={() => state.do(isPaused ? "play" : "pause")}>
+            {isPaused ? "Play" : "Pause"}
+          </Button>
+          <Button small icon="step" label="Step 1" disabled={world === null} onClick={() => state.do("step", { count: 1 })} />
+          <Select label="Speed" value={speed} choices={Object.keys(SPEEDS)} onChange={(name) => state.do("speed", { factor: SPEEDS[name] ?? null })} />
+        </>
+      )}
       <Button small icon="plus" disabled={world === null} onClick={() => state.mark()}>
         Mark
       </Button>
-      {world?.timeline !== undefined && (
+      {world?.timeline !== undefined && canControl(page) && (
         <Button small onClick={() => state.seek((world.timeline?.end_ns ?? 0) / 1e9)}>
           To the end
         </Button>

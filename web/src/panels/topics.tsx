@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 
+import { canControl, Controls } from "../app/looking";
 import { Button } from "../theme/button";
 import { Combo } from "../theme/combo";
 import type { Panel, PanelProps } from "./panel";
@@ -79,7 +80,9 @@ function TopicDetail({ page, state, topic }: DetailProps): JSX.Element {
       <div class="scroll">
         {view === "echo" && <TopicEcho connection={page.connection} topic={topic} />}
         {view === "publish" && name.startsWith("/") && type !== "" && (
-          <TopicPublish key={`${name} ${type}`} publication={state.publication(name, type)} />
+          <Controls page={page}>
+            <TopicPublish key={`${name} ${type}`} publication={state.publication(name, type)} />
+          </Controls>
         )}
       </div>
     </>
@@ -115,9 +118,11 @@ function Actions({ page }: PanelProps): JSX.Element {
   const state = topicsState(page);
   return (
     <>
-      <Button small icon="plus" onClick={() => void (state.selected.value = NEW)}>
-        Publish
-      </Button>
+      {canControl(page) && (
+        <Button small icon="plus" onClick={() => void (state.selected.value = NEW)}>
+          Publish
+        </Button>
+      )}
       <FilterButton on={state.isFiltering} text={state.filter} />
     </>
   );

@@ -88,6 +88,13 @@ export interface RequestAnswer {
   readonly meshes?: readonly string[];
 }
 
+/** What a person has selected in the simulated world, as the others are shown it. */
+export type SharedSelection =
+  | { readonly kind: "model"; readonly model: string }
+  | { readonly kind: "link"; readonly model: string; readonly link: string }
+  | { readonly kind: "joint"; readonly model: string; readonly joint: string }
+  | { readonly kind: "light"; readonly light: string };
+
 export interface Connection {
   readonly state: ReadonlySignal<ConnectionState>;
   readonly topics: ReadonlySignal<ReadonlyMap<string, TopicInfo>>;
@@ -128,4 +135,6 @@ export interface Connection {
   saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean>;
   drive(topic: string, linear: number, angular: number): void;
   release(topic: string): void;
+  /** Show the others what is selected here. */
+  present(selection: SharedSelection | null): void;
 }

@@ -1,6 +1,6 @@
 /** The connection to the page's server. */
 
-import type { Connection, ParameterValue, Received, RequestAnswer, Subscription, TopicStatistics } from "./connection";
+import type { Connection, ParameterValue, Received, RequestAnswer, SharedSelection, Subscription, TopicStatistics } from "./connection";
 import { Calls } from "./calls";
 import { Decoder, type DecodePort } from "./decoder";
 import { Notices } from "./notices";
@@ -121,6 +121,10 @@ export class FoxgloveConnection implements Connection {
 
   release(topic: string): void {
     this.#socket.send({ op: "trundle/release", topic });
+  }
+
+  present(selection: SharedSelection | null): void {
+    this.#socket.send({ op: "trundle/presence", selection });
   }
 
   #receiveText(data: string): void {

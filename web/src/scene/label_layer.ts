@@ -20,6 +20,7 @@ class SceneLabel implements Label {
     readonly anchor: Object3D,
     text: string,
     private readonly layer: LabelLayer,
+    readonly colour?: string,
   ) {
     this.shown = text;
   }
@@ -57,8 +58,8 @@ export class LabelLayer {
     Object.assign(this.canvas.style, { position: "absolute", inset: "0", width: "100%", height: "100%", pointerEvents: "none" });
   }
 
-  add(anchor: Object3D, text: string): Label {
-    const label = new SceneLabel(anchor, text, this);
+  add(anchor: Object3D, text: string, colour?: string): Label {
+    const label = new SceneLabel(anchor, text, this, colour);
     this.labels.add(label);
     this.onChange();
     return label;
@@ -105,9 +106,20 @@ export class LabelLayer {
     label.corner = corner;
     this.boxes.set(label, box);
     const colour = (token: string): string => style.getPropertyValue(token).trim() || "#888";
-    drawLeader(context, request, box, request.hovered ? colour("--accent") : colour("--text-3"));
+    drawLeader(context, request, box, colour(label.colour ?? (request.hovered ? "--accent" : "--text-3")));
     context.textBaseline = "middle";
     const middle = box.y + box.height / 2 + 0.5;
+    if (label.colour !== undefined) {
+      context.fillStyle = colour(label.colour);
+      context.beginPath();
+      context.roundRect(box.x, box.y + 1, box.width, box.height - 2, 4);
+      context.fill();
+      context.font = `600 ${SIZE}px ${font}`;
+      context.fillStyle = colour("--on-person");
+      context.fillText(label.text, box.x + PADDING, middle);
+      context.font = `${SIZE}px ${font}`;
+      return;
+    }
     if (request.hovered) {
       context.fillStyle = colour("--panel");
       context.strokeStyle = colour("--accent");
@@ -139,11 +151,13 @@ export class LabelLayer {
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
       if (at === null || at.x < 0 || at.y < 0 || at.x > size.width || at.y > size.height) continue;
       const hovered = label === this.hovered;
-      if (hovered) context.font = `600 ${SIZE}px ${font}`;
+      const isBoxed = hovered || label.colour !== undefined;
+      if (isBoxed) context.font = `600 ${SIZE}px ${font}`;
       let width = context.measureText(label.text).width + 4;
       context.font = `${SIZE}px ${font}`;
-      if (hovered) width += 2 * PADDING + (label.detail === "" ? 0 : context.measureText(label.detail).width + PADDING);
-      seen.push({ label, request: { x: at.x, y: at.y, width, distance: at.z, hovered, corner: label.corner } });
+      if (isBoxed) width += 2 * PADDING - 4;
+      if (hovered) width += 4 + (label.detail === "" ? 0 : context.measureText(label.detail).width + PADDING);
+      seen.push({ label, request: { x: at.x, y: at.y, width, distance: at.z, hovered: isBoxed, corner: label.corner } });
     }
     return seen;
   }

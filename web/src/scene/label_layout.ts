@@ -26,6 +26,7 @@ export interface LabelRequest {
   readonly width: number;
   /** Distance to the camera: nearer labels come first. */
   readonly distance: number;
+  /** True: it comes first, and always has a place; that of a person's name, too. */
   readonly hovered: boolean;
   /** Corner of the last time, so that labels do not jump; −1: none. */
   readonly corner: number;

@@ -115,5 +115,6 @@ export interface SceneView {
   ray(x: number, y: number): Ray;
   /** Where a point of the element meets the plane z = 0 of the fixed frame. */
   pickGround(x: number, y: number): Vector3 | null;
-  addLabel(anchor: Object3D, text: string): Label;
+  /** `colour`: token of a colour that the label is filled with. */
+  addLabel(anchor: Object3D, text: string, colour?: `--${string}`): Label;
 }

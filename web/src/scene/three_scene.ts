@@ -105,8 +105,8 @@ export class ThreeScene implements SceneView {
     return this.picker.pickGround(this.camera.peek(), this.size.peek(), x, y);
   }
 
-  addLabel(anchor: Object3D, text: string): Label {
-    return this.labels.add(anchor, text);
+  addLabel(anchor: Object3D, text: string, colour?: `--${string}`): Label {
+    return this.labels.add(anchor, text, colour);
   }
 
   picture(width: number, height: number): HTMLCanvasElement {

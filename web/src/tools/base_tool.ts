@@ -31,6 +31,7 @@ export abstract class BaseTool implements Tool {
   abstract readonly shortcut: string;
   abstract readonly icon: string;
   readonly cursor: string = "crosshair";
+  readonly acts: boolean = false;
   readonly properties: Property<unknown>[] = [];
   readonly hint = signal("");
   /** Keys of the file that are not ours, kept as they were. */

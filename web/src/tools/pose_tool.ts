@@ -15,6 +15,7 @@ const PROPORTIONS = { shaftLength: 2, shaftDiameter: 0.2, headLength: 0.5, headD
 const LENGTH = 0.12;
 
 export abstract class PoseTool extends BaseTool {
+  override readonly acts = true;
   protected abstract readonly color: Rgb;
   private start: Vector3 | null = null;
   private yaw = 0;

@@ -7,6 +7,7 @@ import type { PointerInput } from "./tool";
 const TYPE = "geometry_msgs/PointStamped";
 
 export class PublishPoint extends BaseTool {
+  override readonly acts = true;
   readonly className = "rviz/PublishPoint";
   readonly name = "Publish Point";
   readonly shortcut = "u";

@@ -23,6 +23,8 @@ export interface Tool {
   readonly icon: string;
   readonly properties: readonly Property<unknown>[];
   readonly cursor: string;
+  /** True: it publishes. */
+  readonly acts: boolean;
   /** What a person does next, for the hint. */
   readonly hint: ReadonlySignal<string>;
   activate(): void;

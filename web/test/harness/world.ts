@@ -18,7 +18,7 @@ const connection = new FakeConnection();
 const scene = new ThreeScene(host);
 const frames = { frames: signal([]), describe: () => [], lookup: () => new NoTransform("", "") };
 const world = new WorldFeed(connection, scene, frames, signal("world"));
-const outlined = signal<Outlined>({ thin: [], broad: [] });
+const outlined = signal<readonly Outlined[]>([]);
 new SelectionOutline(scene, world, () => outlined.value);
 const views = new ViewList(scene, () => null);
 

@@ -143,6 +143,7 @@ class LaunchSession:
                 port=options.view_port,
                 reserved_ports=reserved_ports(read.plan),
                 allowed=options.allowed,
+                needs_token=options.view_only,
             ),
             graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
             source=next(iter(read.plan.files), None),

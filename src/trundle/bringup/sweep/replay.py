@@ -2,7 +2,7 @@
 
 import sys
 
-from trundle.page_address import AllowedNames, PageAddress
+from trundle.page_address import PageAddress
 from trundle.physics import SimulationUnstableError
 from trundle.spatial import NS_PER_S
 from trundle.trials import Plan, Row, Rows
@@ -15,15 +15,13 @@ from .trial import TrialRunner
 _IDLE_S = 0.02
 
 
-def replay(plan: Plan, number: int, *, headless: bool, port: int | None, allowed: AllowedNames) -> int:
+def replay(plan: Plan, number: int, at: PageAddress | None) -> int:
     """Run a row again and print its values and its result; return the exit code.
 
     Args:
         plan: as read.
         number: of the row.
-        headless: no page.
-        port: of the page; None: 8080 or a free one.
-        allowed: hosts and origins that the page serves beside its own.
+        at: address of the page; None: no page.
 
     Raises:
         TrundleError: there is no such row, or its world cannot be read.
@@ -33,9 +31,9 @@ def replay(plan: Plan, number: int, *, headless: bool, port: int | None, allowed
     result = runner.run(row)
     measures = [f"  {name} = {value}" for name, value in result.measures.items()]
     say("\n".join([f"{result.status}{f': {result.reason}' if result.reason else ''}", *measures]))
-    if headless:
+    if at is None:
         return 0 if result.status == "ok" else 1
-    return _show(plan, row, runner, PageAddress(host="127.0.0.1", port=port, allowed=allowed))
+    return _show(plan, row, runner, at)
 
 
 def _show(plan: Plan, row: Row, runner: TrialRunner, at: PageAddress) -> int:

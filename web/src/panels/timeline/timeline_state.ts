@@ -2,6 +2,7 @@
 
 import { signal } from "@preact/signals";
 
+import { canControl } from "../../app/looking";
 import type { Page } from "../../app/page";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
@@ -59,6 +60,11 @@ export class TimelineState {
     }
     const end = timeline.end_ns / NS;
     return { start: timeline.start_ns / NS, end, known: end, isSeekable: true };
+  }
+
+  /** True if a person may go to a time. */
+  canSeek(): boolean {
+    return this.span()?.isSeekable === true && canControl(this.page);
   }
 
   /** Time of the head [s]. */

@@ -1,4 +1,7 @@
-/** Outlines of what is selected: thin around a model, broad around a link; seen through what is before it. */
+/**
+ * Outlines of what is selected, here and by others: thin around a model, broad around a link; seen through what is before
+ * it.
+ */
 
 import { effect } from "@preact/signals";
 import {
@@ -9,8 +12,10 @@ import {
 import type { SimulatedWorld } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 
-const THIN = 2;
-const BROAD = 3;
+/** Layer of the first outline's thin part; its broad part has the next one, and each further outline two more. */
+const FIRST_LAYER = 2;
+/** three.js has 32 layers. */
+const MOST = 15;
 /** [px] */
 const WIDTHS = [1, 2];
 /** What an outline needs around its object [device px]. */
@@ -43,10 +48,20 @@ void main() {
   gl_FragColor = vec4(colour, max(edge.r, edge.g));
 }`;
 
-/** Bodies with outlines. */
+/** Bodies with outlines of one colour. */
 export interface Outlined {
   readonly thin: readonly number[];
   readonly broad: readonly number[];
+  /** Token of the colour. */
+  readonly colour: `--${string}`;
+}
+
+/** Objects that have outlines of one colour. */
+interface Marked {
+  readonly objects: readonly Object3D[];
+  readonly colour: string;
+  /** Layer of the thin parts. */
+  readonly layer: number;
 }
 
 export class SelectionOutline {
@@ -56,14 +71,14 @@ export class SelectionOutline {
   private readonly quadCamera = new OrthographicCamera();
   private readonly material: ShaderMaterial;
   private readonly size = new Vector2();
-  private marked: Object3D[] = [];
+  private marked: readonly Marked[] = [];
   private readonly stops: (() => void)[];
 
-  /** `outlined` is called again when a signal changes that it reads. */
+  /** `outlined` is called again when a signal changes that it reads; the last outline lies on top. */
   constructor(
     private readonly scene: ThreeScene,
     world: SimulatedWorld,
-    outlined: () => Outlined,
+    outlined: () => readonly Outlined[],
   ) {
     this.target = new WebGLRenderTarget(1, 1, { samples: scene.isSlow ? 0 : 4 });
     const uniforms = { mask: { value: this.target.texture }, pixel: { value: new Vector2() }, widths: { value: new Vector2() }, colour: { value: new Color() } };
@@ -88,53 +103,72 @@ export class SelectionOutline {
     this.material.dispose();
   }
 
-  private mark(world: SimulatedWorld, { thin, broad }: Outlined): void {
+  private mark(world: SimulatedWorld, outlined: readonly Outlined[]): void {
     const everywhere = (object: Object3D, act: (part: Object3D) => void): void => {
       object.traverse(act);
       this.scene.invalidate();
     };
-    for (const object of this.marked) {
-      everywhere(object, ({ layers }) => {
-        layers.disable(THIN);
-        layers.disable(BROAD);
-      });
-    }
-    this.marked = [];
-    for (const [bodies, layer] of [[thin, THIN], [broad, BROAD]] as const) {
-      for (const body of bodies) {
-        const object = world.object(body);
-        if (object === null) continue;
-        everywhere(object, ({ layers }) => layers.enable(layer));
-        this.marked.push(object);
+    for (const { objects, layer } of this.marked) {
+      for (const object of objects) {
+        everywhere(object, ({ layers }) => {
+          layers.disable(layer);
+          layers.disable(layer + 1);
+        });
       }
     }
+    this.marked = outlined.slice(-MOST).map(({ thin, broad, colour }, index): Marked => {
+      const layer = FIRST_LAYER + 2 * index;
+      const objects: Object3D[] = [];
+      for (const [bodies, part] of [[thin, layer], [broad, layer + 1]] as const) {
+        for (const body of bodies) {
+          const object = world.object(body);
+          if (object === null) continue;
+          everywhere(object, ({ layers }) => layers.enable(part));
+          objects.push(object);
+        }
+      }
+      return { objects, colour, layer };
+    });
   }
 
   private draw(renderer: WebGLRenderer, camera: Camera): void {
-    if (this.marked.length === 0) return;
+    if (this.marked.every(({ objects }) => objects.length === 0)) return;
     renderer.getDrawingBufferSize(this.size);
     if (this.target.width !== this.size.x || this.target.height !== this.size.y) this.target.setSize(this.size.x, this.size.y);
     const { mask: layers } = camera.layers;
     const [clear, alpha] = [renderer.getClearColor(new Color()), renderer.getClearAlpha()];
-    const bounds = this.findBounds(camera);
-    renderer.setClearColor(0x000000, 0);
     this.target.scissorTest = true;
+    for (const marked of this.marked) {
+      if (marked.objects.length === 0) continue;
+      const bounds = this.findBounds(camera, marked.objects);
+      renderer.setClearColor(0x000000, 0);
+      this.drawMask(renderer, camera, bounds, marked.layer);
+      camera.layers.mask = layers;
+      renderer.setClearColor(clear, alpha);
+      this.drawEdges(renderer, bounds, marked.colour);
+    }
+  }
+
+  /** Draw what has outlines into the mask. */
+  private drawMask(renderer: WebGLRenderer, camera: Camera, bounds: Vector4, layer: number): void {
     this.target.scissor.set(bounds.x - MARGIN, bounds.y - MARGIN, bounds.z + 2 * MARGIN, bounds.w + 2 * MARGIN);
     renderer.setRenderTarget(this.target);
     renderer.clear();
     renderer.autoClear = false;
     this.scene.scene.overrideMaterial = this.fill;
-    for (const [layer, colour] of [[THIN, 0xff0000], [BROAD, 0xffff00]] as const) {
-      camera.layers.set(layer);
+    for (const [part, colour] of [[layer, 0xff0000], [layer + 1, 0xffff00]] as const) {
+      camera.layers.set(part);
       this.fill.color.set(colour);
       renderer.render(this.scene.scene, camera);
     }
-    camera.layers.mask = layers;
     this.scene.scene.overrideMaterial = null;
     renderer.setRenderTarget(null);
-    renderer.setClearColor(clear, alpha);
+  }
+
+  /** Draw the outlines of the mask over the picture. */
+  private drawEdges(renderer: WebGLRenderer, bounds: Vector4, token: string): void {
     const ratio = renderer.getPixelRatio();
-    this.setUniforms(ratio);
+    this.setUniforms(ratio, token);
     renderer.setScissor(bounds.divideScalar(ratio));
     renderer.setScissorTest(true);
     renderer.render(this.quad, this.quadCamera);
@@ -143,9 +177,9 @@ export class SelectionOutline {
   }
 
   /** Rectangle of the picture that holds the outlines: x, y from below, width, height [device px]. */
-  private findBounds(camera: Camera): Vector4 {
+  private findBounds(camera: Camera, objects: readonly Object3D[]): Vector4 {
     const all = new Box3();
-    for (const object of this.marked) all.expandByObject(object);
+    for (const object of objects) all.expandByObject(object);
     const { x: width, y: height } = this.size;
     const rectangle = new Box2();
     for (let i = 0; i < 8 && !all.isEmpty(); i += 1) {
@@ -160,11 +194,11 @@ export class SelectionOutline {
     return new Vector4(Math.floor(min.x), Math.floor(min.y), Math.ceil(max.x - min.x) + 1, Math.ceil(max.y - min.y) + 1);
   }
 
-  private setUniforms(ratio: number): void {
+  private setUniforms(ratio: number, token: string): void {
     const { pixel, widths, colour } = this.material.uniforms;
     (pixel?.value as Vector2).set(1 / this.size.x, 1 / this.size.y);
     (widths?.value as Vector2).fromArray(WIDTHS).multiplyScalar(ratio);
-    const accent = getComputedStyle(this.scene.element).getPropertyValue("--accent").trim() || "#3fbed0";
-    (colour?.value as Color).set(accent).convertLinearToSRGB();
+    const shown = getComputedStyle(this.scene.element).getPropertyValue(token).trim() || "#3fbed0";
+    (colour?.value as Color).set(shown).convertLinearToSRGB();
   }
 }

@@ -1,0 +1,56 @@
+"""Refusals to clients that may look and change nothing: only the operations listed here are done."""
+
+from .connection import Connection
+from .owner import respond
+from .protocol import (
+    CLIENT_SERVICE_CALL,
+    ERROR,
+    SERVICE_HEADER,
+    ClientOperation,
+    FetchAsset,
+    GetParameters,
+    PageRequest,
+    Presence,
+    Subscribe,
+    SubscribeConnectionGraph,
+    SubscribeParameterUpdates,
+    Unsubscribe,
+    UnsubscribeConnectionGraph,
+    UnsubscribeParameterUpdates,
+)  # fmt: skip
+from .requests import Definition
+
+REFUSAL = "this link only allows looking"
+_LOOKING = (
+    Subscribe, Unsubscribe, GetParameters, SubscribeParameterUpdates, UnsubscribeParameterUpdates,
+    SubscribeConnectionGraph, UnsubscribeConnectionGraph, FetchAsset, Presence, PageRequest,
+)  # fmt: skip
+"""Operations that change nothing; `allows_request` decides on requests."""
+
+
+def allows(client: Connection, operation: ClientOperation) -> bool:
+    """Return True if a client may do an operation; otherwise a status message says why not."""
+    if not client.is_view_only or isinstance(operation, _LOOKING):
+        return True
+    client.send_status(ERROR, REFUSAL)
+    return False
+
+
+def allows_request(client: Connection, client_id: int | str, action: object) -> bool:
+    """Return True if a client may make a request; otherwise answer it."""
+    if not client.is_view_only or isinstance(action, Definition):
+        return True
+    respond(client, client_id, REFUSAL)
+    return False
+
+
+def allows_binary(client: Connection, message: bytes) -> bool:
+    """Return True if a client may publish and call services; otherwise it gets the reason."""
+    if not client.is_view_only:
+        return True
+    if message[:1] == bytes((CLIENT_SERVICE_CALL,)) and len(message) >= SERVICE_HEADER.size:
+        _, service_id, call_id, _ = SERVICE_HEADER.unpack_from(message)
+        client.send_json({"op": "serviceCallFailure", "serviceId": service_id, "callId": call_id, "message": REFUSAL})
+    else:
+        client.send_status(ERROR, REFUSAL)
+    return False

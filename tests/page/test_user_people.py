@@ -1,0 +1,108 @@
+"""Two people at one simulation, the second of whom may only look; the simulation's state is checked."""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.page.world_user import WorldUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+BOX = "<geometry><box><size>0.6 0.6 0.4</size></box></geometry>"
+WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><pose>0 0 0.2 0 0 0</pose><static>1</static>
+<link name="base"><collision name="c">{BOX}</collision><visual name="v">{BOX}</visual></link></model></world></sdf>"""
+OWN_COLOUR = (10, 111, 130)
+"""--accent of the light theme, which browsers without a preference have."""
+COLOURS = ((154, 90, 0), (122, 63, 192))
+"""--person-1 and --person-2."""
+KEYS = (" ", ".", "Shift+R", "Delete", "Shift+C", "h", "w")
+
+
+@pytest.fixture(scope="module")
+def owner(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[WorldUser]:
+    """Look at a world whose page asks for its token."""
+    folder = tmp_path_factory.mktemp("yard")
+    (folder / "yard.sdf").write_text(WORLD)
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0", "--view-only")
+    with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
+        owner = WorldUser(chromium, url)
+        owner.look_down()
+        yield owner
+        owner.close()
+
+
+@pytest.fixture(scope="module")
+def viewer(chromium: Any, owner: WorldUser) -> Iterator[WorldUser]:
+    """Open the link that the other one was shown, in another profile of the browser."""
+    owner.button("Search commands, Ctrl K").click()
+    owner.page.get_by_role("combobox", name="Search commands").fill("link to this view")
+    owner.page.keyboard.press("Enter")
+    owner.button("Look only").click()
+    owner.page.get_by_text("can drive and change nothing.").wait_for()
+    link = owner.page.get_by_role("textbox", name="Link").input_value()
+    owner.page.keyboard.press("Escape")
+    viewer = WorldUser(chromium, link)
+    yield viewer
+    viewer.close()
+
+
+def test_each_sees_what_the_other_selected(owner: WorldUser, viewer: WorldUser) -> None:
+    """An outline in the other's colour, a name, and how many there are."""
+    owner.pick("crate")
+    viewer.page.keyboard.press("Escape")
+    for user in (owner, viewer):
+        user.button("2 people").wait_for()
+    viewer.until(lambda: _has(viewer, COLOURS[0]), what="for the outline of Person 1")
+    assert not _has(viewer, OWN_COLOUR)
+    viewer.pick("crate")
+    owner.until(lambda: _has(owner, COLOURS[1]), what="for the outline of Person 2")
+    owner.button("2 people").click()
+    menu = owner.page.get_by_role("menu")
+    assert re.fullmatch(r"Person 1, you\s*Person 2\s*looks only", menu.inner_text().strip())
+    menu.get_by_text("Person 2").click()
+    viewer.page.keyboard.press("Escape")
+    owner.until(lambda: not _has(owner, COLOURS[1]), what="for the outline to go")
+
+
+def test_who_may_only_look_is_told_so_and_offered_nothing_else(owner: WorldUser, viewer: WorldUser) -> None:
+    bar = viewer.page.get_by_role("banner")
+    bar.get_by_text("Looking only").hover()
+    viewer.page.get_by_role("tooltip").get_by_text("This link only allows looking.").wait_for()
+    for name in ("Play", "Step 1", "Reset", "Record"):
+        assert owner.page.get_by_role("banner").get_by_role("button", name=name, exact=True).count() == 1
+        assert bar.get_by_role("button", name=name, exact=True).count() == 0
+    tools = viewer.page.get_by_role("toolbar", name="Tools").get_by_role("button")
+    offered = [tools.nth(i).get_attribute("aria-label") for i in range(tools.count())]
+    assert offered == ["Interact", "Move camera", "Select", "Focus", "Measure"]
+    viewer.pick("crate")
+    inspector = viewer.page.locator("aside").filter(has=viewer.page.get_by_role("heading", name="crate"))
+    inspector.get_by_text("Pose").first.wait_for()
+    assert inspector.get_by_role("spinbutton").count() + inspector.get_by_role("textbox").count() == 0
+
+
+def test_keys_of_who_may_only_look_change_nothing(owner: WorldUser, viewer: WorldUser) -> None:
+    before = owner.place("crate")
+    viewer.pick("crate")
+    for keys in KEYS:
+        viewer.page.keyboard.press(keys)
+    owner.button("Play").click()
+    owner.until(lambda: not owner.is_paused)
+    viewer.page.keyboard.press(" ")
+    owner.button("Step 1").click()
+    owner.until(lambda: owner.is_paused)
+
+    assert [model["name"] for model in owner.manifest()["models"]] == ["crate"]
+    assert owner.place("crate") == before
+
+
+def _has(user: WorldUser, colour: tuple[int, int, int]) -> bool:
+    """Tell if the picture of the ground has an outline of a colour."""
+    return bool((np.abs(user.picture().astype(int) - colour) < 25).all(axis=-1).sum() > 20)
