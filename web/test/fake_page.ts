@@ -129,6 +129,16 @@ export class FakeViews implements Views {
   lookFrom(): void {
     // nothing is drawn
   }
+  readonly cameraFrame = signal(null);
+  toggleProjection(): void {
+    // nothing is drawn
+  }
+  lookThrough(): void {
+    // nothing is drawn
+  }
+  ride(): void {
+    // nothing is drawn
+  }
   follow(_target: string | null): void {
     // nothing is drawn
   }

@@ -6,6 +6,7 @@ import { useEffect, useRef } from "preact/hooks";
 
 import { Tooltips } from "../theme/tooltips";
 import { Bar } from "./bar";
+import { CameraFrame } from "./camera_frame";
 import { Dialogs } from "./dialogs";
 import type { Shell } from "./shell";
 import { Sheet } from "./sheet";
@@ -38,7 +39,12 @@ function Scene({ shell }: { readonly shell: Shell }): JSX.Element {
   });
   const lost = connection.state.value.kind === "lost";
   const isDrawn = scene.status.value.kind !== "unsupported";
-  return <main ref={host} class={`scene${lost ? " lost" : ""}${isDrawn ? "" : " none"}`} aria-label="3D scene" />;
+  return (
+    <>
+      <main ref={host} class={`scene${lost ? " lost" : ""}${isDrawn ? "" : " none"}`} aria-label="3D scene" />
+      <CameraFrame shell={shell} />
+    </>
+  );
 }
 
 function DockPanel({ shell }: { readonly shell: Shell }): JSX.Element {

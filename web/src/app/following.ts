@@ -22,7 +22,7 @@ export function toggleFollowing(page: Page): void {
 }
 
 /** Frame or body (`model::link`) of a selection; null: it has none. */
-function targetOf(page: Page, selection: Selection | null): string | null {
+export function targetOf(page: Page, selection: Selection | null): string | null {
   switch (selection?.kind) {
     case "frame":
       return selection.frame;
@@ -43,7 +43,7 @@ function firstLink(page: Page, model: string): string | null {
 }
 
 /** The simulated robot, else the frame of a graph that is a robot's root by REP 105. */
-function robotTarget(page: Page): string | null {
+export function robotTarget(page: Page): string | null {
   const robot = simulatedRobot(page);
   if (robot !== undefined) return firstLink(page, robot.name);
   return ["base_footprint", "base_link"].find((frame) => page.frames.frames.peek().includes(frame)) ?? null;

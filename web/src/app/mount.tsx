@@ -1,6 +1,6 @@
 /** Draw a page into an element. */
 
-import { effect, signal, type Signal } from "@preact/signals";
+import { effect, signal, untracked, type Signal } from "@preact/signals";
 import { render } from "preact";
 
 import "../theme/tokens.css";
@@ -19,6 +19,7 @@ import { editorCommands } from "../editor/editor_commands";
 import type { Panel } from "../panels/panel";
 import { App } from "./app";
 import { modelCommands } from "./model_edits";
+import { cameraCommands } from "./first_person";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedRviz } from "./open_rviz";
 import type { Page } from "./page";
@@ -45,6 +46,14 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
   shell.layout.listen();
   commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
   rememberShown(page);
+  let removeCameras = (): void => undefined;
+  effect(() => {
+    const cameras = cameraCommands(page);
+    untracked(() => {
+      removeCameras();
+      removeCameras = commands.add(...cameras);
+    });
+  });
   listenForKeys(commands);
   acceptDroppedRviz(shell);
   effect(() => {

@@ -1,5 +1,6 @@
 /** Commands of the page: its panels, the view, undo. */
 
+import { toggleFirstPerson } from "./first_person";
 import { toggleFollowing } from "./following";
 import { frameSelection } from "./framing";
 import { canControl } from "./looking";
@@ -24,6 +25,8 @@ export function pageCommands(shell: Shell): readonly Command[] {
   return [
     command("frame", "View", "Frame what is selected", () => frameSelection(page, page.selection.peek()), "F"),
     command("follow", "View", "Follow what is selected, or stop", () => toggleFollowing(page), "Shift F"),
+    command("projection", "View", "Perspective or orthographic", () => views.toggleProjection()),
+    command("first_person", "View", "First person from what is selected, or the robot", () => toggleFirstPerson(page)),
     command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
     command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),

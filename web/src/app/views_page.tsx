@@ -7,13 +7,14 @@ import type { ViewController } from "../scene/view_controller";
 import { Button } from "../theme/button";
 import { Select } from "../theme/select";
 import { Tree } from "../theme/tree";
+import { lookThrough, toggleFirstPerson } from "./first_person";
 import { isFollowing, toggleFollowing } from "./following";
 import { frameSelection } from "./framing";
 import type { Page } from "./page";
 import { propertyRows } from "./property_rows";
 import type { Shell } from "./shell";
 
-const short = (className: string): string => className.replace(/^rviz\//, "");
+const short = (className: string): string => className.replace(/^\w+\//, "");
 const SIDES = ["front", "back", "left", "right", "top", "bottom"] as const;
 
 export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -30,7 +31,7 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
     <div class="scroll">
       <div class="kind">
         <span class="t2">Type</span>
-        <Select label="Type of view" value={short(current.className)} choices={views.classes.map(short)} onChange={use} />
+        <Select label="Type of view" value={short(current.className)} choices={typesOf(views)} onChange={use} />
         <Button small onClick={() => frameSelection(page, page.selection.peek())}>
           Frame
         </Button>
@@ -50,6 +51,22 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
           {SIDES.map((side) => (
             <Button key={side} small tone="line" onClick={() => views.lookFrom(side)}>
               {side.slice(0, 1).toUpperCase() + side.slice(1)}
+            </Button>
+          ))}
+        </div>
+      </section>
+      <section class="sec">
+        <h2>Look as</h2>
+        <div class="sides">
+          <Button small tone="line" onClick={() => views.toggleProjection()}>
+            {isOrthographic(current) ? "Perspective" : "Orthographic"}
+          </Button>
+          <Button small tone="line" on={current.className === "rviz/FrameAligned" && isFollowing(page)} onClick={() => toggleFirstPerson(page)}>
+            First person
+          </Button>
+          {page.world.manifest.value?.cameras.map((camera) => (
+            <Button key={camera.topic} small tone="line" icon="camera" onClick={() => lookThrough(page, camera)}>
+              {camera.name}
             </Button>
           ))}
         </div>
@@ -76,6 +93,16 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
       </section>
     </div>
   );
+}
+
+/** A simulated camera is a view that has no type of its own to choose. */
+function typesOf({ classes, current }: Page["views"]): readonly string[] {
+  const own = current.value.className;
+  return [...classes, ...(classes.includes(own) ? [] : [own])].map(short);
+}
+
+function isOrthographic({ properties }: ViewController): boolean {
+  return properties.some(({ name, value }) => name === "Projection" && value.value === "Orthographic");
 }
 
 function saveView({ page }: Shell): void {

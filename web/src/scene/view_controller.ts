@@ -3,7 +3,10 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Vector3 } from "three";
 
-import type { Property, YamlMapping } from "../displays/properties";
+import type { Property, Triple, YamlMapping } from "../displays/properties";
+
+import type { Area } from "./free_area";
+import type { CameraInfo } from "./simulated_world";
 
 export type SixSides = "front" | "back" | "left" | "right" | "top" | "bottom";
 
@@ -18,6 +21,8 @@ export interface ViewController {
 
 export interface Views {
   readonly current: ReadonlySignal<ViewController>;
+  /** Where the picture of the camera is that is looked through [px]; null: none is. */
+  readonly cameraFrame: ReadonlySignal<Area | null>;
   readonly classes: readonly string[];
   readonly saved: Signal<readonly ViewController[]>;
   use(className: string): void;
@@ -28,6 +33,12 @@ export interface Views {
   frame(box: Box3): void;
   focus(point: Vector3): void;
   lookFrom(side: SixSides): void;
+  /** Switch between perspective and none, around the same point. */
+  toggleProjection(): void;
+  /** Look through a simulated camera on a link, `model::link`. */
+  lookThrough(camera: CameraInfo, link: string): void;
+  /** Look ahead from a point of a frame or body (`model::link`), turning with it. */
+  ride(target: string, from: Triple): void;
   /** Keep a body (`model::link`) or frame in the middle; null: stop. */
   follow(target: string | null): void;
   /** The `Views` mapping of an .rviz file. */

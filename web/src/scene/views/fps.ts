@@ -25,7 +25,7 @@ export class Fps extends View {
   readonly roll = this.add(new NumberProperty("Roll", 0, { unit: "rad" }));
   readonly yaw = this.add(new NumberProperty("Yaw", Math.PI / 4, { unit: "rad" }));
 
-  override place(camera: PerspectiveCamera | OrthographicCamera, target: Transform): void {
+  override place(camera: PerspectiveCamera | OrthographicCamera, target: Transform, _picture: Picture): void {
     const { orientation } = this.frameOf(target);
     camera.position.copy(this.eye(target));
     camera.quaternion.copy(orientation).multiply(this.turn()).multiply(LENS);

@@ -4,7 +4,7 @@ import type { Transform } from "../../frames/transform";
 import { Fps } from "./fps";
 
 export class FrameAligned extends Fps {
-  override readonly className = "rviz/FrameAligned";
+  override readonly className: string = "rviz/FrameAligned";
 
   protected override frameOf(target: Transform): Transform {
     return target;

@@ -1,10 +1,11 @@
 /** rviz's Orbit: the camera circles a focal point. */
 
-import { PerspectiveCamera, Vector3, type OrthographicCamera } from "three";
+import { OrthographicCamera, Vector3, type PerspectiveCamera } from "three";
 
 import type { Transform } from "../../frames/transform";
 import { NumberProperty, VectorProperty } from "../../displays/properties";
 import type { SixSides } from "../view_controller";
+import { ProjectionProperty } from "./projection";
 import { ORIGIN, SIDES, triple, View, wrapAngle, type Motion, type Picture } from "./view";
 
 /** Turn per pixel of a drag [rad], as in rviz. */
@@ -13,23 +14,46 @@ const STEEPEST = Math.PI / 2 - 0.001;
 const NEAREST = 0.01;
 /** Share of the free part that a framed sphere fills. */
 const FILL = 0.9;
+/** Distance of a camera without perspective [m]. */
+const FAR_AWAY = 500;
 const UP = new Vector3(0, 0, 1);
 
 export class Orbit extends View {
   readonly className: string = "rviz/Orbit";
-  readonly kind = "perspective";
+  readonly projection = this.add(new ProjectionProperty());
   readonly distance = this.add(new NumberProperty("Distance", 10, { min: NEAREST, unit: "m" }));
   readonly fieldOfView = this.add(new NumberProperty("Field of View", Math.PI / 4, { min: 0.05, max: 2.8, unit: "rad" }));
   readonly focalPoint = this.add(new VectorProperty("Focal Point", [0, 0, 0]));
   readonly yaw = this.add(new NumberProperty("Yaw", Math.PI / 4, { unit: "rad" }));
   readonly pitch = this.add(new NumberProperty("Pitch", Math.PI / 4, { min: -STEEPEST, max: STEEPEST, unit: "rad" }));
 
-  override place(camera: PerspectiveCamera | OrthographicCamera, target: Transform): void {
-    camera.position.copy(this.eye(target));
+  get kind(): "perspective" | "orthographic" {
+    return this.projection.isOrthographic ? "orthographic" : "perspective";
+  }
+
+  override place(camera: PerspectiveCamera | OrthographicCamera, target: Transform, picture: Picture): void {
     camera.up.copy(UP);
+    if (camera instanceof OrthographicCamera) {
+      this.placeFar(camera, target, picture);
+      return;
+    }
+    camera.position.copy(this.eye(target));
     camera.lookAt(this.focus(target));
     this.setRange(camera, this.distance.value.peek());
-    if (camera instanceof PerspectiveCamera) camera.fov = (this.fieldOfView.value.peek() * 180) / Math.PI;
+    camera.fov = (this.fieldOfView.value.peek() * 180) / Math.PI;
+  }
+
+  /** Look from far away, so that nothing is behind the camera; the focal point is as large as with perspective. */
+  private placeFar(camera: OrthographicCamera, target: Transform, { width, height }: Picture): void {
+    const distance = this.distance.value.peek();
+    const away = Math.max(FAR_AWAY, 4 * distance);
+    const focus = this.focus(target);
+    camera.position.copy(focus).addScaledVector(this.outward(target), away);
+    camera.lookAt(focus);
+    camera.top = distance * Math.tan(this.fieldOfView.value.peek() / 2);
+    camera.right = (camera.top * width) / height;
+    [camera.left, camera.bottom] = [-camera.right, -camera.top];
+    [camera.near, camera.far] = [0.1, 2 * away];
   }
 
   /** Unit vector from the focal point to the camera. */

@@ -1,17 +1,19 @@
 /** rviz's views: the current one, which moves the camera, and the saved ones. */
 
-import { effect, signal, type ReadonlySignal } from "@preact/signals";
+import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 import { Box3, OrthographicCamera, PerspectiveCamera, Sphere, Vector3 } from "three";
 
-import { FIXED_FRAME, isMapping, type Yaml, type YamlMapping } from "../../displays/properties";
+import { FIXED_FRAME, isMapping, type Triple, type Yaml, type YamlMapping } from "../../displays/properties";
 import type { Transform } from "../../frames/transform";
-import { freeArea } from "../free_area";
+import { freeArea, type Area } from "../free_area";
+import type { CameraInfo } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import type { SixSides, ViewController, Views } from "../view_controller";
 import { CameraMotion, SmoothPose } from "./camera_motion";
 import { Fps } from "./fps";
 import { FrameAligned } from "./frame_aligned";
 import { Orbit } from "./orbit";
+import { SensorCamera } from "./sensor_camera";
 import { ThirdPersonFollower } from "./third_person_follower";
 import { TopDownOrtho } from "./top_down_ortho";
 import { ORIGIN, type Motion, type Picture, View } from "./view";
@@ -63,6 +65,12 @@ export class ViewList implements Views {
     scene.onSide = (side) => this.lookFrom(side);
   }
 
+  readonly cameraFrame: ReadonlySignal<Area | null> = computed(() => {
+    const view = this.view.value;
+    const { width, height } = this.scene.size.value;
+    return view instanceof SensorCamera ? view.rectangle({ width, height, free: freeArea(width, height, this.scene.freeArea.value) }) : null;
+  });
+
   get current(): ReadonlySignal<View> {
     return this.view;
   }
@@ -112,6 +120,24 @@ export class ViewList implements Views {
   lookFrom(side: SixSides): void {
     if (this.view.peek().lookFrom(side) === null) this.use("rviz/Orbit");
     this.move(this.view.peek().lookFrom(side) ?? []);
+  }
+
+  toggleProjection(): void {
+    if (!(this.view.peek() instanceof Orbit)) this.use("rviz/Orbit");
+    const view = this.view.peek();
+    if (view instanceof Orbit) view.projection.toggle();
+  }
+
+  lookThrough(camera: CameraInfo, link: string): void {
+    this.show(SensorCamera.of(camera, link));
+  }
+
+  ride(target: string, from: Triple): void {
+    const view = new FrameAligned();
+    view.targetFrame.value.value = target;
+    view.position.value.value = from;
+    for (const angle of [view.roll, view.pitch, view.yaw]) angle.value.value = 0;
+    this.show(view);
   }
 
   follow(target: string | null): void {

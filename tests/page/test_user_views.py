@@ -1,0 +1,151 @@
+"""A person looks at a simulated world without perspective, as first person, through a camera; pictures are checked."""
+
+import io
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from tests.page.world_user import WorldUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+FOV, NEAR_M, WIDTH_M = 1.2, 1.9, 0.4
+"""The camera's horizontal field of view [rad], and the distance and width of the face that it sees [m]."""
+
+
+def _box(name: str, place: str, rgb: str, inside: str = "") -> str:
+    """Return a model of a cube of 0.4 m that glows in a colour."""
+    shape = f"<geometry><box><size>{WIDTH_M} {WIDTH_M} {WIDTH_M}</size></box></geometry>"
+    black = "<ambient>0 0 0 1</ambient><diffuse>0 0 0 1</diffuse>"
+    visual = f'<visual name="v">{shape}<material>{black}<emissive>{rgb} 1</emissive></material></visual>'
+    return f'<model name="{name}"><pose>{place}</pose><link name="base">{visual}{inside}</link></model>'
+
+
+EYE = f"""<sensor name="eye" type="camera"><pose>0.3 0 0 0 0 0</pose><camera><horizontal_fov>{FOV}</horizontal_fov>
+<image><width>80</width><height>60</height></image></camera></sensor>"""
+WORLD = f"""<sdf version="1.6"><world name="yard"><scene><background>0 0 0 1</background><grid>0</grid></scene>
+{_box("red", "0 0 0.2 0 0 0", "1 0 0")}{_box("blue", "-4 1 0.2 0 0 0", "0 0 1")}
+{_box("cart", "-2.4 0 0.2 0 0 0", "0 1 0", EYE)}</world></sdf>"""
+RED, BLUE, GREEN = (255, 0, 0), (0, 0, 255), (0, 255, 0)
+
+
+class Looker(WorldUser):
+    """Measures what has a colour in the whole page."""
+
+    def extent(self, colour: tuple[int, int, int]) -> tuple[int, int, int, int] | None:
+        """Left, right, top and bottom of what has a colour [px]; None: nothing has."""
+        mask = self.seen(colour)
+        rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+        return (int(columns[0]), int(columns[-1]), int(rows[0]), int(rows[-1])) if rows.size else None
+
+    def seen(self, colour: tuple[int, int, int]) -> NDArray[np.bool_]:
+        """Mask (height, width) of what has a colour."""
+        picture = np.asarray(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")).astype(int)
+        return np.asarray((np.abs(picture - colour) < 12).all(axis=-1))
+
+    def width(self, colour: tuple[int, int, int]) -> int:
+        found = self.extent(colour)
+        return 0 if found is None else found[1] - found[0] + 1
+
+    def run(self, command: str) -> None:
+        """Run a command by its name."""
+        self.page.keyboard.press("Control+k")
+        self.page.get_by_role("combobox", name="Search commands").fill(command)
+        self.page.keyboard.press("Enter")
+
+    def view(self, type_: str, **properties: float) -> None:
+        """Choose a type of view, and set properties."""
+        self.side("Views")
+        self.page.get_by_label("Type of view").select_option(type_)
+        for name, value in properties.items():
+            self.set(name.replace("_", " "), str(value))
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Looker]:
+    folder = tmp_path_factory.mktemp("yard")
+    (folder / "yard.sdf").write_text(WORLD)
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
+    with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
+        user = Looker(chromium, url)
+        user.run("Show or hide the cameras")
+        user.run("Select nothing")
+        user.side("Views")
+        yield user
+        user.close()
+
+
+def test_without_perspective_what_is_far_is_as_large_as_what_is_near(user: Looker) -> None:
+    """From the front the blue box is four metres behind the red one."""
+    user.page.get_by_role("button", name="Look from the front").click()
+    user.set("Distance [m]", "12")
+    user.until(lambda: user.width(RED) > 1.3 * user.width(BLUE) > 0)
+    user.button("Orthographic").click()
+    user.until(lambda: abs(user.width(RED) - user.width(BLUE)) <= 1 < user.width(BLUE))
+
+
+def test_each_side_is_seen_from_there(user: Looker) -> None:
+    """Without perspective: seen from the left x grows to the left, from above and from the right to the right."""
+    size = user.width(RED)
+    for name, apart in (("Left", 10.0), ("Right", -10.0)):
+        user.button(name).click()
+        user.until(lambda apart=apart: abs(_between(user, RED, BLUE) / size - apart) < 0.6, what=name)
+    user.button("Top").click()
+    user.until(lambda: abs(_between(user, RED, BLUE) / size + 10.0) < 0.6, what="Top")
+    user.button("Perspective").click()
+
+
+def _between(user: Looker, first: tuple[int, int, int], second: tuple[int, int, int]) -> float:
+    """How far the second colour lies to the right of the first [px]."""
+    a, b = user.extent(first), user.extent(second)
+    return math.nan if a is None or b is None else (b[0] + b[1] - a[0] - a[1]) / 2
+
+
+def test_first_person_looks_ahead_from_what_is_selected(user: Looker) -> None:
+    """From the cart's roof the red box is straight ahead, below the horizon, and the cart's front is below it."""
+    user.side("Inspector")
+    user.pick("cart")
+    user.run("First person from what is selected")
+
+    def is_ahead() -> bool:
+        red, middle = user.extent(RED), user.at((0, 0))
+        return (
+            red is not None
+            and abs((red[0] + red[1]) / 2 - middle[0]) < 3
+            and red[2] > middle[1]
+            and not user.width(BLUE)
+        )
+
+    user.until(is_ahead)
+    user.run("First person from what is selected")
+    user.until(lambda: user.width(GREEN) > 0)
+    user.run("Select nothing")
+
+
+def test_a_camera_is_looked_through_with_its_own_field_of_view(user: Looker) -> None:
+    """The red face, 1.9 m ahead of the eye, is as wide in the camera's frame as in its own pictures."""
+    user.side("Views")
+    user.button("eye").click()
+    frame = user.page.locator(".cameraframe").bounding_box()
+    assert frame is not None
+    assert frame["width"] / frame["height"] == pytest.approx(80 / 60, rel=0.02)
+    share = WIDTH_M / (2 * NEAR_M * math.tan(FOV / 2))
+    user.until(lambda: abs(user.width(RED) - share * frame["width"]) <= 2)
+    found = user.extent(RED)
+    assert found is not None
+    assert (found[0] + found[1]) / 2 == pytest.approx(frame["x"] + frame["width"] / 2, abs=2)
+    user.page.mouse.move(*user.at((0.5, 0.5)))
+    user.page.mouse.down()
+    user.page.mouse.move(*user.at((1, 1)), steps=3)
+    user.page.mouse.up()
+    assert user.extent(RED) == found

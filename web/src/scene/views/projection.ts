@@ -1,0 +1,24 @@
+/** Perspective or not; rviz has no such property, so that its files name it only where it differs. */
+
+import { EnumProperty, type Yaml } from "../../displays/properties";
+
+const PERSPECTIVE = "Perspective";
+const ORTHOGRAPHIC = "Orthographic";
+
+export class ProjectionProperty extends EnumProperty {
+  constructor() {
+    super("Projection", PERSPECTIVE, [PERSPECTIVE, ORTHOGRAPHIC]);
+  }
+
+  get isOrthographic(): boolean {
+    return this.value.peek() === ORTHOGRAPHIC;
+  }
+
+  toggle(): void {
+    this.value.value = this.isOrthographic ? PERSPECTIVE : ORTHOGRAPHIC;
+  }
+
+  override save(): Yaml | undefined {
+    return this.isOrthographic ? super.save() : undefined;
+  }
+}

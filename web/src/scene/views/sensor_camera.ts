@@ -1,0 +1,77 @@
+/** What a simulated camera sees: its pose on its link and its field of view; nothing moves it but the link. */
+
+import { PerspectiveCamera, type OrthographicCamera } from "three";
+
+import { NumberProperty, type YamlMapping } from "../../displays/properties";
+import type { Transform } from "../../frames/transform";
+import type { Area } from "../free_area";
+import type { CameraInfo } from "../simulated_world";
+import { FrameAligned } from "./frame_aligned";
+import type { Motion, Picture } from "./view";
+
+/** Widest angle that a picture without distortion has [rad]. */
+const WIDEST = 2.8;
+
+export class SensorCamera extends FrameAligned {
+  override readonly className: string = "trundle/Camera";
+  private readonly width = new NumberProperty("Width", 320, { unit: "px" });
+  private readonly height = new NumberProperty("Height", 240, { unit: "px" });
+  private readonly horizontal = new NumberProperty("Horizontal Field of View", 1, { unit: "rad" });
+
+  /** Look through a camera on a link, `model::link`. */
+  static of(camera: CameraInfo, link: string): SensorCamera {
+    const view = new SensorCamera();
+    const [x, y, z, roll, pitch, yaw] = camera.pose;
+    view.targetFrame.value.value = link;
+    view.position.value.value = [x, y, z];
+    view.roll.value.value = roll;
+    view.pitch.value.value = pitch;
+    view.yaw.value.value = yaw;
+    view.width.value.value = camera.width;
+    view.height.value.value = camera.height;
+    view.horizontal.value.value = Math.min(WIDEST, camera.horizontal_fov);
+    view.nearClip.value.value = camera.near;
+    return view;
+  }
+
+  /** The rectangle of the picture [px] that the camera's own picture is. */
+  rectangle({ free }: Picture): Area {
+    const aspect = this.width.value.value / this.height.value.value;
+    const width = Math.min(free.width, free.height * aspect);
+    const height = width / aspect;
+    return { left: free.left + (free.width - width) / 2, top: free.top + (free.height - height) / 2, width, height };
+  }
+
+  override place(camera: PerspectiveCamera | OrthographicCamera, target: Transform, picture: Picture): void {
+    super.place(camera, target, picture);
+    if (!(camera instanceof PerspectiveCamera)) return;
+    const focal = this.rectangle(picture).width / 2 / Math.tan(this.horizontal.value.peek() / 2);
+    camera.fov = (Math.atan(picture.height / 2 / focal) * 360) / Math.PI;
+  }
+
+  /** As rviz's FrameAligned, which rviz has. */
+  override save(): YamlMapping {
+    const halfHeight = (Math.tan(this.horizontal.value.peek() / 2) * this.height.value.peek()) / this.width.value.peek();
+    return { ...super.save(), Class: "rviz/FrameAligned", "Field of View": 2 * Math.atan(halfHeight) };
+  }
+
+  override rotate(): void {
+    // the link alone moves it
+  }
+
+  override pan(): void {
+    // the link alone moves it
+  }
+
+  override zoom(): void {
+    // the link alone moves it
+  }
+
+  override frame(): Motion[] {
+    return [];
+  }
+
+  override centre(): Motion[] {
+    return [];
+  }
+}
