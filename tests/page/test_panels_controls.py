@@ -154,7 +154,8 @@ def test_a_plot_shows_numbers_and_saves_them(graph: Graph, node: Node, user: Pan
     publisher.publish({"data": 0.125})
     user.page.locator(".legend b", has_text="0.125").wait_for()
     with user.page.expect_download() as download:
-        user.button("CSV").click()
+        user.button("Save").click()
+        user.page.get_by_role("menuitem", name="CSV").click()
     lines = download.value.path().read_text().splitlines()
     assert lines[0] == "time,/wave/data"
     values = [float(line.split(",")[1]) for line in lines[1:]]

@@ -55,6 +55,7 @@ from .streams import JOINTS as JOINTS
 from .streams import LINES as LINES
 from .streams import POSES as POSES
 from .streams import RANGES as RANGES
+from .streams import SERIES as SERIES
 from .streams import STATE as STATE
 from .streams import ClockState as ClockState
 from .streams import Line as Line

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from .connection import Connection
 from .requests import ClientAction, PageAction, RenderView, Request
-from .wire import Driven, FromServer, Respond, Watched
+from .wire import Driven, FromServer, Plotted, Respond, Watched
 from .world_requests import RenderModel
 
 MAX_IN_FLIGHT = 64
@@ -24,6 +24,7 @@ class Owner:
         self._waiting: dict[int, tuple[Connection, int | str]] = {}
         self._pictures: dict[int, asyncio.Future[Respond]] = {}
         self._watched: frozenset[str] = frozenset()
+        self._plotted: frozenset[str] = frozenset()
 
     def request(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Pass a client's request on."""
@@ -74,6 +75,12 @@ class Owner:
         if streams != self._watched:
             self._watched = streams
             self.send(Watched(streams))
+
+    def set_plotted(self, series: frozenset[str]) -> None:
+        """Report which values of the simulation some client plots."""
+        if series != self._plotted:
+            self._plotted = series
+            self.send(Plotted(tuple(sorted(series))))
 
     def set_driven(self, topics: dict[str, str]) -> None:
         """Report which topics are driven, each with its type."""

@@ -33,7 +33,7 @@ from .protocol import (
     Unsubscribe,
     operation_decoder,
 )  # fmt: skip
-from .requests import ClientAction, Definition, RenderView, SaveRvizAs
+from .requests import ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs
 from .ros_graph import RosGraph
 from .rviz_saving import save_rviz
 from .session import Session
@@ -59,11 +59,12 @@ from .world_channels import (
     contacts_channel,
     joints_channel,
     line_channels,
+    series_channel,
 )
 from .world_requests import RenderModel
 
 _NO_GRAPH = "this page has no ROS graph"
-_action_decoder = msgspec.json.Decoder(ClientAction | Definition | SaveRvizAs)
+_action_decoder = msgspec.json.Decoder(ClientAction | Definition | PlotSeries | SaveRvizAs)
 
 
 class Page:
@@ -77,6 +78,7 @@ class Page:
         self._messages = loop.messages
         self._assets = assets
         self._owner = Owner(send)
+        self._plotted: dict[Connection, frozenset[str]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._model_pictures = asyncio.Semaphore(1)
         self._session_channel = SessionChannel(self.session_json)
@@ -87,6 +89,7 @@ class Page:
         if start.bag is None:
             world = self._world
             boxes = (self._state, PosesChannel(world), joints_channel(world), contacts_channel(world), *line_channels())
+            boxes += (series_channel(),)
         self._boxes: dict[str, BoxChannel] = {box.topic: box for box in boxes}
         self.hub = Hub(
             session_id=str(time.time_ns()),
@@ -206,6 +209,7 @@ class Page:
         self.hub.remove_client(client)
         self._owner.forget(client)
         self._assets.forget(client)
+        self._plot(client, frozenset())
         self._update_watched()
 
     def receive(self, client: Connection, message: bytes, *, is_text: bool) -> None:
@@ -256,10 +260,20 @@ class Page:
         match action:
             case Definition(type_name):
                 self._start(client, client_id, self._define(client, client_id, type_name))
+            case PlotSeries(series):
+                self._plot(client, frozenset(series))
+                respond(client, client_id)
             case SaveRvizAs():
                 self._start(client, client_id, self._save_rviz(client, client_id, action))
             case _:
                 self._act(client, client_id, action)
+
+    def _plot(self, client: Connection, series: frozenset[str]) -> None:
+        """Set what a client plots."""
+        self._plotted.pop(client, None)
+        if series:
+            self._plotted[client] = series
+        self._owner.set_plotted(frozenset().union(*self._plotted.values()))
 
     def _start(self, client: Connection, client_id: int | str, work: Coroutine[None, None, None]) -> None:
         """Begin work that takes time, and that answers a client."""

@@ -30,6 +30,8 @@ from .streams import (
     LINES,
     POSES,
     RANGES,
+    SERIES,
+    SERIES_HEADER,
     STATE,
     ClockState,
     Line,
@@ -41,6 +43,7 @@ from .wire import (
     Driven,
     GraphAddress,
     OpenMailbox,
+    Plotted,
     Refused,
     Respond,
     Served,
@@ -79,6 +82,7 @@ class PageServer:
         """By whether they are to nodes of the graph."""
         self._watched: frozenset[str] = frozenset()
         self._boxes: dict[str, Mailbox] = {}
+        self._plotted: tuple[str, ...] = ()
         self._generation = 0
         self._addresses = Served(url="", foxglove_url="", view_url="")
         self._threads = [
@@ -179,6 +183,11 @@ class PageServer:
         """
         return stream in self._watched
 
+    @property
+    def plotted(self) -> tuple[str, ...]:
+        """Values of the simulation that some client plots, as `PlotSeries` names them."""
+        return self._plotted
+
     def requests(self, *, of_graph: bool | None = None) -> list[Request]:
         """Return the requests since the last call, oldest first; each is to be answered by `respond`.
 
@@ -240,6 +249,19 @@ class PageServer:
     def put_joints(self, time_ns: int, joints: NDArray[np.float64]) -> None:
         """Show the newest joints (joints, 3): position [rad or m], velocity, effort; rows as the manifest's `index`."""
         self._put_rows(JOINTS, time_ns, joints)
+
+    def put_series(self, first: int, head: Mapping[str, object], rows: NDArray[np.float64]) -> None:
+        """Show the newest rows of plotted values; those that a client has already are sent again.
+
+        Args:
+            first: number of the first row, which counts all that were put.
+            head: names of the columns, with units and faults: docs/decisions/0020.
+            rows: (rows, 1 + series): time [s] and values, NaN where there is none.
+        """
+        text = msgspec.json.encode(head)
+        self._put(
+            SERIES, [SERIES_HEADER.pack(first, len(text)), text, np.ascontiguousarray(rows).reshape(-1).view(np.uint8)]
+        )
 
     def put_lines(self, time_ns: int, lines: Iterable[Line]) -> None:
         """Show these lines and no others."""
@@ -317,12 +339,14 @@ class PageServer:
                         self._requests[isinstance(request.action, GraphAction)].append(request)
                     case Watched(streams):
                         self._watched = streams
+                    case Plotted(series):
+                        self._plotted = series
                     case Driven(topics):
                         if self._stop is not None:
                             self._stop.follow(topics)
                     case reply:
                         self._replies.put(reply)
-        self._watched = frozenset()
+        self._watched, self._plotted = frozenset(), ()
         if self._stop is not None:
             self._stop.end()
         self._replies.put(None)

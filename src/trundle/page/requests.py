@@ -93,6 +93,13 @@ class Record(Action, frozen=True):
     on: bool
 
 
+class PlotSeries(Action, frozen=True, tag="plot"):
+    """Sample these values of the simulation for `trundle/series`, and no others; the server itself answers."""
+
+    series: Annotated[tuple[Annotated[str, msgspec.Meta(max_length=1000)], ...], msgspec.Meta(max_length=64)]
+    """Names such as `rp2w::chassis.pose.x`."""
+
+
 class Definition(Action, frozen=True):
     """Text of a message type; the server itself answers."""
 

@@ -15,6 +15,7 @@ STATE = "trundle/state"
 LINES = "trundle/lines"
 CONTACTS = "trundle/contacts"
 RANGES = "trundle/ranges"
+SERIES = "trundle/series"
 DROPS = "trundle/drops"
 PEOPLE = "trundle/people"
 
@@ -23,6 +24,8 @@ ARRAY_HEADER = struct.Struct("<QII")
 contacts, (contacts, 9) f64."""
 IMAGE_HEADER = struct.Struct("<QIII")
 """Time [ns], height, width, channels, before the pixels."""
+SERIES_HEADER = struct.Struct("<QI")
+"""Number of the first row and length of the JSON that follows, before the rows (rows, 1 + series) f64."""
 LINES_HEADER = struct.Struct("<QI")
 """Time [ns] and number of lines."""
 LINE_KIND = struct.Struct("<4BII")

@@ -18,7 +18,7 @@ from .protocol import (
     UnsubscribeConnectionGraph,
     UnsubscribeParameterUpdates,
 )  # fmt: skip
-from .requests import Definition
+from .requests import Definition, PlotSeries
 
 REFUSAL = "this link only allows looking"
 _LOOKING = (
@@ -38,7 +38,7 @@ def allows(client: Connection, operation: ClientOperation) -> bool:
 
 def allows_request(client: Connection, client_id: int | str, action: object) -> bool:
     """Return True if a client may make a request; otherwise answer it."""
-    if not client.is_view_only or isinstance(action, Definition):
+    if not client.is_view_only or isinstance(action, Definition | PlotSeries):
         return True
     respond(client, client_id, REFUSAL)
     return False

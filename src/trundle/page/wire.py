@@ -122,6 +122,12 @@ class Watched(msgspec.Struct, frozen=True, tag=True):
     streams: frozenset[str]
 
 
+class Plotted(msgspec.Struct, frozen=True, tag=True):
+    """Values of the simulation that some client plots."""
+
+    series: tuple[str, ...]
+
+
 class Driven(msgspec.Struct, frozen=True, tag=True):
     """Topics of velocity commands that some client drives with, each with its type."""
 
@@ -129,7 +135,7 @@ class Driven(msgspec.Struct, frozen=True, tag=True):
 
 
 ToServer: TypeAlias = SetSession | SetNotice | AddFile | SetWorld | OpenMailbox | Respond
-FromServer: TypeAlias = Served | Refused | Request | Watched | Driven
+FromServer: TypeAlias = Served | Refused | Request | Watched | Plotted | Driven
 encoder = msgspec.msgpack.Encoder()
 start_decoder = msgspec.msgpack.Decoder(Start)
 to_server_decoder = msgspec.msgpack.Decoder(ToServer)

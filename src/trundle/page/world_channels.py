@@ -10,7 +10,7 @@ from .channel import Channel, Client
 from .mailbox import Mailbox
 from .outbox import Buffer
 from .protocol import ENCODING
-from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, POSES, RANGES, STATE, WORLD
+from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, POSES, RANGES, SERIES, STATE, WORLD
 
 _XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
 """Columns of a pose on the wire, of x y z qw qx qy qz."""
@@ -183,6 +183,11 @@ def line_channels() -> tuple[BoxChannel, ...]:
 def contacts_channel(world: WorldChannel) -> RowsChannel:
     """Channel of contacts."""
     return RowsChannel(CONTACTS, world, period_s=0.0)
+
+
+def series_channel() -> BoxChannel:
+    """Channel of plotted values, 20 Hz; each message has the rows of about a second."""
+    return BoxChannel(SERIES, encoding=SERIES.replace("/", "."), period_s=0.05)
 
 
 def joints_channel(world: WorldChannel) -> RowsChannel:

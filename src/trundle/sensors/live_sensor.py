@@ -119,8 +119,12 @@ class LiveSensor(Generic[Reading]):
             return False
 
     def listen(self, call: Callable[[Reading], None], *, enabled: Callable[[], bool] = lambda: True) -> None:
-        """Call a function with each reading while `enabled` returns True; nothing is measured without listeners."""
-        self._listeners.append(_Listener(call, enabled))
+        """Call a function with each reading while `enabled` returns True; nothing is measured without listeners.
+
+        A function that listens already keeps its place.
+        """
+        if all(listener.call != call for listener in self._listeners):
+            self._listeners.append(_Listener(call, enabled))
 
     def enabled(self) -> bool:
         """True if the sensor is always on or a listener is active."""

@@ -30,6 +30,8 @@ class FakeServer:
         self.images: list[tuple[str, int, Any]] = []
         self.pictures: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
         self.notices: list[tuple[str, str | None]] = []
+        self.plotted: tuple[str, ...] = ()
+        self.series: list[tuple[int, dict[str, Any], Any]] = []
         self.is_closed = False
 
     def ask(self, action: PageAction) -> int:
@@ -68,6 +70,9 @@ class FakeServer:
 
     def put_joints(self, time_ns: int, joints: Any) -> None:
         self.joints.append((time_ns, np.array(joints)))
+
+    def put_series(self, first: int, head: dict[str, Any], rows: Any) -> None:
+        self.series.append((first, head, np.array(rows)))
 
     def put_lines(self, time_ns: int, lines: Any) -> None:
         self.lines.append((time_ns, list(lines)))

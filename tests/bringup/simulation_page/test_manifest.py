@@ -92,7 +92,13 @@ def test_sensors_and_cameras_name_their_topics(tmp_path: Path) -> None:
 
     (link,) = found["models"][0]["links"]
     by_name = {sensor["name"]: sensor for sensor in link["sensors"]}
-    assert by_name["cam"] == {"name": "cam", "type": "camera", "rate": 5.0, "topic": "/eye/l/cam/image_raw"}
+    assert by_name["cam"] == {
+        "name": "cam",
+        "type": "camera",
+        "rate": 5.0,
+        "topic": "/eye/l/cam/image_raw",
+        "series": [],
+    }
     assert by_name["scan"]["topic"] is None  # nothing publishes it without ROS
     (camera,) = found["cameras"]
     assert (camera["name"], camera["topic"], camera["body"]) == ("cam", "/eye/l/cam/image_raw", 0)

@@ -8,6 +8,8 @@ import { Button } from "../theme/button";
 import { fixed } from "../theme/format";
 import { Slider } from "../theme/slider";
 import { jointValue, turnsFreely } from "./joint_values";
+import { JOINT_VALUES } from "../panels/plots/simulated_values";
+import { PlotMenu } from "./plot_menu";
 import type { Shell } from "./shell";
 import { NumbersRow } from "./value_rows";
 import { canEdit, editWorld, type Fields } from "./world_edits";
@@ -45,7 +47,11 @@ export function JointSection({ shell, model, joint }: { readonly shell: Shell; r
   ];
   return (
     <section class="sec">
-      <h3>Joint</h3>
+      <h3>
+        Joint
+        {joint.index !== null && <span class="sp" />}
+        {joint.index !== null && <PlotMenu shell={shell} owner={`${model}::${joint.name}`} values={JOINT_VALUES} />}
+      </h3>
       {rows.map(([name, value]) => (
         <div key={name} class="kv">
           <span>{name}</span>

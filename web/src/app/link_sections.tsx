@@ -6,6 +6,8 @@ import type { Transform } from "../frames/transform";
 import type { LinkInfo, ModelInfo } from "../scene/simulated_world";
 import { count, fixed, plain } from "../theme/format";
 import { ModelButtons, WrenchSection } from "./handling_sections";
+import { bodyValues } from "../panels/plots/simulated_values";
+import { PlotMenu } from "./plot_menu";
 import { PoseSection } from "./pose_section";
 import type { Shell } from "./shell";
 import type { Twist } from "./twist";
@@ -35,7 +37,7 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
   };
   return (
     <>
-      {first !== undefined && <PoseSection key={first} within="world" pose={() => page.world.pose(first)} onCommit={move} />}
+      {first !== undefined && <PoseSection key={first} within="world" menu={<PlotMenu shell={shell} owner={name} values={bodyValues(model)} />} pose={() => page.world.pose(first)} onCommit={move} />}
       {first !== undefined && !model.static && (
         <TwistSection key={`twist ${first}`} page={page} body={first} onCommit={canEdit(shell) ? setTwist : undefined} />
       )}
@@ -69,7 +71,7 @@ export function LinkSections({ shell, model, link, isStatic }: LinkProps): JSX.E
   const { page } = shell;
   return (
     <>
-      <PoseSection key={link.body} within="world" pose={() => page.world.pose(link.body)} onCommit={canEdit(shell) ? mover(shell, model, link) : undefined} />
+      <PoseSection key={link.body} within="world" menu={<PlotMenu shell={shell} owner={`${model}::${link.name}`} values={bodyValues({ static: isStatic })} />} pose={() => page.world.pose(link.body)} onCommit={canEdit(shell) ? mover(shell, model, link) : undefined} />
       {!isStatic && <TwistSection key={`twist ${link.body}`} page={page} body={link.body} />}
       {!isStatic && <Inertia shell={shell} model={model} link={link} />}
       {!isStatic && canEdit(shell) && <WrenchSection key={`force ${link.body}`} shell={shell} model={model} link={link.name} />}

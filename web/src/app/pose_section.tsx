@@ -16,11 +16,13 @@ const ANGLES = ["roll", "pitch", "yaw"] as const;
 interface PoseProps {
   readonly within: string;
   readonly pose: () => Transform | null;
+  /** Shown at the right of the heading. */
+  readonly menu?: JSX.Element;
   /** Moves it there; without it the numbers are only shown. */
   readonly onCommit?: ((after: Transform, before: Transform) => void) | undefined;
 }
 
-export function PoseSection({ within, pose, onCommit }: PoseProps): JSX.Element {
+export function PoseSection({ within, pose, menu, onCommit }: PoseProps): JSX.Element {
   const now = useSampled(pose);
   const angles = now === null ? null : rollPitchYaw(now.orientation);
   const move = (index: number, value: number): void => {
@@ -38,6 +40,8 @@ export function PoseSection({ within, pose, onCommit }: PoseProps): JSX.Element 
     <section class="sec">
       <h3>
         Pose <span class="dim">in {within}</span>
+        {menu !== undefined && <span class="sp" />}
+        {menu}
       </h3>
       <div class="pose">
         {AXES.map((axis, index) => (

@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 
 import { Button } from "../theme/button";
+import { MenuButton, type MenuItem } from "../theme/menu";
 import { Select } from "../theme/select";
 import type { Panel, PanelProps } from "./panel";
 import { timeText } from "./messages/format";
@@ -66,11 +67,24 @@ function Actions({ page }: PanelProps): JSX.Element {
       <Button small icon={isPaused ? "play" : "pause"} onClick={() => state.pause(!isPaused)}>
         {isPaused ? "Go on" : "Pause"}
       </Button>
-      <Button small icon="download" disabled={state.curves.length === 0} onClick={() => saveFile("plots.csv", new Blob([state.csv()], { type: "text/csv" }))}>
-        CSV
-      </Button>
+      <MenuButton class="sml" icon="download" items={() => exports(state)}>
+        Save
+      </MenuButton>
     </>
   );
+}
+
+function exports(state: PlotsState): readonly MenuItem[] {
+  const item = (title: string, suffix: string, type: string, content: () => BlobPart): MenuItem => ({
+    title,
+    disabled: state.curves.length === 0,
+    run: () => saveFile(`plots.${suffix}`, new Blob([content()], { type })),
+  });
+  return [
+    item("CSV", "csv", "text/csv", () => state.csv()),
+    item("Parquet", "parquet", "application/vnd.apache.parquet", () => state.parquet()),
+    item("SVG", "svg", "image/svg+xml", () => state.svg()),
+  ];
 }
 
 export const plotsPanel: Panel = { id: "plots", title: "Plots", programs: ["rqt_plot", "rxplot"], component: Plots, actions: Actions };

@@ -16,6 +16,8 @@ export interface SensorInfo {
   readonly type: string;
   readonly rate: number;
   readonly topic: string | null;
+  /** Values of its readings that can be plotted: `angular_velocity.z`. */
+  readonly series: readonly string[];
 }
 
 export interface LinkInfo {

@@ -19,7 +19,7 @@ function model(name: string, links: LinkInfo[], isStatic: boolean, extra: Partia
   return { name, static: isStatic, held: false, source: null, links, joints: [], plugins: [], models: [], ...extra };
 }
 
-const camera = (name: string): SensorInfo => ({ name, type: "camera", rate: 30, topic: `/${name}/image_raw` });
+const camera = (name: string): SensorInfo => ({ name, type: "camera", rate: 30, series: [], topic: `/${name}/image_raw` });
 
 const robot = model(
   "rp2w",

@@ -29,7 +29,7 @@ describe("a curve", () => {
     const list = new Curve(page, "/scan.ranges");
     page.connection.receive("/scan", { ranges: [1, 2] });
     expect(list.fault.value).toBe("This is a list of 2; choose one, as [0]");
-    expect(new Curve(page, "nonsense").fault.value).toBe("No joint nonsense is simulated");
+    expect(new Curve(fakePage({ kind: "log" }), "nonsense").fault.value).toBe("No joint nonsense is simulated");
   });
 
   test("finds its topic once that is known, and lets go of the guess", () => {
@@ -42,13 +42,54 @@ describe("a curve", () => {
     expect(page.connection.subscriptions("/a")).toBe(0);
   });
 
-  test("follows a simulated joint", () => {
-    const page = fakePage();
+  test("follows a recorded joint", () => {
+    const page = fakePage({ kind: "log" });
     page.world.manifest.value = MANIFEST;
     const curve = new Curve(page, "rp2w::camera_base_camera.velocity");
     page.world.joints.value = [0, 1].map((value) => ({ position: value, velocity: value + 0.5, effort: 0 }));
     expect([curve.fault.value, curve.points.lastX, curve.points.lastY]).toEqual(["", 12.48, 1.5]);
     expect([curve.name, curve.caption]).toEqual(["camera_base_camera.velocity", "rp2w"]);
+  });
+});
+
+describe("a curve of the simulation", () => {
+  const PATH = "rp2w::chassis.pose.x";
+  /** Rows of a time and a value. */
+  const message = (first: number, rows: readonly (readonly [number, number])[], faults: Record<string, string> = {}): DataView => {
+    const head = new TextEncoder().encode(JSON.stringify({ names: rows.length > 0 ? [PATH] : [], units: ["m"], faults }));
+    const view = new DataView(new ArrayBuffer(12 + head.length + 16 * rows.length));
+    view.setBigUint64(0, BigInt(first), true);
+    view.setUint32(8, head.length, true);
+    new Uint8Array(view.buffer).set(head, 12);
+    rows.flat().forEach((value, index) => view.setFloat64(12 + head.length + 8 * index, value, true));
+    return view;
+  };
+
+  test("is asked for while it is there, and takes each row once", () => {
+    const page = fakePage();
+    const curve = new Curve(page, PATH);
+    expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [PATH] } });
+    page.connection.receiveRaw("trundle/series", message(4, [[1, 10], [2, 20]]));
+    page.connection.receiveRaw("trundle/series", message(5, [[2, 20], [3, 30]]));
+    expect(curve.points.between(-Infinity, Infinity).map((part) => [...part])).toEqual([[1, 2, 3], [10, 20, 30]]);
+    expect([curve.unit.value, curve.fault.value]).toEqual(["m", ""]);
+    curve.close();
+    expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [] } });
+  });
+
+  test("goes on from an earlier moment without what came after it", () => {
+    const page = fakePage();
+    const curve = new Curve(page, PATH);
+    page.connection.receiveRaw("trundle/series", message(0, [[1, 10], [2, 20], [3, 30]]));
+    page.connection.receiveRaw("trundle/series", message(3, [[1.5, 15]]));
+    expect(curve.points.between(-Infinity, Infinity).map((part) => [...part])).toEqual([[1, 1.5], [10, 15]]);
+  });
+
+  test("says why there are no values", () => {
+    const page = fakePage();
+    const curve = new Curve(page, PATH);
+    page.connection.receiveRaw("trundle/series", message(0, [], { [PATH]: "it is not there" }));
+    expect(curve.fault.value).toBe("it is not there");
   });
 });
 

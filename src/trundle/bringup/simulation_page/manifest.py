@@ -17,6 +17,7 @@ from trundle.spatial import Pose, rpy_from_quaternion
 from ..scene_settings import scene_settings
 from .body_numbers import BodyNumbers
 from .handling import is_held
+from .sensor_series import SENSOR_VALUES
 
 _IMAGE = "sensor_msgs/Image"
 _Json = dict[str, Any]
@@ -145,7 +146,9 @@ def _sensor(name: str, kind: str, rate_hz: float, live: CameraSensor | Instrumen
         topic = camera_topic(live)
     else:
         topic = None if live is None else next(iter(live.topics), None)
-    return {"name": name, "type": kind, "rate": rate_hz if live is None else live.rate_hz, "topic": topic}
+    rate = rate_hz if live is None else live.rate_hz
+    series = list(SENSOR_VALUES.get(kind, ()))
+    return {"name": name, "type": kind, "rate": rate, "topic": topic, "series": series}
 
 
 def _friction(collisions: Iterable[Collision]) -> list[float] | None:

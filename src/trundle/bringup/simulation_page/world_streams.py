@@ -25,6 +25,7 @@ from .drafting import ShownDraft
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
 from .missing_meshes import missing_meshes
+from .series_sampler import SeriesSampler
 from .world_builder import BuiltWorld, WorldBuilder
 
 _MESHES = "meshes"
@@ -60,6 +61,7 @@ class WorldStreams:
         self._wall_ns = wall_ns
         self._rays = RayOverlay(lambda: server.is_watched(LINES))
         self._ranges = RayOverlay(lambda: server.is_watched(RANGES), of_all=True)
+        self._series = SeriesSampler(server)
         self._bodies = BodyNumbers()
         self._builder = WorldBuilder()
         self._generation = server.generation
@@ -114,6 +116,7 @@ class WorldStreams:
         self._rays.set_sensors(sensors)
         self._ranges.set_sensors(sensors)
         self._contacts = ContactRows(simulation, self._bodies)
+        self._series.show(simulation, sensors)
         if not self._has_graph:
             self._listen([sensor for sensor in sensors if isinstance(sensor, CameraSensor)])
 
@@ -134,6 +137,7 @@ class WorldStreams:
 
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
         """Send the page what is due: poses, lines and contacts at 30 Hz, joints and clock at 10 Hz, if watched."""
+        self._series.sample(paused=paused)
         now = self._wall_ns()
         if now < self._frame_due_ns and not at_once:
             return
@@ -141,6 +145,7 @@ class WorldStreams:
         if self._is_changed:
             self._show_world()
         self._publish_world()
+        self._series.put()
         snapshot = self._simulation.snapshot()
         server, time_ns = self._server, snapshot.time_ns
         if server.is_watched(POSES):

@@ -8,6 +8,7 @@ import { seconds, type RosMessage, type RosTime } from "../../protocol/ros_types
 import { isList, isMessage, numberAt, parsePath, stepsText, valueAt, type Step, type TopicPath } from "../messages/field_path";
 import { unitOf } from "../messages/units";
 import { RingBuffer } from "./ring_buffer";
+import { seriesFeed } from "./series_feed";
 import { simulatedJoint } from "./simulated_joints";
 
 const CAPACITY = 120_000; // points: two minutes at 1 kHz
@@ -31,6 +32,11 @@ export class Curve {
     let last = "";
     this.dispose = effect(() => {
       const found = parsePath(path, page.connection.topics.value.keys());
+      if (!path.startsWith("/") && page.session.kind === "simulation") {
+        if (last !== path) this.followSimulation();
+        last = path;
+        return;
+      }
       const joint = path.startsWith("/") ? null : simulatedJoint(page.world.manifest.value, path);
       const next = joint === null ? found && found.topic + stepsText(found.steps) : path;
       if (next === last) return;
@@ -84,6 +90,19 @@ export class Curve {
       ({ message, type, time }) => receive(message, type, time),
       { every: true, onError: (text) => void (this.fault.value = text) },
     );
+  }
+
+  private followSimulation(): void {
+    this.fault.value = "No value yet";
+    this.subscription = seriesFeed(this.page).follow(this.path, {
+      onValue: (time, value) => {
+        this.fault.value = "";
+        if (time <= (this.points.lastX ?? -Infinity)) this.points.truncate(time); // it goes on from an earlier moment
+        this.add(time, value);
+      },
+      onUnit: (unit) => void (this.unit.value = unit),
+      onFault: (text) => void (this.fault.value = text),
+    });
   }
 
   private followJoint(index: number, field: "position" | "velocity" | "effort"): void {

@@ -1,6 +1,7 @@
 /** Choose a number to plot: by its path, or from a tree of what the messages carry. */
 
 import type { JSX } from "preact";
+import { useSignal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 
 import type { Page } from "../../app/page";
@@ -12,10 +13,13 @@ import { messageRows } from "../messages/message_rows";
 import { numberAt, parseSteps, stepsText, type Step } from "../messages/field_path";
 import { numericPaths } from "../messages/numeric_paths";
 import { MessageType } from "../messages/definition";
+import { FilterField } from "../parts";
 import type { PlotsState } from "./plots_state";
 import { movingJoints } from "./simulated_joints";
+import { valueOwners } from "./simulated_values";
 
 const JOINTS = "joints";
+const MOST_FOUND = 200;
 const WAITS = " waits";
 const PERIOD = 500; // ms between drawings of the tree
 
@@ -23,7 +27,9 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
   const paths = usePaths(page);
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const messages = useMessages(page, open);
-  const rows = [...jointRows(page, open), ...topicRows(page, open, messages)];
+  const search = useSignal("");
+  const found = search.value.trim().toLowerCase();
+  const rows = [...simulatedRows(page, open, found), ...topicRows(page, open, messages).filter(({ label }) => found === "" || (label ?? "").toLowerCase().includes(found))];
   const plotted = new Map(state.curves.map((curve) => [curve.path, curve]));
   const toggle = (key: string, on: boolean): void => {
     const next = new Set(open);
@@ -46,6 +52,7 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
         <Combo label="Path of a curve" value="" choices={() => paths.map((value) => ({ value }))} onCommit={(path) => state.add(path)} />
         <Button small icon="close" label="Close" onClick={() => void (state.isAdding.value = false)} />
       </div>
+      <FilterField label="Search values" value={search} />
       <div class="scroll">
         <Tree
           label="Numbers that can be plotted"
@@ -65,7 +72,8 @@ function usePaths(page: Page): readonly string[] {
   const known = topics.value;
   useEffect(() => {
     let isOver = false;
-    const joints = movingJoints(page.world.manifest.peek()).map(({ name }) => `${name}.position`);
+    const manifest = page.world.manifest.peek();
+    const joints = page.session.kind === "simulation" ? valueOwners(manifest).flatMap(({ values }) => values) : movingJoints(manifest).map(({ name }) => `${name}.position`);
     const all = [...known.values()].map(async ({ name, type }) => {
       const text = await page.connection.definition(type).catch(() => "");
       return numericPaths(MessageType.parse(text)).map((path) => name + path);
@@ -95,6 +103,24 @@ function useMessages(page: Page, open: ReadonlySet<string>): ReadonlyMap<string,
     };
   }, [page, open]);
   return messages;
+}
+
+/** Models, links, joints and sensors with their values; what a search finds stands open. */
+function simulatedRows(page: Page, open: ReadonlySet<string>, search: string): readonly TreeRow[] {
+  if (page.session.kind !== "simulation") return jointRows(page, open);
+  const rows = valueOwners(page.world.manifest.value).flatMap(({ name, kind, values }) => {
+    const depth = kind === "model" ? 0 : kind === "sensor" ? 2 : 1;
+    const label = kind === "model" ? name : name.slice(name.lastIndexOf("::") + 2);
+    if (search !== "") {
+      const hits = values.filter((value) => value.toLowerCase().includes(search));
+      return hits.map((value) => row(value, 0, value, kind, undefined));
+    }
+    const model = name.split("::")[0] ?? name;
+    if (kind !== "model" && !open.has(model)) return [];
+    const isOpen = open.has(name);
+    return [row(name, depth, label, kind, isOpen), ...(isOpen ? values.map((value) => row(value, depth + 1, value.slice(name.length + 1), "", undefined)) : [])];
+  });
+  return rows.slice(0, search === "" ? rows.length : MOST_FOUND);
 }
 
 function jointRows(page: Page, open: ReadonlySet<string>): readonly TreeRow[] {

@@ -14,7 +14,7 @@ const PERIOD = 200; // ms
 
 export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
   useTick(PERIOD);
-  const time = state.cursor.value ?? state.pausedAt;
+  const time = state.cursor.value ?? state.shownTime() ?? state.pausedAt;
   return (
     <ul class="legend" aria-label="Curves">
       {plot.curves.map((curve, index) => {

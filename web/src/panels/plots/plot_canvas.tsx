@@ -7,6 +7,7 @@ import "uplot/dist/uPlot.min.css";
 
 import { significant, timeText } from "../messages/format";
 import type { Curve } from "./curve";
+import { paddedRange } from "./padded_range";
 import type { PlotsState, Range } from "./plots_state";
 import { COLOURS, isDashed } from "./style";
 
@@ -53,7 +54,7 @@ function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): 
   let drawn = "";
   const draw = (): void => {
     const range = state.range();
-    const key = [...range, state.isPaused.peek() ? "" : curves.map((curve) => curve.revision).join(), plot.width, plot.height].join(" ");
+    const key = [...range, state.isPaused.peek() ? "" : curves.map((curve) => curve.revision).join(), plot.width, plot.height, state.cursor.peek(), state.shownTime()].join(" ");
     if (key === drawn) return;
     drawn = key;
     show(plot, curves, range);
@@ -81,21 +82,6 @@ function show(plot: uPlot, curves: readonly Curve[], [from, to]: Range): void {
       plot.setScale(axis, { min, max });
     }
   });
-}
-
-/** Range of values with a tenth of room above and below. */
-export function paddedRange(values: readonly Float64Array[]): Range {
-  let min = Infinity;
-  let max = -Infinity;
-  for (const ys of values) {
-    for (const y of ys) {
-      if (y < min) min = y;
-      if (y > max) max = y;
-    }
-  }
-  if (min > max) return [0, 1];
-  const room = max > min ? (max - min) * 0.1 : Math.max(Math.abs(max) * 0.1, 0.1);
-  return [min - room, max + room];
 }
 
 function emptyData(curves: readonly Curve[]): uPlot.AlignedData {
@@ -142,6 +128,12 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
       drag: { x: true, y: false, setScale: false },
     },
     hooks: {
+      draw: [
+        (plot) => {
+          drawTime(plot, state.cursor.peek(), colour("--text-3"));
+          drawTime(plot, state.shownTime(), colour("--accent"));
+        },
+      ],
       setCursor: [
         (plot) => {
           const { left = -1 } = plot.cursor;
@@ -158,6 +150,17 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
       ],
     },
   };
+}
+
+/** A line at a time, across the plot. */
+function drawTime({ ctx, bbox, ...plot }: uPlot, time: number | null, colour: string): void {
+  const { min, max } = plot.scales["x"] ?? {};
+  if (time === null || min == null || max == null || time < min || time > max) return;
+  const x = Math.round(bbox.left + ((time - min) / (max - min)) * bbox.width);
+  ctx.save();
+  ctx.fillStyle = colour;
+  ctx.fillRect(x, bbox.top, Math.max(1, Math.round(window.devicePixelRatio)), bbox.height);
+  ctx.restore();
 }
 
 /** Room for the longest text [px]; uPlot asks before there are texts, too. */

@@ -6,9 +6,14 @@ import type { Page } from "../../app/page";
 import { forEachNew } from "../../app/session";
 import { perPage } from "../per_page";
 import { Curve } from "./curve";
-import { csvText } from "./csv";
+import { csvText, type CsvColumn } from "./csv";
+import { parquetFile } from "./parquet";
+import { svgText } from "./svg";
 
 export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
+
+/** By which the clock and the points may differ [s]. */
+const LAG = 0.005;
 
 export interface Plot {
   readonly id: number;
@@ -67,6 +72,13 @@ export class PlotsState {
     );
   }
 
+  /** Time that is shown of the simulation where it is before the newest point, as while one scrubs [s]; null: it is now. */
+  shownTime(): number | null {
+    const time = (this.page.world.state.value?.time_ns ?? Infinity) / 1e9;
+    const newest = this.newest();
+    return newest !== null && time < newest - LAG && this.page.world.state.value?.paused === true ? time : null;
+  }
+
   pause(on: boolean): void {
     this.pausedAt = on ? this.newest() : null;
     this.isPaused.value = on;
@@ -82,12 +94,23 @@ export class PlotsState {
   }
 
   csv(): string {
-    return csvText(
-      this.curves.map((curve) => {
-        const [xs, ys] = curve.points.between(-Infinity, Infinity);
-        return { name: curve.path, xs, ys };
-      }),
-    );
+    return csvText(this.columns());
+  }
+
+  parquet(): ArrayBuffer {
+    return parquetFile(this.columns());
+  }
+
+  /** The plots as they are shown, one below the other. */
+  svg(): string {
+    return svgText(this.plots.peek(), this.range());
+  }
+
+  private columns(): readonly CsvColumn[] {
+    return this.curves.map((curve) => {
+      const [xs, ys] = curve.points.between(-Infinity, Infinity);
+      return { name: curve.path, xs, ys };
+    });
   }
 
   private newest(): number | null {

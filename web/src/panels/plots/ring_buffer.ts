@@ -38,6 +38,11 @@ export class RingBuffer {
     this.start = Math.max(this.start, this.end - this.capacity);
   }
 
+  /** Forget the points at and after a time. */
+  truncate(x: number): void {
+    this.end = this.indexOf(x);
+  }
+
   clear(): void {
     this.start = 0;
     this.end = 0;

@@ -1,0 +1,18 @@
+/** Range of an axis. */
+
+import type { Range } from "./plots_state";
+
+/** Range of values with a tenth of room above and below. */
+export function paddedRange(values: readonly Float64Array[]): Range {
+  let min = Infinity;
+  let max = -Infinity;
+  for (const ys of values) {
+    for (const y of ys) {
+      if (y < min) min = y;
+      if (y > max) max = y;
+    }
+  }
+  if (min > max) return [0, 1];
+  const room = max > min ? (max - min) * 0.1 : Math.max(Math.abs(max) * 0.1, 0.1);
+  return [min - room, max + room];
+}

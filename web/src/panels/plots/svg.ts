@@ -1,0 +1,69 @@
+/** Plots as an SVG picture on white, for papers and reports. */
+
+import { significant, timeText } from "../messages/format";
+import { paddedRange } from "./padded_range";
+import type { Plot, Range } from "./plots_state";
+import { isDashed } from "./style";
+
+const WIDTH = 800;
+const HEIGHT = 260;
+const LEFT = 64;
+const RIGHT = 56;
+const TOP = 28;
+const BOTTOM = 28;
+const TICKS = 5;
+const COLOURS = ["#007a87", "#a66000", "#7b3fc4", "#3f7f1f"];
+
+export function svgText(plots: readonly Plot[], range: Range): string {
+  const height = HEIGHT * plots.length;
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${WIDTH}" height="${height}" viewBox="0 0 ${WIDTH} ${height}" font-family="sans-serif" font-size="11">
+<rect width="${WIDTH}" height="${height}" fill="#fff"/>
+${plots.map((plot, index) => `<g transform="translate(0 ${index * HEIGHT})">\n${plotText(plot, range)}\n</g>`).join("\n")}
+</svg>
+`;
+}
+
+function plotText({ curves }: Plot, range: Range): string {
+  const [from, to] = range;
+  const x = (time: number): number => LEFT + ((time - from) / (to - from)) * (WIDTH - LEFT - RIGHT);
+  const parts = [`<rect x="${LEFT}" y="${TOP}" width="${WIDTH - LEFT - RIGHT}" height="${HEIGHT - TOP - BOTTOM}" fill="none" stroke="#999"/>`];
+  for (const time of ticks(range)) parts.push(label(x(time), HEIGHT - BOTTOM + 16, "middle", timeText(time)));
+  for (const side of ["left", "right"] as const) {
+    const own = curves.filter((curve) => curve.axis.peek() === side);
+    if (own.length === 0) continue;
+    const values = paddedRange(own.map((curve) => curve.points.between(from, to)[1]));
+    const y = (value: number): number => HEIGHT - BOTTOM - ((value - values[0]) / (values[1] - values[0])) * (HEIGHT - TOP - BOTTOM);
+    for (const value of ticks(values)) {
+      parts.push(side === "left" ? label(LEFT - 6, y(value) + 4, "end", significant(value, 5)) : label(WIDTH - RIGHT + 6, y(value) + 4, "start", significant(value, 5)));
+    }
+    for (const curve of own) {
+      const index = curves.indexOf(curve);
+      const [xs, ys] = curve.points.between(from, to);
+      const points = Array.from(xs, (time, at) => `${x(time).toFixed(2)},${y(ys[at] ?? 0).toFixed(2)}`);
+      const dash = isDashed(index) ? ' stroke-dasharray="4 3"' : "";
+      parts.push(`<polyline clip-path="inset(0)" fill="none" stroke="${colour(index)}" stroke-width="1.5"${dash} points="${points.join(" ")}"/>`);
+    }
+  }
+  curves.forEach((curve, index) => {
+    const unit = curve.unit.peek() === "" ? "" : ` [${curve.unit.peek()}]`;
+    const at = LEFT + (index * (WIDTH - LEFT - RIGHT)) / curves.length;
+    parts.push(`<text x="${at.toFixed(1)}" y="${TOP - 10}" fill="${colour(index)}">${escaped(curve.path + unit)}</text>`);
+  });
+  return parts.join("\n");
+}
+
+function colour(index: number): string {
+  return COLOURS[index % COLOURS.length] ?? "#000";
+}
+
+function ticks([from, to]: Range): readonly number[] {
+  return Array.from({ length: TICKS }, (_, index) => from + ((to - from) * index) / (TICKS - 1));
+}
+
+function label(x: number, y: number, anchor: string, text: string): string {
+  return `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" fill="#444">${escaped(text)}</text>`;
+}
+
+function escaped(text: string): string {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+}
