@@ -1,9 +1,12 @@
-"""Pytest fixture `trundle_sim` for tests of robots, available once Trundle is installed.
+"""Pytest fixtures for tests of robots, available once Trundle is installed.
 
 def test_the_arm_holds_its_weight(trundle_sim):
     sim = trundle_sim("arm.urdf")
     sim.run(2.0)
     assert abs(sim["arm"].joint("shoulder").position) < 0.01
+
+def test_it_stands_in_all_variations(trundle_sweep):
+    trundle_sweep("stands.yaml")
 """
 
 import os
@@ -13,7 +16,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from trundle.bringup.loaded_simulation import LoadedSimulation
+    from trundle.bringup.sweep.sweep import SweepResult
 
 
 @pytest.fixture
@@ -30,3 +36,22 @@ def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., LoadedSimulati
         return load(str(beside) if "://" not in file and os.path.exists(beside) else file, seed=seed)
 
     return make
+
+
+@pytest.fixture
+def trundle_sweep(request: pytest.FixtureRequest, tmp_path: "Path") -> "Callable[[str], SweepResult]":
+    """Return a function that runs a plan relative to the test's own file; a run that is not ok fails the test.
+
+    It returns the results; needs the extra `sweep`.
+    """
+
+    def run(plan: str) -> "SweepResult":
+        from trundle.bringup.sweep.regression import plan_problems
+        from trundle.trials import load_plan
+
+        result, problems = plan_problems(load_plan(request.path.parent / plan), tmp_path / f"{plan}.sweep")
+        if problems is not None:
+            pytest.fail(problems, pytrace=False)
+        return result
+
+    return run

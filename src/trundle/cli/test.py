@@ -1,4 +1,4 @@
-"""Run the tests of launch files, as rostest does."""
+"""Run the tests of launch files, as rostest does, or every variation of a sweep's plan."""
 
 import argparse
 from pathlib import Path
@@ -9,12 +9,15 @@ from .quiet_imports import quiet_imports
 EXAMPLES = """
   trundle test my_robot drive.test                    a package and a file in it
   trundle test drive.test --junit results.xml         for a CI server
+  trundle test stands.yaml --junit results.xml        all runs of a sweep's plan must be ok
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="test file and its arguments")
+    parser.add_argument(
+        "words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="test file and its arguments, or a plan"
+    )
     where = "JUnit XML file of the results (as rostest: in ROS_TEST_RESULTS_DIR or ~/.ros/test_results)"
     parser.add_argument("--junit", type=Path, metavar="FILE", help=where)
     text = "show the output of every node; write no result files"
@@ -33,7 +36,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run each test in its own launch; 0: all passed, 1: a test did not run, 2: a case failed."""
+    """Run each test in its own launch, or a plan; 0: all passed, 1: a test did not run, 2: a case failed."""
+    if len(args.words) == 1 and Path(args.words[0]).suffix in (".yaml", ".yml"):
+        with quiet_imports():
+            from trundle.bringup.sweep.regression import run_plan_test
+            from trundle.trials import load_plan
+
+        return run_plan_test(load_plan(Path(args.words[0])), junit=args.junit)
     with quiet_imports():
         from trundle.bringup.launch.options import LaunchOptions
         from trundle.bringup.launch.test_options import LaunchTestOptions

@@ -231,3 +231,20 @@ def test_there_is_no_report_before_the_first_run(plan: Path) -> None:
     assert (done.returncode, done.stdout) == (1, "")
     assert f"no results; run `trundle sweep {plan}` first" in done.stderr
     assert not plan.with_suffix(".sweep").exists()
+
+
+@pytest.mark.slow
+def test_a_plan_is_a_test_with_a_case_for_each_run(plan: Path) -> None:
+    command = [TRUNDLE, "test", plan, "--junit", plan.with_name("junit.xml")]
+    failed = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    plan.write_text(PLAN.replace("x < 0.8", "x < 80"))
+    passed = subprocess.run(command[:3], capture_output=True, text=True, timeout=300, check=False)
+
+    ok = len([row for row in trundle.sweep(plan, output=plan.with_name("o")).table.to_pylist() if row["x"] < 0.8])
+    assert (passed.returncode, passed.stdout) == (0, f"{plan}: ok in 24 of 24 variations\n")
+    assert failed.returncode == 2, failed.stderr
+    assert failed.stdout.startswith(f"{plan}: ok in {ok} of 24 variations\n  row ")
+    cases = ElementTree.parse(plan.with_name("junit.xml")).findall(".//testcase")
+    assert [case.get("name") for case in cases] == [f"row {i}" for i in range(24)]
+    assert sum(case.find("failure") is not None for case in cases) == 24 - ok
+    assert not plan.with_suffix(".sweep").exists()
