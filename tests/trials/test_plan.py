@@ -27,7 +27,7 @@ def _read(text: str):
     [
         ("world: [", "plan.yaml:1: error: not YAML: line 1, column 9: expected"),
         ("", "plan.yaml:1: error: an empty file"),
-        ("duration: 1", "plan.yaml:1: error: a plan needs `world: …`"),
+        ("duration: 1", "plan.yaml:1: error: a plan needs either `world: …` or `launch: …`"),
         ("world: a\nduration: soon", "plan.yaml:2: error: duration must be a number, not 'soon'"),
         ("world: a\nduration: 0", "plan.yaml:2: error: duration must be above 0, not 0"),
         ("world: a\nduration: 1\nduration: 2", "plan.yaml:3: error: 'duration' is here twice; keep one"),
@@ -47,7 +47,7 @@ def _read(text: str):
         (PLAN + "events: [{at: 1}]", "plan.yaml:8: error: an event needs `at: SECONDS` and either `push: MODEL/LINK`"),
         (PLAN + "events: [{at: 1, push: a/b, force: [1, 2]}]", "plan.yaml:8: error: force must be [x, y, z]"),
         (PLAN + "events: [{at: 1, push: a/b, speed: 1}]", "plan.yaml:8: error: an event has no 'speed'; it has: at"),
-        (PLAN + "worlds: 1", "plan.yaml:8: error: a plan has no 'worlds'; it has: world, duration"),
+        (PLAN + "worlds: 1", "plan.yaml:8: error: a plan has no 'worlds'; it has: world, launch, duration"),
         ("world: a\nduration: 1\nsamples: 9", "plan.yaml:3: error: `samples` needs a distribution in `vary`"),
     ],
 )  # fmt: skip

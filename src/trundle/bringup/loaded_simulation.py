@@ -1,7 +1,7 @@
 """Result of `trundle.load`: a simulation with its sensors by name, its plugins and its ROS graph."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
@@ -17,7 +17,7 @@ from .world_setup import LoadedWorld, load_built, load_world
 if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
     from trundle.description import Model, World
     from trundle.physics import CompiledWorld
-    from trundle.ros import Node
+    from trundle.ros import GraphLoop, Node
     from trundle.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
 
     from .run.ros_interface import RosInterface
@@ -92,11 +92,14 @@ class LoadedSimulation(Simulation):
 
     # -- the ROS graph
 
-    def open_graph(self, environment: Mapping[str, str]) -> None:
+    def open_graph(
+        self, environment: Mapping[str, str], *, on_open: "Callable[[GraphLoop], None]" = lambda _loop: None
+    ) -> None:
         """Advertise clock, frames, sensors and joints on a ROS graph, as `trundle run` does.
 
         Args:
             environment: ROS_MASTER_URI is the master to join; without it a master is started here.
+            on_open: called with the loop of the graph, before anything is advertised.
 
         Raises:
             UsageError: that master does not answer.
@@ -106,7 +109,13 @@ class LoadedSimulation(Simulation):
         sensors = self._sensors
         sensors.start()
         self._ros = RosInterface.open(
-            self, self._stage, sensors.cameras, sensors.instruments, environment, host="127.0.0.1"
+            self,
+            self._stage,
+            sensors.cameras,
+            sensors.instruments,
+            environment,
+            host="127.0.0.1",
+            on_open=on_open,
         )
 
     @property

@@ -11,6 +11,7 @@ from .plan import Value as Value
 from .plan_reader import load_plan as load_plan
 from .plan_reader import read_plan as read_plan
 from .property_path import ARGUMENTS as ARGUMENTS
+from .property_path import PARAMETERS as PARAMETERS
 from .property_path import with_property as with_property
 from .results import Results as Results
 from .row_result import RowResult as RowResult

@@ -80,7 +80,9 @@ class Plan:
     """Base of relative paths."""
     text: str
     world: str
+    """World or description; or, separated by spaces, the launch file or its package and name."""
     world_at: Source
+    is_launch: bool = False
     duration_s: float
     every_s: float = 0.1
     """Period at which stop conditions and measures over time are evaluated."""
@@ -88,6 +90,8 @@ class Plan:
     """Wall time of one run."""
     memory_limit_bytes: int | None = None
     """Resident memory of one run."""
+    bag_s: float | None = None
+    """Last seconds of a run that is not ok, kept as a bag [s]; None: none."""
     seed: int = 0
     seeds: tuple[int, ...] = ()
     """Seed of each repetition; empty: drawn from the plan's seed and the row's number."""

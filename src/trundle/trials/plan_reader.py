@@ -12,13 +12,13 @@ from .variation_reader import read_variation
 from .yaml_node import YamlNode, read_yaml
 
 _KEYS = (
-    "world", "duration", "every", "time_limit", "memory_limit", "seed", "seeds", "repeat", "samples", "design",
-    "plugins", "vary", "set", "events", "stop", "measure", "pass",
+    "world", "launch", "duration", "every", "time_limit", "memory_limit", "seed", "seeds", "repeat", "samples",
+    "design", "plugins", "bag", "vary", "set", "events", "stop", "measure", "pass",
 )  # fmt: skip
 _DESIGNS: dict[str, Design] = {"random": "random", "latin_hypercube": "latin_hypercube", "sobol": "sobol"}
 _OVER: dict[str, Over] = {each: each for each in ("end", "start", "min", "max", "mean", "time")}
 _COMMANDS = ("position", "velocity", "effort")
-RESERVED = ("row", "status", "reason", "seed", "time", "t", "models")
+RESERVED = ("row", "status", "reason", "seed", "time", "t", "models", "topics")
 """Columns of every table, and names of every expression."""
 
 
@@ -51,9 +51,11 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
     """
     root = read_yaml(text, file)
     found = root.check_keys("a plan", *_KEYS)
-    for needed in ("world", "duration"):
-        if needed not in found:
-            root.fail(f"a plan needs `{needed}: …`")
+    if ("world" in found) == ("launch" in found):
+        root.fail("a plan needs either `world: …` or `launch: …`")
+    if "duration" not in found:
+        root.fail("a plan needs `duration: …`")
+    world = found.get("world") or found["launch"]
     vary = tuple(
         read_variation(name, node, root.value["vary"].keys[name])
         for name, node in (found["vary"].mapping("vary") if "vary" in found else {}).items()
@@ -85,11 +87,13 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
         file=file,
         folder=folder,
         text=text,
-        world=_world(found["world"], folder),
-        world_at=found["world"].at,
+        world=_world(world, folder),
+        world_at=world.at,
+        is_launch="launch" in found,
         duration_s=found["duration"].number("duration", above=0),
         every_s=found["every"].number("every", above=0) if "every" in found else 0.1,
         time_limit_s=found["time_limit"].number("time_limit", above=0) if "time_limit" in found else None,
+        bag_s=found["bag"].number("bag", above=0) if "bag" in found else None,
         memory_limit_bytes=_bytes(found["memory_limit"]) if "memory_limit" in found else None,
         seed=found["seed"].whole("seed", at_least=0) if "seed" in found else 0,
         seeds=seeds,

@@ -17,7 +17,9 @@ from .plan import Value
 
 _T = TypeVar("_T")
 ARGUMENTS = "arguments"
-"""First part of the path of a xacro argument."""
+"""First part of the path of an argument of a xacro or launch file."""
+PARAMETERS = "parameters"
+"""First part of the path of a ROS parameter."""
 _ALIASES: dict[str, tuple[str, ...]] = {
     "gravity": ("physics", "gravity"),
     "time_step": ("physics", "max_step_size_s"),

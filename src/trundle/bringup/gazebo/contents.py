@@ -21,6 +21,7 @@ from ..state_logs import WorldRecorder
 from .models import read_spawned
 from .plugins import GazeboPlugins
 from .sensors import GazeboSensors
+from .world_setup import WorldSetup
 
 
 class GazeboContents:
@@ -41,6 +42,7 @@ class GazeboContents:
         clock_hz: float | None,
         deliver: Deliver,
         say: Callable[[str], None],
+        setup: WorldSetup | None,
     ) -> None:
         """Compile the world; `load` starts what is on it.
 
@@ -57,10 +59,14 @@ class GazeboContents:
             clock_hz: rate of /clock; None: the usual one.
             deliver: runs the plugins' callbacks on this thread.
             say: prints which plugins are loaded, and where logs are.
+            setup: changes spawned models, and begins with the simulation; None: they are spawned as read.
         """
         self.packages, self.environment = packages, env
         self._folder, self._report, self._say = folder, report, say
         self.simulation = Simulation(world, report)
+        self._setup = setup
+        if setup is not None:
+            setup.start(self.simulation, node)
         ClockTopic(node, rate_hz=clock_hz).attach(self.simulation)
         self._sensors = GazeboSensors(self.simulation, node, renderer, report)
         self._plugins = GazeboPlugins(
@@ -93,6 +99,8 @@ class GazeboContents:
 
     def insert(self, model: Model, robot: Robot | None) -> None:
         """Add a model, already read, with its sensors."""
+        if self._setup is not None:
+            model = self._setup.model(model)
         self.simulation.spawn(model)
         self._sensors.mount(model.name, robot=robot)
 

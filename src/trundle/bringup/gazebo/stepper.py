@@ -44,6 +44,8 @@ class GazeboStepper:
         self.clock = SimClock(loop)
         """Time of the plugins' nodes."""
         self.paused = False
+        self.stop_reason: str | None = None
+        """Reason for which the simulation could not go on; None: it can."""
 
     @property
     def is_lockstep(self) -> bool:
@@ -99,6 +101,6 @@ class GazeboStepper:
             steps.record_step(simulation.time_ns)
 
     def _stop(self, why: str) -> None:
-        self.paused = True
+        self.paused, self.stop_reason = True, why
         what, *lines = why.split("\n")
         self._say("\n".join([f"{what}; the simulation is paused (/gazebo/unpause_physics tries to go on)", *lines]))

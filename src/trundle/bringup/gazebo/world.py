@@ -26,6 +26,7 @@ from .gzclient_page import GzclientPage
 from .simulation_thread import SimulationThread
 from .stepper import IDLE_S, GazeboStepper
 from .world_file import find_world
+from .world_setup import WorldSetup
 
 _POLL_S = 0.5
 
@@ -46,6 +47,7 @@ class GazeboWorld:
         speed: float | None = 1.0,
         renderer: RendererName = "cpu",
         steps: Lockstep | None = None,
+        setup: WorldSetup | None = None,
     ) -> None:
         """Prepare; `open` starts the simulation.
 
@@ -60,7 +62,9 @@ class GazeboWorld:
             speed: times real time; None: flat out.
             renderer: draws the cameras' images.
             steps: holds time until the nodes are done; None: time is free.
+            setup: changes the world and its models, and begins with it; None: they are simulated as read.
         """
+        self._setup = setup
         self._graph = graph
         self._start = start
         self._env = env
@@ -159,6 +163,11 @@ class GazeboWorld:
         """True if the simulation is paused."""
         return self._stepper.paused
 
+    @property
+    def stop_reason(self) -> str | None:
+        """Reason for which the simulation could not go on; None: it can."""
+        return self._stepper.stop_reason
+
     def set_paused(self, paused: bool) -> None:
         """Pause, or go on."""
         self._stepper.set_paused(paused)
@@ -216,7 +225,7 @@ class GazeboWorld:
     def _build(self, world: World, node: Node, packages: Packages, clock_hz: float | None, logs: Path | None) -> None:
         self._stepper.begin()
         self._contents = GazeboContents(
-            world,
+            world if self._setup is None else self._setup.world(world),
             node,
             graph=self._graph,
             packages=packages,
@@ -228,6 +237,7 @@ class GazeboWorld:
             clock_hz=clock_hz,
             deliver=self.post,
             say=self._say,
+            setup=self._setup,
         )
         self._contents.load(logs)
 

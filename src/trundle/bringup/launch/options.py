@@ -45,6 +45,8 @@ class LaunchOptions:
     """Simulated seconds per second of wall time; None: flat out."""
     record: Path | None = None
     """Bag of every topic."""
+    record_from_s: float = 0.0
+    """Time at which a bag in lockstep begins [s]."""
     only: Literal["nodes", "files", "find-node", "args", "arguments", "params", "translation"] | None = None
     """Part of the launch to print instead of starting it."""
     node: str = ""

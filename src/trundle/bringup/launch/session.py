@@ -29,6 +29,8 @@ from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
 
 if TYPE_CHECKING:
+    from ..gazebo.world import GazeboWorld
+    from ..gazebo.world_setup import WorldSetup
     from ..shared_page import SharedPage
 
 
@@ -50,6 +52,7 @@ class LaunchSession:
         ports: Sequence[int] = (),
         rosout: bool = True,
         listener: Listener = lambda _event, _text: None,
+        setup: "WorldSetup | None" = None,
     ) -> None:
         """Join or start a graph and set the parameters.
 
@@ -59,7 +62,10 @@ class LaunchSession:
             ports: as `Graph.open`.
             rosout: as `Graph.open`.
             listener: takes each node's events, on the graph's thread.
+            setup: of the simulated world.
         """
+        self._setup = setup
+        self._gazebo: GazeboWorld | None = None
         self._read = read
         self._options = options
         self._listener = listener
@@ -156,7 +162,8 @@ class LaunchSession:
         """Record every topic into a bag; return the recorder if it writes in lockstep with the nodes."""
         graph = self.graph
         if in_step and not programs:
-            steps = StepRecorder(graph.loop, file, complain=self._complain)
+            from_ns = round(self._options.record_from_s * NS_PER_S)
+            steps = StepRecorder(graph.loop, file, complain=self._complain, from_ns=from_ns)
             self._open_things.callback(steps.close)
             self._read.show.line(
                 f"{file} will be the same whenever this is run; /rosout and other programs are left out"
@@ -207,6 +214,21 @@ class LaunchSession:
         return self._lockstep is not None and self._lockstep.over.is_set()
 
     @property
+    def nodes(self) -> Sequence[LaunchNode]:
+        """Nodes of the launch."""
+        return self._read.plan.nodes
+
+    @property
+    def is_paused(self) -> bool:
+        """True if its world is paused."""
+        return self._gazebo is not None and self._gazebo.paused
+
+    @property
+    def stop_reason(self) -> str | None:
+        """Reason for which its world could not go on; None: it can."""
+        return None if self._gazebo is None else self._gazebo.stop_reason
+
+    @property
     def is_lockstep(self) -> bool:
         """True if time waits for the nodes at each step."""
         return self._lockstep is not None
@@ -226,7 +248,9 @@ class LaunchSession:
             speed=options.speed,
             renderer=options.renderer,
             steps=self._lockstep,
+            setup=self._setup,
         )
+        self._gazebo = gazebo
         self._open_things.callback(gazebo.close)
         return gazebo
 

@@ -1,6 +1,6 @@
 """ROS interface of a simulation: its node, clock, frames, sensor topics and parameters on the graph."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Self
 
 from trundle.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms
@@ -76,10 +76,12 @@ class RosInterface:
         environment: Mapping[str, str],
         *,
         host: str,
+        on_open: Callable[[GraphLoop], None] = lambda _loop: None,
     ) -> Self:
-        """Join or start a graph and advertise the simulation on it."""
+        """Join or start a graph, call `on_open` with its loop, and advertise the simulation."""
         graph = Graph.open(environment, host=host, ports=(DEFAULT_PORT, 0))
         try:
+            on_open(graph.loop)
             return cls(graph, simulation, cameras, sensors, stage)
         except BaseException:
             graph.close()

@@ -11,17 +11,19 @@ from trundle.trials import Plan
 from trundle.xmlnode import XmlNode
 
 
-def plan_digest(plan: Plan, world: World | None, files: Iterable[Path] = ()) -> str:
+def plan_digest(plan: Plan, world: World | str, files: Iterable[Path] = ()) -> str:
     """Return a digest that changes with anything that may change a row.
 
     Args:
         plan: as read.
-        world: base of all rows, as read; None: the files are a launch's.
+        world: world of the first row, or the text of its parameters.
         files: further files that count.
     """
     functions = {each.function[0] for each in plan.measures if each.function is not None}
     parts = [hashlib.sha256(plan.text.encode()).digest()]
-    if world is not None:
+    if isinstance(world, str):
+        parts.append(hashlib.sha256(world.encode()).digest())
+    else:
         digest, meshes = hashlib.sha256(), set[Path]()
         for part in _parts(world, meshes):
             digest.update(part.encode() + b"\0")

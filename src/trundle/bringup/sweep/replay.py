@@ -2,6 +2,7 @@
 
 import sys
 
+from trundle.diagnostics import UsageError
 from trundle.page_address import PageAddress
 from trundle.physics import SimulationUnstableError
 from trundle.spatial import NS_PER_S
@@ -10,7 +11,8 @@ from trundle.trials import Plan, Row, Rows
 from ..console import say
 from ..realtime_pacer import RealtimePacer, shorten_gil_interval
 from ..signals import stop_flag
-from .trial import TrialRunner
+from .launch_trial import LaunchTrialRunner
+from .trial import TrialRunner, runner_of
 
 _IDLE_S = 0.02
 
@@ -26,13 +28,15 @@ def replay(plan: Plan, number: int, at: PageAddress | None) -> int:
     Raises:
         TrundleError: there is no such row, or its world cannot be read.
     """
-    row, runner = Rows(plan).row(number), TrialRunner(plan)
+    row, runner = Rows(plan).row(number), runner_of(plan)
     say("\n".join([f"row {number}: seed {row.seed}", *(f"  {name} = {value}" for name, value in row.values.items())]))
     result = runner.run(row)
     measures = [f"  {name} = {value}" for name, value in result.measures.items()]
     say("\n".join([f"{result.status}{f': {result.reason}' if result.reason else ''}", *measures]))
     if at is None:
         return 0 if result.status == "ok" else 1
+    if isinstance(runner, LaunchTrialRunner):
+        raise UsageError("a row of a launch file has no page yet; run it with --headless")
     return _show(plan, row, runner, at)
 
 

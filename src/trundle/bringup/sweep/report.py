@@ -16,7 +16,7 @@ from .report_charts import correlation_bars, histogram, scatter
 from .report_pictures import end_picture
 from .report_style import STYLE
 from .sweep import open_results, results_folder
-from .trial import TrialRunner
+from .trial import TrialRunner, runner_of
 
 _WORST = 6
 _REASONS = 8
@@ -36,7 +36,7 @@ def write_report(plan: Plan, *, output: Path | None = None) -> Path:
     if not folder.is_dir():
         raise UsageError(f"{folder}: no results; run `trundle sweep {plan.file}` first")
     with lock_folder(folder):
-        table = open_results(plan, rows, folder, TrialRunner(plan)).read()
+        table = open_results(plan, rows, folder, runner_of(plan)).read()
     if not table.num_rows:
         raise UsageError(f"{folder}: no run has ended yet; `trundle sweep {plan.file}` goes on")
     path = folder / "report.html"
@@ -109,12 +109,14 @@ class _Report:
         return f'<h2>What matters</h2><p>{said}</p><div class="grid">{"".join(sections)}</div>'
 
     def _worst(self) -> str:
-        runner = TrialRunner(self._plan)
+        runner = runner_of(self._plan)
         place = {row: i for i, row in enumerate(self._table["row"].to_pylist())}
         cards: list[str] = []
         for number in worst_rows(self._table, list(self._measures), _WORST):
             row, found = self._rows.row(number), self._table.slice(place[number], 1).to_pylist()[0]
-            picture = None if found["status"] in ("timeout", "lost") else end_picture(self._plan, runner, row)
+            picture = None
+            if isinstance(runner, TrialRunner) and found["status"] in ("ok", "failed", "error"):
+                picture = end_picture(self._plan, runner, row)
             image = f'<img src="{picture}" alt="row {number} at its end">' if picture else ""
             values = {name: found[name] for name in (*row.values, *self._measures)}
             cells = "".join(

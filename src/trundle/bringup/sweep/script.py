@@ -6,24 +6,34 @@ between; a run with a page, which is paced, does the same at the same steps.
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 
 from trundle.diagnostics import UsageError
-from trundle.simulation import Simulation
+from trundle.simulation import JointHandle, LinkHandle, Simulation
 from trundle.spatial import NS_PER_S, Wrench
 from trundle.trials import Event, Formula, Measure, Plan, Row
 
 from .state_names import StateExpressions, state_names
+from .topics import NoMessageError, TopicReader
 
 
 class RunScript:
     """Events and measures of one run."""
 
-    def __init__(self, plan: Plan, row: Row, simulation: Simulation, expressions: StateExpressions) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        row: Row,
+        simulation: Simulation,
+        expressions: StateExpressions,
+        topics: TopicReader | None = None,
+    ) -> None:
         """Prepare a run at time zero.
 
         Raises:
-            UsageError: an event has no such target, or no such number.
+            UsageError: an event has no such number.
         """
+        self._topics = topics
         self._plan = plan
         self._values = row.values
         self._simulation = simulation
@@ -39,7 +49,8 @@ class RunScript:
         self._every_ns = max(round(plan.every_s * NS_PER_S), simulation.step_ns)
         self._next_sample_ns = 0 if self._is_sampled else None
         self._found: dict[str, float] = {}
-        self._samples = 0
+        self._counts: dict[str, int] = {}
+        """Measure → number of its samples."""
         self._sampled_ns: int | None = None
         """Time of the last sample."""
         self.is_over = False
@@ -67,41 +78,69 @@ class RunScript:
         self._next_event, self.is_over = 0, False
         self._next_sample_ns = 0 if self._is_sampled else None
         self._found.clear()
-        self._samples, self._sampled_ns = 0, None
+        self._counts.clear()
+        self._sampled_ns = None
 
     def _names(self) -> dict[str, object]:
-        return state_names(self._simulation, self._values)
+        return state_names(self._simulation, self._values, self._topics)
 
     def _event(self, event: Event) -> tuple[int, Callable[[], None]]:
         """Return an event's time [ns] and what it does."""
         numbers = [self._expressions.number(formula, self._values) for formula in event.numbers]
         at_s = self._expressions.number(event.time_s, self._values)
         duration_s = None if event.duration_s is None else self._expressions.number(event.duration_s, self._values)
+        return round(at_s * NS_PER_S), lambda: self._perform(event, numbers, duration_s)
+
+    def _perform(self, event: Event, numbers: list[float], duration_s: float | None) -> None:
+        target = self._target(event)
+        if isinstance(target, LinkHandle):
+            wrench = Wrench((numbers[0], numbers[1], numbers[2]), (numbers[3], numbers[4], numbers[5]))
+            target.apply_wrench(wrench, duration_s=duration_s)
+        elif event.kind == "position":
+            target.command_position(numbers[0])
+        elif event.kind == "velocity":
+            target.command_velocity(numbers[0])
+        else:
+            target.command_effort(numbers[0], duration_s=duration_s)
+
+    def _target(self, event: Event) -> LinkHandle | JointHandle:
+        """Return the link or joint of an event.
+
+        Raises:
+            UsageError: there is none; with the event's line.
+        """
         model, part = event.target
         try:
             handle = self._simulation[model]
-            if event.kind == "push":
-                link = handle.link(part)
-                wrench = Wrench((numbers[0], numbers[1], numbers[2]), (numbers[3], numbers[4], numbers[5]))
-                return round(at_s * NS_PER_S), lambda: link.apply_wrench(wrench, duration_s=duration_s)
-            joint = handle.joint(part)
+            return handle.link(part) if event.kind == "push" else handle.joint(part)
         except UsageError as error:
             raise UsageError(f"{event.at}: error: {error}") from None
-        commands: dict[str, Callable[[], None]] = {
-            "position": lambda: joint.command_position(numbers[0]),
-            "velocity": lambda: joint.command_velocity(numbers[0]),
-            "effort": lambda: joint.command_effort(numbers[0], duration_s=duration_s),
-        }
-        return round(at_s * NS_PER_S), commands[event.kind]
+
+    def check(self) -> None:
+        """Look up the targets of all events.
+
+        Raises:
+            UsageError: there is no such link or joint; with the event's line.
+        """
+        for event in self._plan.events:
+            self._target(event)
+
+    @property
+    def periods_ns(self) -> list[int]:
+        """Periods of hooks that call `act` whenever something is due [ns]."""
+        sampling = [self._every_ns] if self._is_sampled else []
+        return [*sampling, *(max(time_ns, 1) for time_ns, _ in self._events)]
 
     def _sample(self) -> None:
         names = self._names()
         for measure, formula in self._sampled.values():
             if measure.over != "end":
-                self._add_sample(measure, self._expressions.evaluate(formula, names), formula)
-        self._samples += 1
+                with suppress(NoMessageError):
+                    self._add_sample(measure, self._expressions.evaluate(formula, names), formula)
         self._sampled_ns = self._simulation.time_ns
-        self.is_over = any(bool(self._expressions.evaluate(each, names)) for each in self._plan.stop)
+        for formula in self._plan.stop:
+            with suppress(NoMessageError):
+                self.is_over = self.is_over or bool(self._expressions.evaluate(formula, names))
 
     def _add_sample(self, measure: Measure, value: object, formula: Formula) -> None:
         found, name = self._found, measure.name
@@ -110,6 +149,7 @@ class RunScript:
                 found[name] = self._simulation.time_ns / NS_PER_S
             return
         number = _number(value, formula)
+        self._counts[name] = self._counts.get(name, 0) + 1
         match measure.over:
             case "min":
                 found[name] = min(found.get(name, math.inf), number)
@@ -120,8 +160,8 @@ class RunScript:
             case _:
                 found.setdefault(name, number)
 
-    def measures(self) -> dict[str, float | None]:
-        """Return the value of each expression at the end; a time at which nothing became true is None.
+    def measures(self) -> dict[str, float | str | None]:
+        """Return the value of each expression at the end; None without a message, or a time at which it became true.
 
         Raises:
             UsageError: an expression is no finite number.
@@ -129,12 +169,15 @@ class RunScript:
         if self._is_sampled and self._sampled_ns != self._simulation.time_ns:
             self._sample()
         names = self._names()
-        measured: dict[str, float | None] = {}
+        measured: dict[str, float | str | None] = {}
         for name, (measure, formula) in self._sampled.items():
             if measure.over == "end":
-                measured[name] = _number(self._expressions.evaluate(formula, names), formula)
-            elif measure.over == "mean":
-                measured[name] = self._found[name] / self._samples
+                try:
+                    measured[name] = _number(self._expressions.evaluate(formula, names), formula)
+                except NoMessageError:
+                    measured[name] = None
+            elif measure.over == "mean" and name in self._found:
+                measured[name] = self._found[name] / self._counts[name]
             else:
                 measured[name] = self._found.get(name)
         return measured

@@ -3,12 +3,17 @@
 import math
 from collections import ChainMap
 from collections.abc import Mapping
+from dataclasses import fields
+
+import numpy as np
 
 from trundle.diagnostics import UsageError
 from trundle.expressions import MATH_NAMES, PYTHON_NAMES, Budget, Interpreter
 from trundle.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import NS_PER_S, Pose, Twist
 from trundle.trials import Formula, Value
+
+from .topics import NoMessageError, SilentTopic, TopicReader
 
 _POSE = ("x", "y", "z", "roll", "pitch", "yaw")
 _TWIST = ("vx", "vy", "vz", "wx", "wy", "wz")
@@ -37,6 +42,8 @@ class StateExpressions:
         self._interpreter.budget = Budget()
         try:
             return self._interpreter.evaluate(formula.text, ChainMap(dict(names), _FUNCTIONS))
+        except NoMessageError:
+            raise
         except Exception as error:  # Python's own, as ZeroDivisionError
             raise UsageError(f"{formula.at}: error: {formula.text}: {error}") from None
 
@@ -52,11 +59,16 @@ class StateExpressions:
         return float(value)
 
 
-def state_names(simulation: Simulation, values: Mapping[str, Value]) -> dict[str, object]:
-    """Return the names of expressions: `models`, the time `t` [s], and the row's values."""
-    names: dict[str, object] = {name: value for name, value in values.items() if "/" not in name}
+def named_values(values: Mapping[str, Value]) -> dict[str, object]:
+    """Return the values of a row that expressions can name; a path is no name."""
+    return {name: value for name, value in values.items() if "/" not in name}
+
+
+def state_names(simulation: Simulation, values: Mapping[str, Value], topics: TopicReader | None) -> dict[str, object]:
+    """Return the names of expressions: `models`, `topics`, the time `t` [s], and the row's values."""
     models = _Handles((model.name, model) for model in simulation.models)
-    return names | {"models": models, "t": simulation.time_ns / NS_PER_S}
+    names = {**named_values(values), "models": models, "t": simulation.time_ns / NS_PER_S}
+    return names if topics is None else {**names, "topics": topics.messages()}
 
 
 def _dotted(owner: object, name: str) -> object:
@@ -78,8 +90,21 @@ def _dotted(owner: object, name: str) -> object:
             if name not in _JOINT:
                 raise AttributeError(f"a joint has no {name!r}; it has: {', '.join(_JOINT)}")
             return float(getattr(owner, name))
+        case SilentTopic():
+            raise NoMessageError(f"no message on {owner.topic} yet")
+        case _ if hasattr(owner, "__msgtype__"):
+            return _field(owner, name)
         case _:
             return NotImplemented
+
+
+def _field(message: object, name: str) -> object:
+    """Return a field of a ROS message."""
+    there = [each.name for each in fields(message)]  # pyright: ignore[reportArgumentType]
+    if name not in there:
+        raise AttributeError(f"the message has no {name!r}; it has: {', '.join(there)}")
+    value = getattr(message, name)
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 def _state(owner: ModelHandle | LinkHandle, name: str, there: tuple[str, ...]) -> float:

@@ -9,13 +9,15 @@ from typing import Any
 
 import yaml
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.trials import Plan, Results, RowResult, Rows, Table, load_plan, lock_folder, read_plan
 from trundle.workers import Job, JobResult, Progress, run_rows
 
 from ..signals import stop_flag
 from .digest import plan_digest
-from .trial import TrialRunner, run_row
+from .launch_trial import LaunchTrialRunner
+from .trial import Trial, TrialRunner, run_row, runner_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,13 +57,18 @@ def results_folder(plan: Plan, output: Path | None) -> Path:
     return output or Path(plan.file).with_suffix(".sweep")
 
 
-def open_results(plan: Plan, rows: Rows, folder: Path, runner: TrialRunner) -> Results:
+def open_results(plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | LaunchTrialRunner) -> Results:
     """Open the results of a plan in a folder.
 
     Raises:
         UsageError: the folder has the results of another plan, or cannot be written.
     """
-    digest = plan_digest(plan, runner.stage(rows.row(0)).written)
+    first = rows.row(0)
+    if isinstance(runner, LaunchTrialRunner):
+        files, parameters = runner.files(first)
+        digest = plan_digest(plan, parameters, files)
+    else:
+        digest = plan_digest(plan, runner.stage(first).written)
     return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text)
 
 
@@ -81,7 +88,7 @@ def sweep(
     """
     if workers is not None and workers < 1:
         raise UsageError(f"{workers} workers; give at least 1")
-    rows, runner = Rows(plan), TrialRunner(plan)
+    rows, runner = Rows(plan), runner_of(plan)
     runner.check(rows.row(0))
     folder = results_folder(plan, output)
     job = Job(make=partial(run_row, plan), time_limit_s=plan.time_limit_s, memory_limit_bytes=plan.memory_limit_bytes)
@@ -96,7 +103,7 @@ def sweep(
                     job, missing, count=left, workers=workers, address=address, is_ending=stop.is_set
                 ):
                     if outcome is not None:
-                        result = _result(outcome)
+                        result = _kept(outcome, folder)
                         results.add(result)
                         progress.add(is_ok=result.status == "ok")
                     progress.show()
@@ -106,11 +113,21 @@ def sweep(
         return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
 
 
-def _result(outcome: JobResult[RowResult]) -> RowResult:
+def _kept(outcome: JobResult[Trial], folder: Path) -> RowResult:
+    """Write a row's bag, if it has one, and return its result."""
     if outcome.failure is not None:
         return RowResult(outcome.row, outcome.failure, outcome.reason)
     assert outcome.value is not None
-    return outcome.value
+    if outcome.value.bag is not None:
+        file = bag_file(folder, outcome.row)
+        file.parent.mkdir(exist_ok=True)
+        write_atomically(file, outcome.value.bag)
+    return outcome.value.result
+
+
+def bag_file(folder: Path, row: int) -> Path:
+    """Return the bag of a row in a folder of results."""
+    return folder / "bags" / f"row_{row}.bag"
 
 
 def sweep_plan(

@@ -21,13 +21,14 @@ class StepRecorder:
     needs_every_message = False
     """Attaching does not make publishers publish more often."""
 
-    def __init__(self, loop: GraphLoop, path: Path, *, complain: Callable[[str], None]) -> None:
+    def __init__(self, loop: GraphLoop, path: Path, *, complain: Callable[[str], None], from_ns: int = 0) -> None:
         """Create the file and attach.
 
         Args:
             loop: its publishers are recorded.
             path: bag to write.
             complain: called with the reason if recording fails.
+            from_ns: time of the first step in the bag [ns]; of those before, only latched messages are there.
 
         Raises:
             BagError: the file cannot be written.
@@ -38,6 +39,9 @@ class StepRecorder:
         self._writer = create_bag(self._active)
         self._received: list[tuple[LocalPublisher, bytes]] = []
         self._complain = complain
+        self._from_ns = from_ns
+        self._latched: dict[tuple[str, str], tuple[LocalPublisher, bytes]] = {}
+        """Last message before the bag begins of each (topic, caller)."""
         self._has_failed = False
         self._is_abandoned = False
         loop.local.on_publisher.append(self._follow)
@@ -55,6 +59,11 @@ class StepRecorder:
         heard, self._received = self._received, []
         if self._has_failed:
             return
+        if stamp_ns < self._from_ns:
+            self._latched |= {(each[0].topic, each[0].caller): each for each in heard if each[0].latch}
+            return
+        heard = [*self._latched.values(), *heard]
+        self._latched.clear()
         # A stable sort keeps each publisher's order.
         heard.sort(key=lambda each: (each[0].topic, each[0].caller))
         try:

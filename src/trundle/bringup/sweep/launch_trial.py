@@ -1,0 +1,141 @@
+"""Runs of single rows of a launch file, each on a graph of its own, in lockstep with the nodes of its process."""
+
+import io
+import os
+import time
+from collections.abc import Generator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import replace as replace_fields
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from trundle.diagnostics import TrundleError, UsageError
+from trundle.launch import LaunchParam, ParamValue
+from trundle.trials import Plan, Row, RowResult, Value
+
+from ..launch.launch import read_files
+from ..launch.loaded_launch import LoadedLaunch
+from ..launch.options import LaunchOptions
+from ..launch.session import LaunchSession
+from .assignments import Assignments, assignments_of
+from .judge import Judge
+from .launch_setup import LaunchSetup
+from .state_names import StateExpressions
+from .topics import topics_of
+
+_POLL_S = 0.01
+_PAUSED_S = 30.0
+"""Wall time for which a world may stay paused, as at the start of controllers."""
+
+
+class LaunchTrialRunner:
+    """Runs rows of a plan of a launch file one after the other."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._expressions = StateExpressions()
+        self._judge = Judge(plan, self._expressions)
+        self._topics = topics_of(plan)
+
+    def run(self, row: Row) -> RowResult:
+        """Run a row to its end; what goes wrong is in its result."""
+        return self._run(row, LaunchOptions(duration_s=self._plan.duration_s))
+
+    def bag(self, row: Row, result: RowResult) -> bytes | None:
+        """Run a row again and return the bag of its last seconds; None if it does not start."""
+        assert self._plan.bag_s is not None
+        if result.time is None:
+            return None
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / "last.bag"
+            from_s = result.time - self._plan.bag_s
+            self._run(row, LaunchOptions(duration_s=self._plan.duration_s, record=file, record_from_s=from_s))
+            return file.read_bytes() if file.exists() else None
+
+    def check(self, row: Row) -> None:
+        """Read the launch once with a row's values.
+
+        Raises:
+            TrundleError: the plan cannot be run; with its line.
+        """
+        assigned = assignments_of(self._plan, row, self._expressions)
+        with _quiet_environment() as environment:
+            self.read(assigned, environment)
+
+    def read(self, assigned: Assignments, environment: dict[str, str]) -> LoadedLaunch:
+        """Read the launch with the arguments and parameters of a row.
+
+        Raises:
+            TrundleError: it cannot be read.
+        """
+        words = [*self._plan.world.split(), *(f"{name}:={value}" for name, value in assigned.arguments.items())]
+        read = read_files(words, LaunchOptions(), environment)
+        assert read is not None
+        ours = assigned.parameters
+        at = self._plan.world_at
+        params = [each for each in read.params if each.name not in ours]
+        params += [LaunchParam(name=name, value=_parameter(value), at=at) for name, value in ours.items()]
+        return replace_fields(read, params=params)
+
+    def files(self, row: Row) -> tuple[list[Path], str]:
+        """Return the files that a row depends on, and the text of its parameters.
+
+        Raises:
+            TrundleError: the launch cannot be read.
+        """
+        with _quiet_environment() as environment:
+            read = self.read(assignments_of(self._plan, row, self._expressions), environment)
+        return list(read.plan.files), repr([(each.name, each.value) for each in read.params])
+
+    def _run(self, row: Row, options: LaunchOptions) -> RowResult:
+        options = replace_fields(options, headless=True, speed=None, summary=False, quiet=True, output="log")
+        assigned = assignments_of(self._plan, row, self._expressions)
+        setup = LaunchSetup(self._plan, row, assigned.properties, self._expressions, self._topics)
+        said = io.StringIO()
+        try:
+            with (
+                _quiet_environment(said) as environment,
+                LaunchSession(
+                    self.read(assigned, environment), options, ports=(0,), rosout=False, setup=setup
+                ) as session,
+            ):
+                self._wait(session, setup)
+                measures = setup.script.measures() | self._judge.call_functions(setup.simulation)
+                return self._judge.judged(row, setup.time_s or 0.0, measures, "")
+        except TrundleError as error:
+            return RowResult(row.number, "error", str(error), setup.time_s)
+
+    def _wait(self, session: LaunchSession, setup: LaunchSetup) -> None:
+        """Wait for the end of a run.
+
+        Raises:
+            TrundleError: it ended before its end.
+        """
+        running = session.start(session.nodes)
+        paused_s: float | None = None
+        while not (session.is_over or setup.is_over):
+            time.sleep(_POLL_S)
+            if running.required_died:
+                raise UsageError("a required node died")
+            if running.is_worldless():
+                raise UsageError("the launch has no world (a node of gazebo_ros), or it has ended")
+            if not session.is_paused:
+                paused_s = None
+            elif paused_s is None:
+                paused_s = time.monotonic()
+            elif session.stop_reason is not None or time.monotonic() - paused_s > _PAUSED_S:
+                raise UsageError(session.stop_reason or "the world stays paused")
+        setup.finish()
+
+
+@contextmanager
+def _quiet_environment(said: io.StringIO | None = None) -> Generator[dict[str, str]]:
+    """Yield the variables of a launch on a graph of its own, with logs that are not kept and nothing printed."""
+    said = said or io.StringIO()
+    with TemporaryDirectory(prefix="trundle-sweep-") as logs, redirect_stderr(said), redirect_stdout(said):
+        environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
+        yield environment | {"ROS_LOG_DIR": logs}
+
+
+def _parameter(value: Value) -> ParamValue:
+    return [_parameter(each) for each in value] if isinstance(value, tuple) else value

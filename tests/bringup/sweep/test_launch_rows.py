@@ -1,0 +1,95 @@
+"""Rows of a launch file: arguments, parameters, properties of what is spawned, events and topics."""
+
+from pathlib import Path
+
+import pytest
+
+import trundle
+from trundle.bringup.sweep.trial import runner_of
+from trundle.diagnostics import TrundleError
+from trundle.ros import open_bag
+from trundle.trials import Rows, load_plan
+
+pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
+LAUNCH = """<launch><arg name="height" default="1"/>
+<param name="box_description" command="cat $(dirname)/box.urdf"/>
+<node pkg="gazebo_ros" type="gzserver" name="gazebo" args="$(dirname)/empty.world"/>
+<node pkg="gazebo_ros" type="spawn_model" name="spawn" args="-urdf -param box_description -model box -z $(arg height)"/>
+</launch>"""
+WORLD = '<sdf version="1.6"><world name="w"><gravity>0 0 -10</gravity></world></sdf>'
+URDF = """<robot name="box"><link name="body"><inertial><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>"""
+PLAN = """\
+launch: box.launch
+duration: 1
+every: 0.1
+bag: 0.5
+vary:
+  arguments/height: [20, 30]
+  models/box/links/body/inertial/mass: [1, 2]
+set: {gravity/z: '-2', parameters/gain: '[1, 2]'}
+events: [{at: 0.5, push: box/body, force: [10, 0, 0], for: 0.1}]
+measure:
+  z: models.box.z
+  fastest: {max: models.box.vx}
+  clock: topics["/clock"].clock.sec + topics["/clock"].clock.nanosec * 1e-9
+  params: {function: gain.py:gain}
+pass: [z > 25]
+"""
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Path:
+    for name, text in (("box.launch", LAUNCH), ("empty.world", WORLD), ("box.urdf", URDF), ("plan.yaml", PLAN)):
+        (tmp_path / name).write_text(text)
+    (tmp_path / "gain.py").write_text("def gain(sim):\n    return len(sim.models)\n")
+    return tmp_path / "plan.yaml"
+
+
+@pytest.mark.slow
+def test_a_launch_is_run_with_the_values_of_each_row(plan: Path) -> None:
+    done = trundle.sweep(plan, workers=2)
+
+    for row in done.table.to_pylist():
+        height, mass = row["arguments/height"], row["models/box/links/body/inertial/mass"]
+        assert row["status"] == ("ok" if height == 30 else "failed"), row["reason"]
+        assert row["z"] == pytest.approx(height - 1, abs=0.05), "half of 2 m/s² for 1 s"
+        assert row["fastest"] == pytest.approx(10 / mass * 0.1, rel=0.02)
+        assert row["clock"] == pytest.approx(1, abs=0.02)
+        assert row["params"] == 1
+    with open_bag(done.folder / "bags/row_0.bag") as bag:
+        assert {message.connection.topic for message in bag.messages()} >= {"/clock"}
+    assert sorted(each.name for each in (done.folder / "bags").iterdir()) == ["row_0.bag", "row_1.bag"]
+
+
+@pytest.mark.slow
+def test_a_row_of_a_launch_repeats_to_the_byte(plan: Path) -> None:
+    read = load_plan(plan)
+    results = [runner_of(read).run(Rows(read).row(1)) for _ in range(2)]
+
+    assert results[0] == results[1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("changed", "by", "said"),
+    [
+        ("models/box/links", "models/bx/links", "no such model was spawned; models: 'box'"),
+        ("links/body", "links/bdy", "has no 'bdy'; it has: body, *"),
+        ("box/body, force", "box/bdy, force", "no link 'bdy'"),
+    ],
+)
+def test_what_is_not_there_is_the_reason_of_an_error(plan: Path, changed: str, by: str, said: str) -> None:
+    plan.write_text(PLAN.replace(changed, by))
+    read = load_plan(plan)
+
+    result = runner_of(read).run(Rows(read).row(0))
+
+    assert result.status == "error"
+    assert said in result.reason
+
+
+def test_an_unknown_argument_is_refused(plan: Path) -> None:
+    plan.write_text(PLAN.replace("arguments/height", "arguments/hight"))
+    with pytest.raises(TrundleError, match=r"box\.launch:1: error: no argument 'hight' to set; "):
+        trundle.sweep(plan)
