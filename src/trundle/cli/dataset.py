@@ -10,6 +10,7 @@ from .quiet_imports import quiet_imports
 EXAMPLES = """
   trundle dataset plan.yaml                           every picture of the plan; the same command goes on after a stop
   trundle dataset plan.yaml --count 20                the first twenty
+  trundle dataset plan.yaml --show 7                  picture 7 alone, drawn with its annotations: plan.000007.png
   trundle dataset plan.yaml -o data                   in another folder
 """
 
@@ -19,6 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("plan", type=Path, metavar="PLAN.yaml", help="what is drawn, and what varies")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the dataset (PLAN.dataset)")
     parser.add_argument("--count", type=int, metavar="N", help="number of pictures (the plan's)")
+    parser.add_argument("--show", type=int, metavar="N", help="draw picture N with its annotations; makes no dataset")
     add_allow_outside(parser)
     add_lenient(parser)
 
@@ -26,9 +28,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Make the pictures of a plan."""
     with quiet_imports():
-        from trundle.bringup.dataset.dataset import make_dataset
         from trundle.datasets import load_dataset_plan
     plan = load_dataset_plan(args.plan, count=args.count)
+    if args.show is not None:
+        from trundle.bringup.dataset.show import show_picture
+
+        path = args.plan.with_suffix(f".{args.show:06}.png")
+        print(f"{show_picture(plan, args.show, path)}\n{path}")
+        return 0
+    from trundle.bringup.dataset.dataset import make_dataset
+
     result = make_dataset(plan, output=args.output)
     print(f"{result.summary()}; {result.folder}")
     if result.interrupted:

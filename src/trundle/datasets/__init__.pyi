@@ -5,10 +5,15 @@ from .annotation import KeyPointAnnotation as KeyPointAnnotation
 from .annotation import Mask as Mask
 from .annotation import ObjectAnnotation as ObjectAnnotation
 from .annotation import PictureAnnotation as PictureAnnotation
+from .contact_sheet import shown_pictures as shown_pictures
+from .contact_sheet import write_contact_sheet as write_contact_sheet
 from .dataset_folder import DatasetFolder as DatasetFolder
 from .distractors import distractor_models as distractor_models
 from .formats.catalog import format_of as format_of
 from .instance import Instance as Instance
+from .overlay import depth_colours as depth_colours
+from .overlay import draw_overlay as draw_overlay
+from .overlay import instance_colours as instance_colours
 from .picture import AnnotatedPicture as AnnotatedPicture
 from .picture import PictureMaker as PictureMaker
 from .plan import DatasetPlan as DatasetPlan

@@ -173,9 +173,3 @@ def _box_3d(points: _Array, world_from_model: Pose) -> Box3d:
     x, y, z = ((low + high) / 2).tolist()
     dx, dy, dz = (high - low).tolist()
     return Box3d(world_from_box=_row(world_from_model @ Pose((x, y, z))), size=(dx, dy, dz))
-
-
-def box_corners(box: Box3d) -> _Array:
-    """Return the eight corners of a box in the world, (8, 3) [m]; x varies slowest."""
-    signs = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-    return transform_points(pose_from_row(np.array(box.world_from_box)), signs * box.size)

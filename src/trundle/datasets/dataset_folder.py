@@ -5,7 +5,7 @@ A picture is there once its record is, which is written last.
 
 import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from io import BytesIO
 from pathlib import Path
 
@@ -78,13 +78,13 @@ class DatasetFolder:
         half.write_bytes(json.encode(annotation) + b"\n")
         os.replace(half, path)
 
-    def read(self, count: int) -> Iterator[PictureAnnotation]:
-        """Yield the annotations of the first pictures, in the order of their numbers.
+    def read(self, numbers: Iterable[int]) -> Iterator[PictureAnnotation]:
+        """Yield the annotations of pictures.
 
         Raises:
             UsageError: one is not there, or not readable.
         """
-        for number in range(count):
+        for number in numbers:
             path = self.path / picture_path(_RECORDS, number, "json")
             try:
                 yield json.decode(path.read_bytes(), type=PictureAnnotation)
@@ -114,6 +114,6 @@ def plan_digest(plan: DatasetPlan) -> str:
     if plan.distractors is not None:
         paints.append(plan.distractors.paint)
     files = [Path(name) for name in (plan.world, *(each.model for each in plan.objects)) if name]
-    files += [texture for paint in paints for texture in paint.textures]
+    files += [texture for paint in paints for texture in paint.textures if isinstance(texture, Path)]
     parts = [text.encode(), *(path.read_bytes() for path in files if path.is_file())]
     return hashlib.sha256(b"\0".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()

@@ -19,23 +19,26 @@ class Cloud(Struct, frozen=True, eq=False):
     """(N, 4) x, y, z in the lidar's frame [m], reflectance 0 to 1."""
     instances: NDArray[np.uint16]
     """(N,) number of the instance hit; 0: the rest of the world."""
+    classes: NDArray[np.uint16]
+    """(N,) number of its category, from 1 on; 0: the rest of the world."""
 
 
 class Lidar:
     """Lidar that moves with the camera, and sees what the camera sees."""
 
-    def __init__(self, plan: LidarPlan, numbers: NDArray[np.uint16]) -> None:
+    def __init__(self, plan: LidarPlan, numbers: NDArray[np.uint16], classes: NDArray[np.uint16]) -> None:
         """Compute its rays.
 
         Args:
             plan: of the lidar.
             numbers: shape → number of its instance; the last entry is that of no shape.
+            classes: instance → number of its category.
         """
         x, y, z, roll, pitch, yaw = plan.camera_from_lidar
         self.pose = Pose.from_rpy(x, y, z, roll, pitch, yaw)
         """Pose in the camera's frame: x along the view."""
         self._range_m = plan.range_m
-        self._numbers = numbers
+        self._numbers, self._classes = numbers, classes
         columns = np.linspace(*plan.horizontal, plan.columns, endpoint=False)
         yaws, pitches = np.meshgrid(columns, np.linspace(*plan.vertical, plan.beams))
         flat = np.cos(pitches)
@@ -48,7 +51,8 @@ class Lidar:
         points = self._directions[hit] * ranges[hit, None]
         reflectance = np.array([_reflectance(scene, i) for i in range(len(scene.shapes))])[shapes[hit]]
         cloud = np.concatenate([points, reflectance[:, None]], axis=1).astype(np.float32)
-        return Cloud(cloud, self._numbers[shapes[hit]])
+        instances = self._numbers[shapes[hit]]
+        return Cloud(cloud, instances, self._classes[instances])
 
 
 def _reflectance(scene: Scene, number: int) -> float:

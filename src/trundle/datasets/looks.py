@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
+from trundle.meshes import Texture
 from trundle.model import Rgba
 from trundle.render import DEFAULT_LIGHTS, Scene, SceneLight, Shape, load_texture
 from trundle.spatial import Vector3
@@ -36,7 +36,7 @@ class Looks:
         models = [scene.bodies[shape.body].partition("::")[0] for shape in scene.shapes]
         self._painted: list[tuple[Paint, list[int]]] = []
         """Paint, and the shapes that get it."""
-        self.textures: list[Path] = []
+        self.textures: list[Texture] = []
         """Every texture that a picture may show."""
         paints = {each.model: each.paint for each in instances} | dict(plan.materials)
         for name, paint in paints.items():
@@ -49,7 +49,7 @@ class Looks:
                 self.textures.append(texture)
                 image = load_texture(texture)
                 if isinstance(image, str):
-                    raise DescriptionError(paint.at, f"{texture} cannot be read: {image}")
+                    raise DescriptionError(paint.at, f"{texture!s} cannot be read: {image}")
         named = {light.name for light in self._lights}
         for light in plan.lights:
             if light.kind is None and light.name not in named:
@@ -99,8 +99,17 @@ def _painted(shapes: Sequence[Shape], paint: Paint, random: np.random.Generator)
     colour: Vector3 | None = None if paint.colour is None else draw_colour(paint.colour, random)
     if paint.textures:
         texture = paint.textures[int(random.integers(len(paint.textures)))]
-        rgb = colour or _WHITE
-        return [replace(shape, texture=texture, rgba=(*rgb, shape.rgba[3]), ambient=(*rgb, 1.0)) for shape in shapes]
+        scale, rgb = 1.0 / paint.repeat.draw(random), colour or _WHITE
+        return [
+            replace(
+                shape,
+                texture=texture,
+                texture_scale=(scale, scale),
+                rgba=(*rgb, shape.rgba[3]),
+                ambient=(*rgb, 1.0),
+            )
+            for shape in shapes
+        ]
     assert colour is not None
     return [replace(shape, texture=None, rgba=(*colour, shape.rgba[3]), ambient=(*colour, 1.0)) for shape in shapes]
 

@@ -4,6 +4,8 @@ from pathlib import Path
 from typing import Literal
 
 from trundle.diagnostics import DescriptionError
+from trundle.meshes import Texture
+from trundle.render import NAMED_TEXTURES, named_texture
 from trundle.trials import YamlNode
 
 from .plan import DistractorPlan, KeyPoint, Numbers, ObjectPlan, Paint, Placement
@@ -11,9 +13,10 @@ from .quantity import Quantity, constant
 from .value_reader import read_colour, read_count, read_numbers, read_pair, read_quantity, read_vector
 
 _PLACEMENT = ("surface", "within", "position", "rotation")
-_PAINT = ("colour", "textures")
+_PAINT = ("colour", "textures", "repeat")
 _OBJECT = ("model", "category", "count", *_PLACEMENT, *_PAINT, "joints", "key_points")
 _IMAGES = (".bmp", ".jpeg", ".jpg", ".png", ".webp")
+_ANY = "any"
 _MAX_TEXTURES, _MAX_INSTANCES = 256, 200
 
 
@@ -80,13 +83,13 @@ def read_distractors(node: YamlNode, folder: Path) -> DistractorPlan:
     )
 
 
-def read_paint(node: YamlNode, folder: Path, what: str, keys: tuple[str, ...]) -> Paint:
+def read_paint(node: YamlNode, folder: Path, what: str) -> Paint:
     """Read colour and textures alone.
 
     Raises:
         DescriptionError: with its line.
     """
-    return _paint(node, node.check_keys(what, *keys), folder)
+    return _paint(node, node.check_keys(what, *_PAINT), folder)
 
 
 def _placement(node: YamlNode, found: dict[str, YamlNode]) -> Placement:
@@ -130,20 +133,28 @@ def _paint(node: YamlNode, found: dict[str, YamlNode], folder: Path) -> Paint:
         at=node.at,
         colour=read_colour(found["colour"], "colour") if "colour" in found else None,
         textures=textures,
+        repeat=read_quantity(found["repeat"], "repeat", at_least=0.01, at_most=1000)
+        if "repeat" in found
+        else constant(1.0),
     )
 
 
-def _textures(node: YamlNode, folder: Path) -> list[Path]:
-    """Return an image, or the images of a folder in order of their names."""
-    path = folder / node.text("textures")
+def _textures(node: YamlNode, folder: Path) -> list[Texture]:
+    """Return an image, the images of a folder in order of their names, a named texture of Gazebo's, or all of those."""
+    name = node.text("textures")
+    if name in (_ANY, *NAMED_TEXTURES):
+        return [named_texture(each) for each in (NAMED_TEXTURES if name == _ANY else (name,))]
+    path = folder / name
     if path.is_file():
         return [path]
     files = sorted(each for each in path.iterdir() if each.suffix.lower() in _IMAGES) if path.is_dir() else []
     if not files:
-        node.fail(f"textures: {path} is no image and no folder with {', '.join(_IMAGES)}")
+        node.fail(
+            f"textures: {path} is no image and no folder with images; there are also: any, {', '.join(NAMED_TEXTURES)}"
+        )
     if len(files) > _MAX_TEXTURES:
         node.fail(f"textures: {path} has {len(files)} images; give at most {_MAX_TEXTURES}")
-    return files
+    return list(files)
 
 
 def _joints(node: YamlNode) -> dict[str, Quantity] | Literal["any"]:

@@ -57,7 +57,9 @@ class PictureMaker:
         self._looks = Looks(plan, scene, instances)
         self.placer = Placer(plan, simulation, instances, scene, outlines)
         self._annotator = Annotator(simulation, scene, instances, outlines)
-        self._lidar = None if plan.lidar is None else Lidar(plan.lidar, self._annotator.numbers)
+        categories = [0 if each.plan is None else plan.categories.index(each.plan.category) + 1 for each in instances]
+        classes = np.array([0, *categories], dtype=np.uint16)
+        self._lidar = None if plan.lidar is None else Lidar(plan.lidar, self._annotator.numbers, classes)
         self.renderer = NativeRenderer(scene, textures=self._looks.textures)
 
     def make(self, number: int) -> AnnotatedPicture:

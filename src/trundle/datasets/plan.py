@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from trundle.diagnostics import Source
+from trundle.meshes import Texture
 from trundle.spatial import Vector3
 
 from .quantity import Quantity, constant
@@ -31,8 +32,10 @@ class Paint:
     at: Source
     colour: Colour | None = None
     """Colour of all its visuals; None: as written."""
-    textures: tuple[Path, ...] = ()
+    textures: tuple[Texture, ...] = ()
     """Images, one of which it gets; empty: as written."""
+    repeat: Quantity = constant(1.0)
+    """Number of times that the image repeats along each axis."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

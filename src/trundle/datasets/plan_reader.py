@@ -94,7 +94,7 @@ def read_dataset_plan(text: str, *, file: str, folder: Path) -> DatasetPlan:
         objects=objects,
         distractors=read_distractors(found["distractors"], folder) if "distractors" in found else None,
         materials={
-            name: read_paint(node, folder, f"materials of {name}", ("colour", "textures"))
+            name: read_paint(node, folder, f"materials of {name}")
             for name, node in (found["materials"].mapping("materials") if "materials" in found else {}).items()
         },
         lights=_lights(found["lights"]) if "lights" in found else (),

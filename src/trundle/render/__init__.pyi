@@ -4,6 +4,8 @@ from .actor_skins import update_skins as update_skins
 from .bounds import corners_of as corners_of
 from .bounds import outline_of as outline_of
 from .from_world import scene_from_world as scene_from_world
+from .named_textures import NAMED_TEXTURES as NAMED_TEXTURES
+from .named_textures import named_texture as named_texture
 from .native import NativeRenderer as NativeRenderer
 from .pixels import add_colour_noise as add_colour_noise
 from .pixels import add_depth_noise as add_depth_noise

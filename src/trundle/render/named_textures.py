@@ -53,6 +53,13 @@ _PATTERNS: dict[str, tuple[Pattern, int]] = {
 """Name → pattern and its contrast: difference between its darkest and brightest value."""
 
 
+NAMED_TEXTURES = (
+    "Gazebo/Wood", "Gazebo/WoodFloor", "Gazebo/WoodPallet", "Gazebo/Bricks", "Gazebo/CeilingTiled",
+    "Gazebo/PaintedWall", "Gazebo/CloudySky", "Gazebo/Pedestrian", "Gazebo/Grass", "Gazebo/Runway", "Gazebo/Steps",
+)  # fmt: skip
+"""Names of those that look different from each other and suit any surface."""
+
+
 @lru_cache(maxsize=32)
 def named_texture(name: str) -> bytes:
     """Return the texture of a material in `TEXTURE_COLOURS`, as PNG; its mean is the material's colour."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from trundle.bringup.dataset.dataset_world import picture_maker
 from trundle.datasets import AnnotatedPicture, ObjectAnnotation, read_dataset_plan
-from trundle.datasets.annotator import box_corners
+from trundle.datasets.overlay import box_corners
 from trundle.datasets.run_length import decode_mask
 from trundle.diagnostics import DescriptionError
 from trundle.spatial import Pose, matrix_from_quaternion, pose_from_row

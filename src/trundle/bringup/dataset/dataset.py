@@ -7,7 +7,15 @@ from pathlib import Path
 
 import yaml
 
-from trundle.datasets import DatasetFolder, DatasetPlan, format_of, load_dataset_plan, read_dataset_plan
+from trundle.datasets import (
+    DatasetFolder,
+    DatasetPlan,
+    format_of,
+    load_dataset_plan,
+    read_dataset_plan,
+    shown_pictures,
+    write_contact_sheet,
+)
 from trundle.trials import lock_folder
 
 from ..signals import stop_flag
@@ -54,7 +62,8 @@ def make_dataset(plan: DatasetPlan, *, output: Path | None = None) -> DatasetRes
         done = plan.count - len(set(range(plan.count)) - folder.done())
         if done == plan.count:
             for name in plan.formats:
-                format_of(name).finish(plan, path, lambda: folder.read(plan.count))
+                format_of(name).finish(plan, path, lambda: folder.read(range(plan.count)))
+            write_contact_sheet(plan, path, list(folder.read(shown_pictures(plan.count))))
         return DatasetResult(folder=path, done=done, total=plan.count, interrupted=stop.is_set())
 
 

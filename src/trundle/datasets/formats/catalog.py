@@ -8,6 +8,11 @@ from .format import DatasetFormat
 
 _FORMATS: Mapping[Format, str] = {
     "coco": "CocoFormat",
+    "kitti": "KittiFormat",
+    "mcap": "McapFormat",
+    "parquet": "ParquetFormat",
+    "semantic_kitti": "SemanticKittiFormat",
+    "yolo": "YoloFormat",
 }
 """Name, which is also that of its module → class; imported on first use."""
 

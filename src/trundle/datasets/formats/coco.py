@@ -12,19 +12,15 @@ from msgspec import json
 
 from ..annotation import Box2d, ObjectAnnotation, PictureAnnotation
 from ..dataset_folder import picture_path
-from ..picture import AnnotatedPicture
 from ..plan import DatasetPlan
-from .format import ReadAll
+from .format import DatasetFormat, ReadAll
 
 _HIDDEN, _VISIBLE = 1, 2
 """COCO's marks of key points; 0: not in the picture."""
 
 
-class CocoFormat:
+class CocoFormat(DatasetFormat):
     """Writes `coco.json`; `file_name` is relative to the dataset's folder."""
-
-    def write(self, plan: DatasetPlan, folder: Path, picture: AnnotatedPicture) -> None:
-        """Write nothing: all is in one file."""
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
         """Write the file, a picture at a time: it may be larger than memory."""

@@ -1,8 +1,8 @@
-"""Protocol of a format."""
+"""Base of formats."""
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
 from ..annotation import PictureAnnotation
 from ..picture import AnnotatedPicture
@@ -12,13 +12,11 @@ ReadAll: TypeAlias = Callable[[], Iterable[PictureAnnotation]]
 """Reads the annotations of all pictures in the order of their numbers."""
 
 
-class DatasetFormat(Protocol):
-    """Writer of one format."""
+class DatasetFormat:
+    """Writer of one format; it writes files of each picture, of the whole dataset, or both."""
 
     def write(self, plan: DatasetPlan, folder: Path, picture: AnnotatedPicture) -> None:
         """Write the files of one picture; called in any process, and again after a kill."""
-        ...
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
         """Write the files of the whole dataset, once every picture is there."""
-        ...
