@@ -17,6 +17,7 @@ BENCHES = (
     "house",
     "images",
     "renderer",
+    "dataset",
     "page_feed",
     "startup",
     "launches",

@@ -74,7 +74,11 @@ def sweep(
 
 
 def dataset(
-    plan: "str | PathLike[str] | Mapping[str, object]", *, output: "str | PathLike[str] | None" = None
+    plan: "str | PathLike[str] | Mapping[str, object]",
+    *,
+    output: "str | PathLike[str] | None" = None,
+    workers: int | None = None,
+    address: str | None = None,
 ) -> "DatasetResult":
     """Make annotated pictures of a varied world, to train vision on.
 
@@ -83,6 +87,8 @@ def dataset(
     Args:
         plan: a plan's file, or its content as a dictionary, whose relative paths start in the working directory.
         output: folder of the dataset; None: beside the plan's file, or `plan.dataset` in the working directory.
+        workers: number of processes; None: one for each processor.
+        address: of a Ray cluster whose nodes share that folder; None: this machine alone.
 
     Raises:
         TrundleError: one sentence with file and line.
@@ -92,7 +98,7 @@ def dataset(
 
     from trundle.bringup.dataset.dataset import make_planned
 
-    return make_planned(plan, output=None if output is None else Path(output))
+    return make_planned(plan, output=None if output is None else Path(output), workers=workers, address=address)
 
 
 def __getattr__(name: str) -> object:

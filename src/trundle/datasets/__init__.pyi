@@ -21,3 +21,4 @@ from .plan import DistractorPlan as DistractorPlan
 from .plan import ObjectPlan as ObjectPlan
 from .plan_reader import load_dataset_plan as load_dataset_plan
 from .plan_reader import read_dataset_plan as read_dataset_plan
+from .view import draw_view as draw_view

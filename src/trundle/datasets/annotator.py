@@ -20,6 +20,8 @@ from .silhouettes import Silhouettes
 from .view import View
 
 _Array = NDArray[np.float64]
+_MARGIN_PX = 2
+"""Margin around a projected box in which an object's pixels are searched for."""
 _HIDDEN_M, _HIDDEN_SHARE = 0.01, 0.01
 """Distance by which something that hides a key point is nearer [m], and as a share of its depth."""
 
@@ -72,7 +74,7 @@ class Annotator:
         """
         counts = np.bincount(instances.reshape(-1), minlength=1 + max(self._bodies, default=0))
         return tuple(
-            self._object(each, arrangement, view, depth, instances == each.number, int(counts[each.number]))
+            self._object(each, arrangement, view, depth, instances, int(counts[each.number]))
             for each in arrangement.present
             if each.plan is not None and counts[each.number]
         )
@@ -83,22 +85,24 @@ class Annotator:
         arrangement: Arrangement,
         view: View,
         depth: NDArray[np.float32],
-        mask: NDArray[np.bool_],
+        instances: NDArray[np.uint16],
         pixels: int,
     ) -> ObjectAnnotation:
         assert instance.plan is not None
         bodies, poses = self._bodies[instance.number], arrangement.poses
         points = self._outlines.in_world(bodies, poses)
         world_from_model = arrangement.world_from_models[instance.number]
+        projected = _projected_box(points, view)
+        mask = _mask_within(projected, instances, instance.number, pixels)
         box = _box_of(mask)
-        hiding = self._silhouettes.hiding(bodies, poses, points, view, depth, mask)
+        hiding = self._silhouettes.hiding(bodies, poses, points, view, depth, instances, instance.number)
         return ObjectAnnotation(
             instance=instance.number,
             model=instance.model,
             category=instance.plan.category,
             world_from_model=_row(world_from_model),
             box=box,
-            amodal_box=_amodal_box(points, view, box),
+            amodal_box=_union(projected, box),
             box_3d=_box_3d(points, world_from_model),
             pixels=pixels,
             occlusion=hiding.occlusion,
@@ -143,15 +147,15 @@ def _box_of(mask: NDArray[np.bool_]) -> Box2d:
     return Box2d(float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))
 
 
-def _amodal_box(points: _Array, view: View, visible: Box2d) -> Box2d:
+def _projected_box(points: _Array, view: View) -> Box2d:
     """Return the box around the projected points, within the picture; where some are behind the camera, up to the edges
     that they reach.
     """
     pixels = view.project(points)
     ahead = pixels[:, 2] > view.lens.near_m
-    if not ahead.any():
-        return visible
     width, height = float(view.lens.width_px), float(view.lens.height_px)
+    if not ahead.any():
+        return Box2d(0.0, 0.0, width, height)
     low, high = pixels[ahead, :2].min(axis=0), pixels[ahead, :2].max(axis=0)
     if not ahead.all():
         behind = points[~ahead] - view.world_from_optical.position
@@ -160,10 +164,27 @@ def _amodal_box(points: _Array, view: View, visible: Box2d) -> Box2d:
         high = np.where((local[:, :2] > 0).any(axis=0), (width, height), high)
     (left, top), (right, bottom) = low.tolist(), high.tolist()
     return Box2d(
-        max(min(left, visible.left), 0.0),
-        max(min(top, visible.top), 0.0),
-        min(max(right, visible.right), width),
-        min(max(bottom, visible.bottom), height),
+        min(max(left, 0.0), width),
+        min(max(top, 0.0), height),
+        max(min(right, width), 0.0),
+        max(min(bottom, height), 0.0),
+    )
+
+
+def _mask_within(box: Box2d, instances: NDArray[np.uint16], number: int, pixels: int) -> NDArray[np.bool_]:
+    """Return the (height, width) mask of an instance, searched for in a box first."""
+    left, top = max(int(box.left) - _MARGIN_PX, 0), max(int(box.top) - _MARGIN_PX, 0)
+    part = instances[top : int(box.bottom) + _MARGIN_PX, left : int(box.right) + _MARGIN_PX] == number
+    if np.count_nonzero(part) != pixels:
+        return instances == number
+    mask = np.zeros(instances.shape, dtype=bool)
+    mask[top : top + part.shape[0], left : left + part.shape[1]] = part
+    return mask
+
+
+def _union(one: Box2d, other: Box2d) -> Box2d:
+    return Box2d(
+        min(one.left, other.left), min(one.top, other.top), max(one.right, other.right), max(one.bottom, other.bottom)
     )
 
 

@@ -13,6 +13,7 @@ from trundle.render import DEFAULT_LIGHTS, Scene, SceneLight, Shape, load_textur
 from trundle.spatial import Vector3
 
 from .instance import Instance
+from .placer import Arrangement
 from .plan import DatasetPlan, LightPlan, Paint
 from .random_stream import LIGHTS, LOOKS, draw_colour, draw_numbers, random_stream
 
@@ -34,8 +35,9 @@ class Looks:
         self._scene = scene
         self._lights = scene.lights or DEFAULT_LIGHTS
         models = [scene.bodies[shape.body].partition("::")[0] for shape in scene.shapes]
-        self._painted: list[tuple[Paint, list[int]]] = []
-        """Paint, and the shapes that get it."""
+        self._painted: list[tuple[str, Paint, list[int]]] = []
+        """Model, its paint and its shapes."""
+        self._placed = {each.model for each in instances}
         self.textures: list[Texture] = []
         """Every texture that a picture may show."""
         paints = {each.model: each.paint for each in instances} | dict(plan.materials)
@@ -44,7 +46,7 @@ class Looks:
                 there = ", ".join(dict.fromkeys(models)) or "none"
                 raise DescriptionError(paint.at, f"there is no model {name!r} with a visual; models: {there}")
             if paint.colour is not None or paint.textures:
-                self._painted.append((paint, [i for i, model in enumerate(models) if model == name]))
+                self._painted.append((name, paint, [i for i, model in enumerate(models) if model == name]))
             for texture in paint.textures:
                 self.textures.append(texture)
                 image = load_texture(texture)
@@ -57,11 +59,14 @@ class Looks:
                 what = f"the world has no light {light.name!r}; lights: {there}; `type: directional` or point adds one"
                 raise DescriptionError(light.at, what)
 
-    def scene(self, number: int) -> Scene:
+    def scene(self, number: int, arrangement: Arrangement) -> Scene:
         """Draw the looks of a picture."""
+        absent = self._placed - {each.model for each in arrangement.present}
         random = random_stream(self._plan.seed, number, LOOKS)
         shapes = list(self._scene.shapes)
-        for paint, numbers in self._painted:
+        for name, paint, numbers in self._painted:
+            if name in absent:
+                continue
             for i, shape in zip(numbers, _painted([shapes[i] for i in numbers], paint, random), strict=True):
                 shapes[i] = shape
         random = random_stream(self._plan.seed, number, LIGHTS)

@@ -54,13 +54,13 @@ class PictureMaker:
         self._plan = plan
         scene = scene_from_world(simulation.world, Diagnostics())
         outlines = Outlines(scene)
-        self._looks = Looks(plan, scene, instances)
+        self.looks = Looks(plan, scene, instances)
         self.placer = Placer(plan, simulation, instances, scene, outlines)
         self._annotator = Annotator(simulation, scene, instances, outlines)
         categories = [0 if each.plan is None else plan.categories.index(each.plan.category) + 1 for each in instances]
         classes = np.array([0, *categories], dtype=np.uint16)
         self._lidar = None if plan.lidar is None else Lidar(plan.lidar, self._annotator.numbers, classes)
-        self.renderer = NativeRenderer(scene, textures=self._looks.textures)
+        self.renderer = NativeRenderer(scene, textures=self.looks.textures)
 
     def make(self, number: int) -> AnnotatedPicture:
         """Make a picture.
@@ -70,7 +70,7 @@ class PictureMaker:
         """
         arrangement = self.placer.arrange(number)
         view = draw_view(self._plan, number, arrangement)
-        scene = self._looks.scene(number)
+        scene = self.looks.scene(number, arrangement)
         self.renderer.restyle(scene)
         self.renderer.update(arrangement.poses)
         rgb, depth, shapes = self.draw(view)

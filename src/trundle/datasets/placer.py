@@ -8,6 +8,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError
+from trundle.physics import SimulationUnstableError
 from trundle.render import Scene
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose, rotate_vectors
@@ -20,6 +21,8 @@ from .surface import Surface
 
 _Array = NDArray[np.float64]
 _ATTEMPTS = 40
+_SETTLINGS = 5
+"""Arrangements drawn until physics lets one come to rest."""
 _CLEARANCE_M = 1e-3
 """Height above a surface."""
 _DEEPEST_M = 5e-4
@@ -59,6 +62,7 @@ class Placer:
         """Object, or "" for distractors → its instances."""
         for each in instances:
             self._groups.setdefault(each.plan.name if each.plan else "", []).append(each)
+        self._extents: dict[int, _Array] = {}
         rest = simulation.snapshot().poses
         self._surfaces = self._find_surfaces(scene, rest)
         for each in instances:
@@ -113,11 +117,7 @@ class Placer:
             SimulationUnstableError: physics does not let the things come to rest.
         """
         random = random_stream(self._plan.seed, number, PLACES)
-        self._simulation.restore(self._saved)
-        present = [each for group in self._groups.values() for each in self._chosen(group, random)]
-        placed = [each for each in present if self._place(each, random)]
-        if self._plan.settle_s:
-            self._simulation.run(self._plan.settle_s)
+        placed = self._settle(random, attempts=_SETTLINGS)
         poses = self._simulation.snapshot().poses.copy()
         there = {each.number for each in placed}
         for each in self._instances:
@@ -128,6 +128,19 @@ class Placer:
             present=tuple(placed),
             world_from_models={each.number: self._models[each.number].pose for each in placed},
         )
+
+    def _settle(self, random: np.random.Generator, *, attempts: int) -> list[Instance]:
+        """Place instances, let them fall, and return those that found a place."""
+        self._simulation.restore(self._saved)
+        present = [each for group in self._groups.values() for each in self._chosen(group, random)]
+        placed = [each for each in present if self._place(each, random)]
+        try:
+            self._simulation.run(self._plan.settle_s)
+        except SimulationUnstableError:
+            if attempts == 1:
+                raise
+            return self._settle(random, attempts=attempts - 1)
+        return placed
 
     def _chosen(self, group: list[Instance], random: np.random.Generator) -> list[Instance]:
         plan = group[0].plan
@@ -143,8 +156,7 @@ class Placer:
         self._set_joints(instance, model, random)
         if not self._moves(instance):
             return True
-        points = self._outlines.in_world(bodies_of(model), self._simulation.snapshot().poses)
-        points = points - model.pose.position
+        points = self._points(instance, model)
         for _ in range(_ATTEMPTS):
             pose = self._draw_pose(instance.placement, points, random)
             if pose is None:
@@ -154,6 +166,16 @@ class Placer:
                 return True
         self._park(instance)
         return False
+
+    def _points(self, instance: Instance, model: ModelHandle) -> _Array:
+        """Return (N, 3) extent of a parked model in its own frame, upright [m]; kept unless its joints move."""
+        points = self._extents.get(instance.number)
+        if points is None:
+            points = self._outlines.in_world(bodies_of(model), self._simulation.snapshot().poses)
+            points = points - model.pose.position
+            if instance.plan is None or not instance.plan.joints:
+                self._extents[instance.number] = points
+        return points
 
     def _set_joints(self, instance: Instance, model: ModelHandle, random: np.random.Generator) -> None:
         plan = instance.plan

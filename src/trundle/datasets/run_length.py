@@ -11,12 +11,15 @@ from .annotation import Mask
 def encode_mask(mask: NDArray[np.bool_]) -> Mask:
     """Encode a (height, width) mask."""
     height, width = mask.shape
-    flat = mask.T.reshape(-1)
-    changes = np.flatnonzero(flat[1:] != flat[:-1]) + 1
-    ends = [0, *changes.tolist(), flat.size]
+    columns = np.flatnonzero(mask.any(axis=0))
+    first, last = (int(columns[0]), int(columns[-1]) + 1) if len(columns) else (0, 0)
+    flat = np.zeros((last - first) * height + 2, dtype=bool)  # with background before and after
+    flat[1:-1] = mask[:, first:last].T.reshape(-1)
+    changes = np.flatnonzero(flat[1:] != flat[:-1]) + first * height
+    ends = [0, *changes.tolist(), height * width]
     counts = [after - before for before, after in pairwise(ends)]
-    if flat[0]:
-        counts.insert(0, 0)  # the first run is of the background
+    if counts[-1] == 0 and len(counts) > 1:
+        counts.pop()
     return Mask(size=(height, width), counts=_characters(counts))
 
 

@@ -8,13 +8,13 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.render import Intrinsics, NativeRenderer, Scene
-from trundle.spatial import Pose, matrix_from_quaternion, quaternion_from_matrix, transform_points
+from trundle.spatial import Pose, matrix_from_quaternion, transform_points
 
-from .view import View
+from .view import View, looking_rotation
 
 _Array = NDArray[np.float64]
-_SIDE_PX = 72
-"""Size of the small picture: an object covers some two thousand of its pixels."""
+_SIDE_PX = 64
+"""Size of the small picture: an object covers one or two thousand of its pixels."""
 _MARGIN = 1.05
 _WIDEST = 2.6
 """Field of view for what surrounds the camera [rad]."""
@@ -46,7 +46,8 @@ class Silhouettes:
         points: _Array,
         view: View,
         depth: NDArray[np.float32],
-        is_object: NDArray[np.bool_],
+        instances: NDArray[np.uint16],
+        number: int,
     ) -> Hiding:
         """Return the hidden parts of an object.
 
@@ -56,7 +57,8 @@ class Silhouettes:
             points: (N, 3) extent of the object in the world [m].
             view: the picture's camera.
             depth: (height, width) of the picture [m].
-            is_object: (height, width) the object's visible pixels.
+            instances: (height, width) number of the instance at each pixel.
+            number: the object's.
         """
         alone = np.full_like(poses, np.nan)
         alone[list(bodies)] = poses[list(bodies)]
@@ -86,21 +88,15 @@ class Silhouettes:
             return Hiding(0.0, 1.0)
         u, v = pixels[inside, 0].astype(np.intp), pixels[inside, 1].astype(np.intp)
         # What is seen behind the object beside its edge does not hide it.
-        hidden = ~is_object[v, u] & (depth[v, u] < pixels[inside, 2] * (1.0 - _NEARER))
+        hidden = (instances[v, u] != number) & (depth[v, u] < pixels[inside, 2] * (1.0 - _NEARER))
         return Hiding(float(hidden.mean()), 1.0 - float(inside.mean()))
 
 
 def _fitted(eye: tuple[float, float, float], points: _Array, view: View) -> tuple[Pose, Intrinsics]:
     """Return a camera at the same place that looks at the points alone."""
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    ahead = middle - eye
-    distance = float(np.linalg.norm(ahead))
-    if distance < 1e-6:
-        ahead, distance = np.array([1.0, 0.0, 0.0]), 1.0
-    ahead = ahead / distance
-    side = np.cross((0.0, 0.0, 1.0) if abs(ahead[2]) < 0.9 else (1.0, 0.0, 0.0), ahead)
-    side /= np.linalg.norm(side)
-    turn = quaternion_from_matrix(np.stack([ahead, side, np.cross(ahead, side)], axis=-1))
+    low, high = points.min(axis=0), points.max(axis=0)
+    x, y, z = ((low + high) / 2).tolist()
+    turn = looking_rotation(eye, (x, y, z))
     local = (points - eye) @ matrix_from_quaternion(turn)
     if (local[:, 0] > view.lens.near_m).all():
         half = float(np.abs(local[:, 1:] / local[:, :1]).max())

@@ -7,7 +7,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.render import Intrinsics
-from trundle.spatial import Pose, Vector3, matrix_from_quaternion, quaternion_from_matrix, quaternion_from_rpy
+from trundle.spatial import Pose, Quaternion, Vector3, matrix_from_quaternion, quaternion_from_rpy
 
 from .placer import Arrangement
 from .plan import DatasetPlan, Orbit
@@ -62,7 +62,7 @@ def draw_view(plan: DatasetPlan, number: int, arrangement: Arrangement) -> View:
         near_m=camera.near_m,
         far_m=camera.far_m,
     )
-    return View(Pose(eye, _looking(eye, target, camera.roll.draw(random))), lens)
+    return View(Pose(eye, looking_rotation(eye, target, camera.roll.draw(random))), lens)
 
 
 def _target(plan: DatasetPlan, arrangement: Arrangement, random: np.random.Generator) -> Vector3:
@@ -78,13 +78,7 @@ def _target(plan: DatasetPlan, arrangement: Arrangement, random: np.random.Gener
     return x, y, z
 
 
-def _looking(eye: Vector3, target: Vector3, roll: float) -> tuple[float, float, float, float]:
+def looking_rotation(eye: Vector3, target: Vector3, roll: float = 0.0) -> Quaternion:
     """Return the rotation of a camera that looks at a point, with the horizon level but for `roll` [rad]."""
-    ahead = np.subtract(target, eye)
-    length = float(np.linalg.norm(ahead))
-    ahead = ahead / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])
-    left = np.cross((0.0, 0.0, 1.0), ahead)
-    across = float(np.linalg.norm(left))
-    left = left / across if across > 1e-9 else np.array([0.0, 1.0, 0.0])
-    level = quaternion_from_matrix(np.stack([ahead, left, np.cross(ahead, left)], axis=-1))
-    return (Pose(quaternion=level) @ Pose(quaternion=quaternion_from_rpy(roll, 0.0, 0.0))).quaternion
+    x, y, z = (there - here for there, here in zip(target, eye, strict=True))
+    return quaternion_from_rpy(roll, -math.atan2(z, math.hypot(x, y)), math.atan2(y, x))

@@ -10,13 +10,15 @@ _LOG_S = 30.0
 class Progress:
     """Prints the number of rows, their rate and the time left to stderr."""
 
-    def __init__(self, total: int, done: int) -> None:
+    def __init__(self, total: int, done: int, *, what: str = "runs") -> None:
         """Start the display.
 
         Args:
             total: rows of the job.
             done: rows that were there already.
+            what: the rows, in the plural.
         """
+        self._what = what
         self._total, self._before, self._done = total, done, done
         self._failed = 0
         self._started_s = time.monotonic()
@@ -41,7 +43,7 @@ class Progress:
         if self._stream is None or now_s - self._shown_s < (_REDRAW_S if self._on_terminal else _LOG_S):
             return
         self._shown_s = now_s
-        text = f"{self._done} of {self._total} runs, {self._failed} not ok"
+        text = f"{self._done} of {self._total} {self._what}, {self._failed} not ok"
         if self._done > self._before:
             left_s = (self._total - self._done) / self.rate
             text += f", {self.rate:.3g} a second, about {_format_duration(left_s)} left"

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -76,6 +77,7 @@ def test_coco_is_what_cocos_tools_read(plan: Path) -> None:
             assert each["area"] == mask.sum()
 
 
+@pytest.mark.slow
 def test_what_is_there_is_not_made_again_and_the_rest_is_the_same(plan: Path) -> None:
     assert _make(plan, "-o", str(plan.with_name("whole"))).returncode == 0
     whole, folder = plan.with_name("whole"), plan.with_suffix(".dataset")
@@ -88,6 +90,7 @@ def test_what_is_there_is_not_made_again_and_the_rest_is_the_same(plan: Path) ->
     assert _bytes(folder) == _bytes(whole)
 
 
+@pytest.mark.slow
 def test_another_plan_does_not_write_into_the_folder(plan: Path) -> None:
     assert _make(plan, "--count", "1").returncode == 0
     plan.write_text(PLAN.replace("seed: 5", "seed: 6"))
@@ -98,6 +101,7 @@ def test_another_plan_does_not_write_into_the_folder(plan: Path) -> None:
     assert "has the pictures of another plan, or the plan or its models have changed since" in done.stderr
 
 
+@pytest.mark.slow
 def test_records_have_masks_by_number(plan: Path) -> None:
     _make(plan, "--count", "1")
     record = json.loads((plan.with_suffix(".dataset") / "records/000000.json").read_text())
@@ -105,3 +109,41 @@ def test_records_have_masks_by_number(plan: Path) -> None:
     for each in record["objects"]:
         mask = Mask(size=tuple(each["mask"]["size"]), counts=each["mask"]["counts"])
         assert np.array_equal(decode_mask(mask), numbers == each["instance"])
+
+
+@pytest.mark.slow
+def test_a_killed_dataset_goes_on_and_its_files_are_the_same(plan: Path) -> None:
+    plan.write_text(PLAN.replace("count: 3", "count: 40\nformats: [coco, yolo, kitti]"))
+    whole, folder = plan.with_name("whole"), plan.with_suffix(".dataset")
+    assert _make(plan, "-o", str(whole), "--workers", "1").returncode == 0
+
+    process = subprocess.Popen([TRUNDLE, "dataset", plan], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 120
+    while process.poll() is None and time.monotonic() < deadline:
+        if len(list(folder.glob("records/*.json"))) >= 7:
+            break
+        time.sleep(0.005)
+    process.kill()
+    process.wait()
+    there = {each: each.stat().st_mtime_ns for each in folder.glob("records/*.json")}
+    assert 7 <= len(there) < 40
+    again = _make(plan)
+
+    assert again.returncode == 0, again.stderr
+    assert {each: each.stat().st_mtime_ns for each in there} == there, "nothing is made twice"
+    assert _bytes(folder) == _bytes(whole)
+
+
+@pytest.mark.slow
+def test_show_draws_one_picture_and_makes_no_dataset(plan: Path) -> None:
+    done = _make(plan, "--show", "2")
+
+    path = plan.with_suffix(".000002.png")
+    lines = done.stdout.splitlines()
+    assert lines[0].endswith(" objects")
+    assert "(box): " in lines[1]
+    assert lines[-1] == str(path)
+    with Image.open(path) as image:
+        assert image.size == (320, 240)
+    assert not plan.with_suffix(".dataset").exists()
+    assert "the plan has pictures 0 to 2" in _make(plan, "--show", "3").stderr

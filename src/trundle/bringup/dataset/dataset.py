@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import yaml
@@ -16,9 +17,11 @@ from trundle.datasets import (
     shown_pictures,
     write_contact_sheet,
 )
+from trundle.diagnostics import TrundleError, UsageError
 from trundle.trials import lock_folder
+from trundle.workers import Job, Progress, run_rows
 
-from ..signals import stop_flag
+from ..signals import StopFlag, stop_flag
 from .dataset_world import picture_maker
 
 
@@ -30,6 +33,10 @@ class DatasetResult:
     done: int
     total: int
     """Pictures of the plan."""
+    rate: float
+    """Pictures per second of wall time of this call."""
+    failed: Mapping[int, str]
+    """Number of a picture that could not be made → why; without it the formats' files of the whole are missing."""
     interrupted: bool
     """True after Ctrl-C; the same call goes on where it was."""
 
@@ -38,58 +45,108 @@ class DatasetResult:
         return f"{self.done} of {self.total} pictures"
 
 
-def dataset_folder(plan: DatasetPlan, output: Path | None) -> Path:
-    """Return the folder of a plan's pictures: beside its file, or as asked for."""
-    return output or Path(plan.file).with_suffix(".dataset")
-
-
-def make_dataset(plan: DatasetPlan, *, output: Path | None = None) -> DatasetResult:
+def make_dataset(
+    plan: DatasetPlan, *, output: Path | None = None, workers: int | None = None, address: str | None = None
+) -> DatasetResult:
     """Make the pictures of a plan that are not there yet, then the files of the whole dataset.
+
+    Args:
+        plan: as read.
+        output: folder of the dataset; None: beside the plan.
+        workers: number of processes; None: one for each processor.
+        address: of a Ray cluster whose nodes share the folder; None: this machine, without Ray.
 
     Raises:
         TrundleError: the plan cannot be drawn, or its pictures not be written.
     """
-    path = dataset_folder(plan, output)
-    write = picture_writer(plan, path)
+    if workers is not None and workers < 1:
+        raise UsageError(f"{workers} workers; give at least 1")
+    picture_maker(plan)  # a plan with errors is refused here, once, not by each process
+    path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
+    job = Job(make=partial(_picture_writer, plan, path))
     with lock_folder(path), stop_flag() as stop:
         folder = DatasetFolder(path)
         folder.open(plan)
         missing = sorted(set(range(plan.count)) - folder.done())
-        for number in missing:
-            if stop.is_set():
-                break
-            write(number)
-        done = plan.count - len(set(range(plan.count)) - folder.done())
-        if done == plan.count:
+        progress = Progress(plan.count, plan.count - len(missing), what="pictures")
+        failed = _run(job, missing, progress, workers=workers, address=address, stop=stop)
+        left = set(range(plan.count)) - folder.done()
+        if not left:
             for name in plan.formats:
                 format_of(name).finish(plan, path, lambda: folder.read(range(plan.count)))
             write_contact_sheet(plan, path, list(folder.read(shown_pictures(plan.count))))
-        return DatasetResult(folder=path, done=done, total=plan.count, interrupted=stop.is_set())
+        return DatasetResult(
+            folder=output or Path(plan.file).with_suffix(".dataset"),
+            done=plan.count - len(left),
+            total=plan.count,
+            rate=progress.rate,
+            failed=failed,
+            interrupted=stop.is_set(),
+        )
 
 
-def picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], None]:
-    """Return the function that makes and writes the picture of a number."""
+def _run(
+    job: "Job[str]",
+    missing: list[int],
+    progress: Progress,
+    *,
+    workers: int | None,
+    address: str | None,
+    stop: StopFlag,
+) -> dict[int, str]:
+    """Make pictures; return why some could not be made."""
+    failed: dict[int, str] = {}
+    try:
+        if missing:
+            for result in run_rows(
+                job, iter(missing), count=len(missing), workers=workers, address=address, is_ending=stop.is_set
+            ):
+                if result is not None:
+                    reason = result.reason if result.failure is not None else result.value
+                    if reason:
+                        failed[result.row] = reason
+                    progress.add(is_ok=not reason)
+                progress.show()
+    finally:
+        progress.close()
+    return failed
+
+
+def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
+    """Return the function that makes and writes the picture of a number, and returns why it could not, or ""."""
     maker, folder = picture_maker(plan), DatasetFolder(path)
     formats = [format_of(name) for name in plan.formats]
 
-    def write(number: int) -> None:
-        picture = maker.make(number)
-        folder.write(picture)
-        for each in formats:
-            each.write(plan, path, picture)
-        folder.add(picture.annotation)
+    def write(number: int) -> str:
+        try:
+            picture = maker.make(number)
+            folder.write(picture)
+            for each in formats:
+                each.write(plan, path, picture)
+            folder.add(picture.annotation)
+        except TrundleError as error:
+            return str(error)
+        except OSError as error:
+            return f"{error.filename}: {error.strerror}"
+        return ""
 
     return write
 
 
-def make_planned(plan: "str | os.PathLike[str] | Mapping[str, object]", *, output: Path | None) -> DatasetResult:
+def make_planned(
+    plan: "str | os.PathLike[str] | Mapping[str, object]",
+    *,
+    output: Path | None,
+    workers: int | None,
+    address: str | None,
+) -> DatasetResult:
     """See `trundle.dataset`."""
     if isinstance(plan, str | os.PathLike):
         read = load_dataset_plan(Path(plan))
     else:
         text = yaml.safe_dump(dict(plan), sort_keys=False)
         read = read_dataset_plan(text, file="plan", folder=Path.cwd())
-    result = make_dataset(read, output=output)
+    result = make_dataset(read, output=output, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import json, to_builtins
 
-from trundle.trials import import_extra
+from trundle.extras import import_extra
 
 from ..annotation import PictureAnnotation
 from ..dataset_folder import picture_path
