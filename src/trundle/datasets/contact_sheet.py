@@ -31,7 +31,7 @@ h1{font-size:20px;margin:0 0 4px}p{margin:0 0 16px}
 figure{margin:0;background:var(--card);border:1px solid var(--line);border-radius:6px;overflow:hidden}
 figure>div{position:relative}img,svg{display:block;width:100%}svg{position:absolute;inset:0;height:100%}
 figcaption{padding:4px 8px;font-size:12px}
-text{font:600 12px system-ui,sans-serif;paint-order:stroke;stroke:#000b;stroke-width:3px}
+text{font-family:system-ui,sans-serif;font-weight:600;paint-order:stroke;stroke:#000a;stroke-width:3px}
 table{border-collapse:collapse;margin:0 0 16px}td,th{padding:2px 12px 2px 0;text-align:left}
 td+td,th+th{text-align:right}i{display:inline-block;width:10px;height:10px;border-radius:2px;margin-right:6px}
 label{margin-right:16px;cursor:pointer}fieldset{border:0;padding:0;margin:0 0 12px}
@@ -113,7 +113,9 @@ def _shapes(plan: DatasetPlan, picture: PictureAnnotation) -> Iterator[str]:
         colour, box = _css(plan.categories.index(each.category)), each.box
         style = f'fill="none" stroke="{colour}" stroke-width="2" vector-effect="non-scaling-stroke"'
         size = f'width="{box.width:g}" height="{box.height:g}"'
-        label = f'<text x="{box.left:g}" y="{max(box.top - 4, 12):g}" fill="{colour}">{escape(each.category)}</text>'
+        high = picture.width / 28
+        place = f'x="{box.left:g}" y="{max(box.top - 4, high):g}" font-size="{high:.1f}"'
+        label = f'<text {place} fill="{colour}">{escape(each.category)}</text>'
         yield f'<g class="box"><rect x="{box.left:g}" y="{box.top:g}" {size} {style}/>{label}</g>'
         path = "".join(f"M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" for (x, y), (u, v) in box_edges(each.box_3d, picture.camera))
         yield f'<path class="solid" d="{path}" {style}/>'

@@ -102,8 +102,8 @@ def read_colour(node: YamlNode, what: str) -> Colour:
     if isinstance(node.value, dict):
         found = node.check_keys(what, "hue", "saturation", "value")
         hue, saturation, value = (
-            read_quantity(found[name], name, at_least=0, at_most=1) if name in found else UNIT
-            for name in ("hue", "saturation", "value")
+            read_quantity(found[name], name, at_least=0, at_most=1) if name in found else default
+            for name, default in (("hue", UNIT), ("saturation", UNIT), ("value", _BRIGHT))
         )
         return Colour(hsv=(hue, saturation, value))
     if not isinstance(node.value, list) or not node.value:
