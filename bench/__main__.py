@@ -23,6 +23,7 @@ BENCHES = (
     "launches",
     "page",
     "page_start",
+    "page_pointer",
 )
 
 

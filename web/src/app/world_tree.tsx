@@ -19,6 +19,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const { world, selection, session } = shell.page;
   const root = useComputed(() => (world.manifest.value === null ? null : worldNode(world.manifest.value, shell.page.session.title)));
   const search = useSignal("");
+  const rows = useRef(new WorldRows());
   const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
   const isOpen = (node: WorldNode): boolean => toggled.value.get(node.key) ?? opensAtFirst(node, world.manifest.value);
   if (root.value === null) {
@@ -40,7 +41,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
         {seen.length === 0 && <p class="empty">Nothing is named so.</p>}
         <Tree
           label="World"
-          rows={seen.map((each) => row(shell, each, each.node.key === selected))}
+          rows={seen.map((each) => rows.current.of(shell, each, each.node.key === selected))}
           onToggle={(key, open) => (toggled.value = new Map(toggled.value).set(key, open))}
           onSelect={(key) => {
             const node = byKey.get(key);
@@ -73,8 +74,23 @@ function opensAtFirst(node: WorldNode, manifest: Manifest | null): boolean {
   return shown.length === 1 || robot !== null ? shown.some(({ name }) => node.hides === name) : false;
 }
 
-function row(shell: Shell, { node, depth, isOpen }: SeenNode, selected: boolean): TreeRow {
-  const hidden = node.hides !== null && shell.page.world.hidden.value.has(node.hides);
+/** Rows of the tree; one that shows what it did before is the same object. */
+class WorldRows {
+  private readonly known = new WeakMap<WorldNode, { readonly shows: string; readonly row: TreeRow }>();
+
+  of(shell: Shell, seen: SeenNode, selected: boolean): TreeRow {
+    const { node, depth, isOpen } = seen;
+    const hidden = node.hides !== null && shell.page.world.hidden.value.has(node.hides);
+    const shows = `${depth} ${isOpen} ${selected} ${hidden}`;
+    const known = this.known.get(node);
+    if (known?.shows === shows) return known.row;
+    const row = makeRow(shell, seen, selected, hidden);
+    this.known.set(node, { shows, row });
+    return row;
+  }
+}
+
+function makeRow(shell: Shell, { node, depth, isOpen }: SeenNode, selected: boolean, hidden: boolean): TreeRow {
   return {
     key: node.key,
     depth,

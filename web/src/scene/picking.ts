@@ -6,6 +6,7 @@ import {
 } from "three";
 import { acceleratedRaycast, computeBoundsTree, disposeBoundsTree } from "three-mesh-bvh";
 
+import { BodySpheres } from "./body_spheres";
 import type { Pick } from "./scene_view";
 
 BufferGeometry.prototype.computeBoundsTree = computeBoundsTree;
@@ -33,6 +34,8 @@ export const NOT_PICKED = "notPicked";
 
 export class Picker {
   private readonly raycaster = new Raycaster();
+  private readonly hits: Intersection[] = [];
+  private readonly bodies = new BodySpheres();
 
   constructor() {
     this.raycaster.params.Line2 = { threshold: TOLERANCE };
@@ -67,7 +70,7 @@ export class Picker {
   }
 
   private visit(object: Object3D, camera: Camera, size: PictureSize, at: Vector2, found: Candidate[]): void {
-    if (!object.visible || object.userData[NOT_PICKED] === true) return;
+    if (!object.visible || object.userData[NOT_PICKED] === true || this.bodies.isMissed(object, this.raycaster.ray)) return;
     if (isPoints(object)) pickPoints(object, camera, size, at, found);
     else if (isLine(object)) pickLine(object, camera, size, at, found);
     else if (isMesh(object)) this.pickMesh(object, camera, found);
@@ -79,7 +82,8 @@ export class Picker {
     if (!geometry.hasAttribute("position")) return;
     const { count } = geometry.getAttribute("position");
     if (count >= SMALL_MESH && geometry.boundsTree === undefined && mesh.type === "Mesh") geometry.computeBoundsTree();
-    const hits: Intersection[] = [];
+    const { hits } = this;
+    hits.length = 0;
     mesh.raycast(this.raycaster, hits);
     for (const hit of hits) {
       const depth = hit.point.clone().project(camera).z;

@@ -33,6 +33,9 @@ export function Tree(props: TreeProps): JSX.Element {
   const { label, rows, onToggle, onSelect, onHover } = props;
   const [focused, setFocused] = useState<string | null>(null);
   const list = useRef<HTMLDivElement>(null);
+  const latest = useRef(props);
+  latest.current = props;
+  const drawn = useRef(new WeakMap<TreeRow, { readonly isInOrder: boolean; readonly element: JSX.Element }>());
   const inOrder = rows.find((row) => row.key === focused) ?? rows.find((row) => row.selected) ?? rows[0];
   const focus = (row: TreeRow | undefined): void => {
     if (row === undefined) return;
@@ -59,27 +62,39 @@ export function Tree(props: TreeProps): JSX.Element {
   };
   return (
     <div ref={list} class="tree" role="tree" aria-label={label} onKeyDown={keyDown} onPointerLeave={() => onHover?.(null)}>
-      {rows.map((row) => (
-        <div
-          key={row.key}
-          class={`${row.class ?? "row"}${row.selected === true ? " sel" : ""}`}
-          style={{ "--d": row.depth }}
-          role="treeitem"
-          aria-level={row.depth + 1}
-          aria-label={row.label}
-          aria-expanded={row.open}
-          aria-selected={row.selected ?? false}
-          tabIndex={row === inOrder ? 0 : -1}
-          data-key={row.key}
-          onFocus={() => setFocused(row.key)}
-          onClick={() => onSelect(row.key)}
-          onDblClick={() => props.onActivate?.(row.key)}
-          onPointerEnter={() => onHover?.(row.key)}
-        >
-          {row.class === undefined && <Twist row={row} onToggle={onToggle} />}
-          {row.content}
-        </div>
-      ))}
+      {rows.map((row) => {
+        const isInOrder = row === inOrder;
+        const known = drawn.current.get(row);
+        if (known?.isInOrder === isInOrder) return known.element; // a row that is the same object is not drawn again
+        const element = drawRow(row, isInOrder, setFocused, latest);
+        drawn.current.set(row, { isInOrder, element });
+        return element;
+      })}
+    </div>
+  );
+}
+
+/** Draw a row; what it does is what the tree is asked for at that time. */
+function drawRow(row: TreeRow, isInOrder: boolean, setFocused: (key: string) => void, latest: { readonly current: TreeProps }): JSX.Element {
+  return (
+    <div
+      key={row.key}
+      class={`${row.class ?? "row"}${row.selected === true ? " sel" : ""}`}
+      style={{ "--d": row.depth }}
+      role="treeitem"
+      aria-level={row.depth + 1}
+      aria-label={row.label}
+      aria-expanded={row.open}
+      aria-selected={row.selected ?? false}
+      tabIndex={isInOrder ? 0 : -1}
+      data-key={row.key}
+      onFocus={() => setFocused(row.key)}
+      onClick={() => latest.current.onSelect(row.key)}
+      onDblClick={() => latest.current.onActivate?.(row.key)}
+      onPointerEnter={() => latest.current.onHover?.(row.key)}
+    >
+      {row.class === undefined && <Twist row={row} onToggle={(key, open) => latest.current.onToggle(key, open)} />}
+      {row.content}
     </div>
   );
 }

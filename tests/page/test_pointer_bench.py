@@ -1,0 +1,20 @@
+"""The benchmark of the pointer in a world of 200 models works; its figures are for `make bench`."""
+
+from typing import Any
+
+import pytest
+from bench.page_pointer import measure
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+
+
+def test_hovering_selecting_and_dragging_are_measured(chromium: Any) -> None:
+    shares = measure(chromium)
+
+    assert set(shares) == {"hover", "select", "drag"}
+    assert all(share > 0 for share in shares.values())
