@@ -45,14 +45,16 @@ test: $(READY)  ## the tests of every day, with what this machine has
 	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2 -m "not slow"
 
-test-all: $(READY) dist/.built $(VENV)/.ray  ## everything
+test-all: $(READY) dist/.built $(VENV)/.large  ## everything
 	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2
 
-# Large, and not for every platform: without it its tests are skipped.
-$(VENV)/.ray: $(READY)
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt 'ray>=2.40,<3' || \
-	  echo "PyPI brought no Ray: make test-all skips what uses it"
+# Large, and not for every platform: without one its tests are skipped.
+$(VENV)/.large: $(READY)
+	@for package in 'ray>=2.40,<3' 'stable-baselines3>=2.6,<3'; do \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt "$$package" || \
+	  echo "PyPI brought no $$package: make test-all skips what uses it"; \
+	done
 	@touch $@
 
 check: $(READY)  ## lint, types, layers, the format of C++

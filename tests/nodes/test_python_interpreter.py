@@ -47,6 +47,11 @@ def test_an_active_environment_without_rospy_is_passed_over(
     assert _asked(tmp_path, first, venv, debian) == [str(debian / "python3")]
 
 
+def test_a_program_that_imports_trundle_gets_its_python(tmp_path: Path, debian: Path, venv: Path) -> None:
+    imports = "rospy\nfrom trundle.gym import MlpPolicy"
+    assert _asked(tmp_path, "#!/usr/bin/env python3", venv, debian, imports=imports) == [sys.executable]
+
+
 def test_debians_own_python_is_left_to_the_script(tmp_path: Path, debian: Path, venv: Path) -> None:
     assert _asked(tmp_path, "#!/usr/bin/env python3", debian, venv) == []
 

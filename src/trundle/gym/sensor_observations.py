@@ -40,6 +40,7 @@ class _LidarReader:
     def read(self) -> NDArray[np.float32]:
         """Return (rows, rays)."""
         rows = [self._read(row) for row in range(self._states.rows)]
+        self._states.simulation.engine.reader.invalidate()
         return np.clip(np.stack(rows).astype(np.float32), self.space.low, self.space.high)
 
     def reset(self, row: int) -> None:
@@ -47,7 +48,7 @@ class _LidarReader:
         self._noise[row] = NoiseSource(self._sensor.scan.noise, self._random[row])
 
     def _read(self, row: int) -> NDArray[np.float64]:
-        simulation = self._states.show(row)
+        simulation = self._states.show_links(row)
         link = pose_from_row(self._states.batch.poses[row, self._sensor.link_index])
         return self._sensor.measure_from(link, simulation.time_ns, self._noise[row]).ranges.ravel()
 

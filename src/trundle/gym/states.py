@@ -116,8 +116,18 @@ class WorldStates:
 
     def show(self, row: int) -> LoadedSimulation:
         """Return the simulation in the state of a row, for its sensors and pictures."""
+        self.simulation.engine.set_row_state(self.batch.states[row])
+        return self._at_time_of(row)
+
+    def show_links(self, row: int) -> LoadedSimulation:
+        """Return the simulation with the links of a row, for sensors of shapes; its reader has to be invalidated
+        afterwards.
+        """
+        self.simulation.engine.reader.show_link_poses(self.batch.poses[row])
+        return self._at_time_of(row)
+
+    def _at_time_of(self, row: int) -> LoadedSimulation:
         simulation = self.simulation
-        simulation.engine.set_row_state(self.batch.states[row])
         simulation.steps = round(float(self.time_s[row]) * NS_PER_S / simulation.step_ns)
         return simulation
 

@@ -54,7 +54,7 @@ class TwistAction:
             states.batch.command_velocity(right, (forward + turning * half) / radius, wheels.max_effort)
 
         high = np.array([self.max_forward, self.max_yaw_rate], dtype=np.float32)
-        low = -high * np.array([self.backward, 1], dtype=np.float32)
+        low = 0.0 - high * np.array([self.backward, 1], dtype=np.float32)
         return spaces.Box(low, high, dtype=np.float32), apply
 
 

@@ -18,6 +18,7 @@ _IMPORTS_ROSPY = re.compile(rb"^\s*(?:import|from)\s+(?:rospy|roslib)\b", re.MUL
 _IMPORTS_ROS = re.compile(
     rb"^\s*(?:import|from)\s+(?:ros\w+|actionlib|genpy|tf|tf2_\w+|\w+_(?:msgs|srvs)|\w+\.(?:msg|srv))\b", re.MULTILINE
 )
+_IMPORTS_TRUNDLE = re.compile(rb"^\s*(?:import|from)\s+trundle\b", re.MULTILINE)
 _WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv|cfg)\b))", re.MULTILINE)
 """Modules of a ROS installation or a built workspace."""
 _IMPORTED = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(\w+)", re.MULTILINE)
@@ -81,13 +82,15 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
 
     A script with a generic Python shebang gets Debian's if it imports rospy and only that one has it, as in Trundle's
     virtual environment. Without an installed rospy, for modules and messages of a workspace that is not built, and
-    where there is no `python`, it gets this process's Python. A Python 2 program is translated, and run by this
-    process's Python, unless a ROS of its own is on PYTHONPATH.
+    where there is no `python`, it gets this process's Python, as does a program that imports trundle. A Python 2
+    program is translated, and run by this process's Python, unless a ROS of its own is on PYTHONPATH.
     """
     beginning = _beginning(program)
     asked = _ASKS.match(beginning)
     if asked is None:
         return []
+    if _IMPORTS_TRUNDLE.search(beginning):
+        return [sys.executable]
     has_rospy = any(map(_has_rospy, _python_path(env)))
     if not has_rospy and not asked[1].endswith(b"3") and is_python2_file(program):
         return [sys.executable, str(RUN_PYTHON2)]

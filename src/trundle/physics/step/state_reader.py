@@ -39,6 +39,10 @@ class StateReader:
         """Clear the cache after a change of the state."""
         self._poses = self._twists = None
 
+    def show_link_poses(self, poses: NDArray[np.float64]) -> None:
+        """Take (links, 7) poses for those of the links until `invalidate`; the state stays."""
+        self._poses = poses
+
     def link_poses(self) -> NDArray[np.float64]:
         """Return (links, 7) x y z qw qx qy qz of the link frames in the world [m]; the same array until the state
         changes.
