@@ -16,8 +16,10 @@ pytestmark = [
 
 def test_ppo_of_stable_baselines3_learns_to_balance_a_pole() -> None:
     stable_baselines3 = pytest.importorskip("stable_baselines3")
+    import torch
     from stable_baselines3.common.env_util import make_vec_env
 
+    torch.set_num_threads(1)  # whose hand-overs cost more than so small a network
     ends = {"min_action": np.float32(-1.0), "max_action": np.float32(1.0)}
     envs = make_vec_env("Trundle/CartPole-v0", 8, seed=0, wrapper_class=RescaleAction, wrapper_kwargs=ends)
     model = stable_baselines3.PPO(
