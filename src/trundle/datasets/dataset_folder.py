@@ -10,7 +10,7 @@ from io import BytesIO
 from pathlib import Path
 
 import numpy as np
-from msgspec import ValidationError, json
+from msgspec import MsgspecError, json
 from numpy.typing import NDArray
 from PIL import Image
 
@@ -52,7 +52,7 @@ class DatasetFolder:
         path, digest = self.path / _PLAN, plan_digest(plan)
         if not path.exists():
             write_atomically(path, json.encode({"digest": digest, "text": plan.text}) + b"\n")
-        elif json.decode(path.read_bytes()).get("digest") != digest:
+        elif _digest_in(path) != digest:
             what = "has the pictures of another plan, or the plan or its models have changed since"
             raise UsageError(f"{self.path} {what}; give another folder with -o, or delete this one")
 
@@ -90,8 +90,16 @@ class DatasetFolder:
                 yield json.decode(path.read_bytes(), type=PictureAnnotation)
             except OSError as error:
                 raise UsageError(f"{path}: {error.strerror}") from None
-            except (ValidationError, ValueError) as error:
+            except MsgspecError as error:
                 raise UsageError(f"{path}: {error}; delete it, and the same command makes the picture again") from None
+
+
+def _digest_in(path: Path) -> str | None:
+    """Return the digest in a plan's file; None if the file is damaged."""
+    try:
+        return json.decode(path.read_bytes(), type=dict[str, str]).get("digest")
+    except (OSError, MsgspecError):
+        return None
 
 
 def depth_pixels(depth: NDArray[np.float32], scale: float) -> NDArray[np.uint16]:

@@ -99,6 +99,8 @@ def test_another_plan_does_not_write_into_the_folder(plan: Path) -> None:
 
     assert done.returncode == 1
     assert "has the pictures of another plan, or the plan or its models have changed since" in done.stderr
+    (plan.with_suffix(".dataset") / "plan.json").write_text("{")
+    assert "has the pictures of another plan" in _make(plan, "--count", "1").stderr
 
 
 @pytest.mark.slow
