@@ -1,0 +1,43 @@
+"""Commands and keys that the table of windows in the documentation names, as a person finds them on the page."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.page.panel_user import PanelUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+PAGE = Path(__file__).parents[2] / "docs" / "howto" / "window.md"
+BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
+WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><link name="base"><collision name="c">{BOX}
+</collision><visual name="v">{BOX}</visual></link></model></world></sdf>"""
+
+
+def test_each_command_of_the_table_is_on_the_page(chromium: Any, tmp_path: Path) -> None:
+    (tmp_path / "yard.sdf").write_text(WORLD)
+    named = re.findall(r"\*([^*\n]+)\*(?: <kbd>(.+?)</kbd>)?", PAGE.read_text(encoding="utf-8").partition("\n## ")[2])
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
+    with running_page(*words, environment={"HOME": str(tmp_path)}, folder=tmp_path) as url:
+        user = PanelUser(chromium, url)
+        user.page.get_by_role("treeitem").get_by_text("crate", exact=True).click()
+        user.page.get_by_role("heading", name="crate", exact=True).wait_for()
+        user.button("Search commands, Ctrl K").click()
+        rows = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
+        parts = "row => ['span', 'kbd'].map(part => row.querySelector(part)?.innerText ?? '')"
+        offered = dict(rows.evaluate_all(f"all => all.map({parts})"))
+        user.close()
+
+    assert len(named) > 50
+    wrong = {
+        (title, keys)
+        for title, keys in named
+        if title not in offered or (keys and offered[title] != keys.replace("Escape", "Esc"))
+    }
+    assert wrong == set()
