@@ -108,12 +108,13 @@ def simulation(tmp_path: Path) -> Iterator[LoadedSimulation]:
 class Driver:
     """Drives a robot by its topic, from another graph loop than the simulation's."""
 
-    def __init__(self, simulation: LoadedSimulation, loop: GraphLoop) -> None:
+    def __init__(self, simulation: LoadedSimulation, loop: GraphLoop, robot: str = "robot0") -> None:
         self._simulation = simulation
-        self._node = Node("driver", loop=loop, master_uri=simulation.ros_master_uri)
-        self._topic = self._node.advertise("/robot0/cmd_vel", "geometry_msgs/Twist")
+        self._node = Node(f"driver_of_{robot}", loop=loop, master_uri=simulation.ros_master_uri)
+        self._topic = self._node.advertise(f"/{robot}/cmd_vel", "geometry_msgs/Twist")
         self._heard = 0
-        simulation.make_node("/listener").subscribe("/robot0/cmd_vel", "geometry_msgs/Twist", self._hear)
+        listener = simulation.make_node(f"/listener_of_{robot}")
+        listener.subscribe(f"/{robot}/cmd_vel", "geometry_msgs/Twist", self._hear)
         until(lambda: self._topic.subscribers == 2)
 
     def _hear(self, _: object) -> None:
@@ -139,6 +140,12 @@ def readings(simulation: LoadedSimulation) -> tuple[object, ...]:
     scan, imu = (simulation.sensor(f"robot1::base::{name}").read() for name in ("laser", "imu"))
     assert isinstance(scan, RangeReading)
     return scan.ranges.tobytes(), imu
+
+
+def scans(simulation: LoadedSimulation, robots: int) -> bytes:
+    """Ranges of the robots' lidars, with their noise."""
+    read = [simulation.sensor(f"robot{number}::base::laser").read() for number in range(robots)]
+    return b"".join(scan.ranges.tobytes() for scan in read if isinstance(scan, RangeReading))
 
 
 def seconds(value: float) -> int:
@@ -168,6 +175,36 @@ def test_what_follows_a_moment_follows_again(simulation: LoadedSimulation) -> No
         timeline.advance(end_ns)
         assert state(simulation) == end
         assert readings(simulation) == read
+
+
+@pytest.mark.slow
+def test_ten_robots_go_back_ten_seconds_and_on_to_the_byte(tmp_path: Path) -> None:
+    """Each drives and has a lidar; commands come by topic, as from the page's disc, and as the page's edits."""
+    (tmp_path / "push.py").write_text(PUSH, encoding="utf-8")
+    (tmp_path / "robots.world").write_text(world(10), encoding="utf-8")
+    with trundle.load(str(tmp_path / "robots.world"), plugins=True, ros=True) as simulation, GraphLoop() as loop:
+        timeline = Timeline(simulation, wall_ns=lambda: 0)
+        drivers = [Driver(simulation, loop, f"robot{number}") for number in range(10)]
+        for number, driver in enumerate(drivers):
+            driver.drive(timeline, 0.1 * number, 0.05)
+        timeline.advance(seconds(2))
+        first: list[bytes] = []
+        for tenth in range(21, 121):
+            timeline.advance(seconds(tenth / 10))
+            first.append(state(simulation) + scans(simulation, 10))
+            if tenth % 9 == 0:
+                drivers[tenth // 9 % 10].drive(timeline, -0.2, 0.4)
+            if tenth == 55:
+                timeline.advance(seconds(5.55))
+                timeline.do(lambda sim: sim["robot3"].set_pose(Pose((0.5, 3.2, 0.1))))
+
+        timeline.seek(seconds(2))
+        second: list[bytes] = []
+        for tenth in range(21, 121):
+            timeline.advance(seconds(tenth / 10))
+            second.append(state(simulation) + scans(simulation, 10))
+        assert simulation["robot9"].pose.position[0] > 0.5
+        assert [index for index, pair in enumerate(zip(first, second, strict=True)) if pair[0] != pair[1]] == []
 
 
 def test_a_new_command_begins_another_future(simulation: LoadedSimulation) -> None:
