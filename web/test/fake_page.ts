@@ -180,6 +180,7 @@ export class FakeTools implements ToolBox {
     pointer: () => false,
   }));
   readonly current = signal<Tool>(this.tools[0] as Tool);
+  readonly insert = null;
   use(className: string): void {
     this.current.value = this.tools.find((tool) => tool.className === className) ?? this.current.value;
   }

@@ -47,7 +47,7 @@ class Page(Protocol):
         ...
 
     async def render_model(self, model: RenderModel) -> bytes:
-        """Return a picture of a model as PNG; raises PictureError."""
+        """Return a picture of a model as PNG, or its shape as GLB; raises PictureError."""
         ...
 
     def join(self, outbox: Outbox, *, is_own: bool, is_view_only: bool) -> Connection:
@@ -79,6 +79,7 @@ class HttpServer:
         app.router.add_get("/world/{name:.*}", self._world_file)
         app.router.add_get("/camera.png", self._camera)
         app.router.add_get("/model.png", self._model_picture)
+        app.router.add_get("/model.glb", self._model_shape)
         app.router.add_get("/{path:.*}", self._root)
         runner = web.AppRunner(app, access_log=None, handle_signals=False)
         await runner.setup()
@@ -123,15 +124,21 @@ class HttpServer:
         return web.Response(body=picture, content_type="image/png", headers={"Cache-Control": "no-store"})
 
     async def _model_picture(self, request: web.Request) -> web.StreamResponse:
+        return await self._render_model(request, "picture", "image/png")
+
+    async def _model_shape(self, request: web.Request) -> web.StreamResponse:
+        return await self._render_model(request, "shape", "model/gltf-binary")
+
+    async def _render_model(self, request: web.Request, kind: str, media_type: str) -> web.StreamResponse:
         try:
-            model = msgspec.convert(dict(request.query), RenderModel)
-            picture = await self._page.render_model(model)
+            model = msgspec.convert({**request.query, "kind": kind}, RenderModel)
+            drawn = await self._page.render_model(model)
         except msgspec.ValidationError as error:
             raise web.HTTPBadRequest(reason=f"not a model: {error}") from None
         except PictureError as error:
             raise web.HTTPNotFound(reason=" ".join(str(error).split())) from None
         headers = {"Cache-Control": "private, max-age=60"}
-        return web.Response(body=picture, content_type="image/png", headers=headers)
+        return web.Response(body=drawn, content_type=media_type, headers=headers)
 
     async def _root(self, request: web.Request) -> web.StreamResponse:
         path = request.match_info["path"]

@@ -182,7 +182,7 @@ class Page:
         return await self._owner.render(view)
 
     async def render_model(self, model: RenderModel) -> bytes:
-        """Return a picture of a model as PNG, after those asked for before.
+        """Return a picture of a model as PNG, or its shape as GLB, after those asked for before.
 
         Raises:
             PictureError: it cannot be drawn; the text says why.

@@ -207,9 +207,9 @@ class PageServer:
         """Answer a request; `error` is a sentence that says why it was not done, `fields` are further ones."""
         self._send(Respond(request_id, error, fields=fields))
 
-    def respond_picture(self, request_id: int, png: bytes) -> None:
-        """Answer `RenderView` or `RenderModel` with a picture."""
-        self._send(Respond(request_id, picture=png))
+    def respond_picture(self, request_id: int, picture: bytes) -> None:
+        """Answer `RenderView` or `RenderModel` with a picture, or a GLB."""
+        self._send(Respond(request_id, picture=picture))
 
     def set_session(self, session: Session) -> None:
         """Replace the session: the robot's name came, or a panel was asked for."""

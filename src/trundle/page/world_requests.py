@@ -83,6 +83,8 @@ class RenderModel(Action, frozen=True, tag="model_picture"):
     """Draw a model of the model path; answered by `PageServer.respond_picture`."""
 
     model: FileName
+    kind: Literal["picture", "shape"] = "picture"
+    """A PNG, or the GLB of what follows the pointer until it is placed."""
 
 
 InsertAction: TypeAlias = ListModels | InsertModel | InsertLight

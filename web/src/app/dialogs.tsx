@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 
 import { AskDialog } from "../editor/ask_dialog";
 import { SaveModel } from "../editor/save_model";
+import { CodeDialog } from "./code_dialog";
 import { Help } from "./help";
 import { NoticeList } from "./notice_list";
 import { Palette } from "./palette";
@@ -17,6 +18,8 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   const dialog = shell.dialog.value;
   const question = shell.editor.question.value;
   if (question !== null) return <AskDialog shell={shell} question={question} />;
+  const code = shell.insertion.asked.value;
+  if (code !== null) return <CodeDialog shell={shell} code={code} />;
   if (dialog === "palette") return <Palette shell={shell} />;
   if (dialog === "help") return <Help shell={shell} />;
   if (dialog === "picture") return <PictureDialog shell={shell} />;

@@ -5,7 +5,7 @@ import { computed, effect, signal, type Signal } from "@preact/signals";
 import type { Insets } from "../scene/scene_view";
 import { isBoolean, isNumber, isOneOf, recall, remember } from "./storage";
 
-const LEFT = ["world", "displays"] as const;
+const LEFT = ["world", "displays", "insert"] as const;
 const RIGHT = ["inspector", "views", "tool_properties"] as const;
 export type SideName = "left" | "right";
 export type SidePage = (typeof LEFT | typeof RIGHT)[number];

@@ -1,9 +1,9 @@
 /** Edits of whole models: held in the air, copied, deleted. */
 
-import { effect } from "@preact/signals";
 import { Vector3 } from "three";
 
 import { findModel } from "./framing";
+import { selectOnceThere } from "./insertion";
 import type { Command, Page, Selection } from "./page";
 import type { Shell } from "./shell";
 import { canEdit, editWorld } from "./world_edits";
@@ -27,8 +27,9 @@ export function copyModel(shell: Shell, model: string): void {
   const offset = [page.world.bounds(bodiesOf(outer)).getSize(new Vector3()).x + GAP, 0, 0];
   const copy = { request: "copy", fields: { model: outer.name, name, offset } };
   const remove = { request: "delete", fields: { model: name } };
-  void change(shell, `Copy of ${outer.name}`, copy, remove).then((isDone) => {
-    if (isDone) selectOnceThere(page, name);
+  const restore = { request: "restore", fields: { model: name } }; // the copy, with what became of it
+  void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
+    if (isDone) selectOnceThere(shell, { kind: "model", model: name });
   });
 }
 
@@ -38,6 +39,11 @@ export function deleteModel(shell: Shell, model: string): void {
   if (outer === null) return;
   const remove = { request: "delete", fields: { model: outer.name } };
   void change(shell, `Delete ${outer.name}`, remove, { request: "restore", fields: { model: outer.name } });
+}
+
+/** Delete a light of the world itself. */
+export function deleteLight(shell: Shell, light: string): void {
+  void change(shell, `Delete ${light}`, { request: "delete_light", fields: { light } }, { request: "restore_light", fields: { light } });
 }
 
 /** Commands for what is selected. */
@@ -65,8 +71,8 @@ interface Asked {
   readonly fields: Parameters<Page["connection"]["request"]>[1];
 }
 
-/** An edit that another kind of request takes back; true: it is done. */
-async function change(shell: Shell, title: string, after: Asked, before: Asked): Promise<boolean> {
+/** An edit that another kind of request takes back, and `again` redoes; true: it is done. */
+async function change(shell: Shell, title: string, after: Asked, before: Asked, again = after): Promise<boolean> {
   try {
     await shell.page.connection.request(after.request, after.fields);
   } catch (error) {
@@ -74,7 +80,7 @@ async function change(shell: Shell, title: string, after: Asked, before: Asked):
     return false;
   }
   const send = ({ request, fields }: Asked) => (): void => shell.request(title, request, fields);
-  shell.page.undo.record(title, send(after), send(before));
+  shell.page.undo.record(title, send(again), send(before));
   return true;
 }
 
@@ -92,12 +98,4 @@ function freeName(page: Page, name: string): string {
   let number = 0;
   while (findModel(page, `${name}_${number}`) !== null) number += 1;
   return `${name}_${number}`;
-}
-
-function selectOnceThere(page: Page, model: string): void {
-  const stop = effect(() => {
-    if (findModel(page, model) === null) return;
-    page.selection.value = { kind: "model", model };
-    queueMicrotask(() => stop());
-  });
 }

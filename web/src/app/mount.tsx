@@ -13,6 +13,7 @@ import "../theme/inspector.css";
 import "../theme/editor.css";
 import "../theme/scene.css";
 import "../theme/dialogs.css";
+import "../theme/insert.css";
 import "../theme/phone.css";
 import "../theme/dockview.css";
 import { editorCommands } from "../editor/editor_commands";
@@ -20,6 +21,7 @@ import type { Panel } from "../panels/panel";
 import { App } from "./app";
 import { modelCommands } from "./model_edits";
 import { cameraCommands } from "./first_person";
+import { insertionCommands } from "./insertion";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedRviz } from "./open_rviz";
 import type { Page } from "./page";
@@ -44,7 +46,7 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, panels, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
+  commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
   rememberShown(page);
   let removeCameras = (): void => undefined;
   effect(() => {

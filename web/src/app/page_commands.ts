@@ -8,7 +8,7 @@ import { chooseRviz } from "./open_rviz";
 import type { Command } from "./page";
 import { download, rvizFile, save } from "./rviz_foot";
 import type { Shell } from "./shell";
-import { SIDE_PAGES } from "./side_pages";
+import { sidePages } from "./side_pages";
 import { switchTheme } from "./theme";
 import { toggleVideo } from "./video_note";
 
@@ -33,7 +33,7 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("video", "View", "Record a video of the view, or stop", () => toggleVideo(shell)),
     command("link", "View", "Link to this view", () => (dialog.value = "link")),
     ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
-    ...[...SIDE_PAGES.left, ...SIDE_PAGES.right].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
+    ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
     ...shell.panels.map((panel) => command(`panel.${panel.id}`, "Panels", `Open ${panel.title}`, () => dock.open(panel.id))),
     command("left.toggle", "Panels", "Show or hide the left panel", toggle(layout.left.isOpen), "["),
     command("right.toggle", "Panels", "Show or hide the right panel", toggle(layout.right.isOpen), "]"),

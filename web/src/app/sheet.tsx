@@ -6,7 +6,7 @@ import type { JSX } from "preact";
 import { Icon, type IconName } from "../theme/icons";
 import type { SheetHeight } from "./layout";
 import type { Shell } from "./shell";
-import { SIDE_PAGES } from "./side_pages";
+import { sidePages } from "./side_pages";
 
 const PAGES: readonly { readonly id: string; readonly title: string; readonly icon: IconName }[] = [
   { id: "world", title: "World", icon: "world" },
@@ -71,7 +71,7 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
 
 function SheetPage({ shell, page }: { readonly shell: Shell; readonly page: string }): JSX.Element | null {
   const wanted = page === "inspector" ? shell.layout.right.page.value : page;
-  const Side = [...SIDE_PAGES.left, ...SIDE_PAGES.right].find(({ id }) => id === wanted)?.component;
+  const Side = [...sidePages(shell, "left"), ...sidePages(shell, "right")].find(({ id }) => id === wanted)?.component;
   if (Side !== undefined) return <Side shell={shell} />;
   const panel = shell.panels.find(({ id }) => id === page);
   if (panel === undefined) return null;

@@ -8,6 +8,7 @@ import type { Panel } from "../panels/panel";
 import { cameraTopics } from "./camera_topics";
 import { CommandList } from "./commands";
 import { Dock } from "./dock";
+import { Insertion } from "./insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices";
 import type { Page } from "./page";
@@ -52,6 +53,7 @@ export class Shell {
   /** Rows of the Displays page that were opened or closed. */
   readonly openDisplays = signal<ReadonlyMap<string, boolean>>(new Map());
 
+  readonly insertion: Insertion;
   /** The video that is being recorded of the view. */
   readonly video: ViewVideo;
   readonly editor: ModelEditor;
@@ -67,6 +69,7 @@ export class Shell {
   ) {
     this.layout = new Layout(page.session.kind);
     this.notices = new Notices(page);
+    this.insertion = new Insertion(this);
     this.video = new ViewVideo(page.scene);
     this.editor = new ModelEditor(page, this.notices);
     this.dock = new Dock(page, panels, this.layout);

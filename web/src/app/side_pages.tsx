@@ -3,11 +3,13 @@
 import type { ComponentType } from "preact";
 
 import { DisplaysPage } from "./displays_page";
+import { InsertPage } from "./insert_page";
 import { Inspector } from "./inspector";
 import type { SideName, SidePage } from "./layout";
 import type { Shell } from "./shell";
 import { ToolsPage } from "./tools_page";
 import { ViewsPage } from "./views_page";
+import { canEdit } from "./world_edits";
 import { WorldTree } from "./world_tree";
 
 export interface SidePageInfo {
@@ -15,13 +17,16 @@ export interface SidePageInfo {
   readonly title: string;
   /** Short form where the row of tabs is narrow. */
   readonly short?: string;
+  /** True: only where the world can be changed. */
+  readonly edits?: true;
   readonly component: ComponentType<{ readonly shell: Shell }>;
 }
 
-export const SIDE_PAGES: Readonly<Record<SideName, readonly SidePageInfo[]>> = {
+const SIDE_PAGES: Readonly<Record<SideName, readonly SidePageInfo[]>> = {
   left: [
     { id: "world", title: "World", component: WorldTree },
     { id: "displays", title: "Displays", component: DisplaysPage },
+    { id: "insert", title: "Insert", component: InsertPage, edits: true },
   ],
   right: [
     { id: "inspector", title: "Inspector", component: Inspector },
@@ -29,3 +34,8 @@ export const SIDE_PAGES: Readonly<Record<SideName, readonly SidePageInfo[]>> = {
     { id: "tool_properties", title: "Tool properties", short: "Tools", component: ToolsPage },
   ],
 };
+
+/** Pages of a side panel here. */
+export function sidePages(shell: Shell, side: SideName): readonly SidePageInfo[] {
+  return SIDE_PAGES[side].filter(({ edits }) => edits !== true || canEdit(shell));
+}

@@ -6,7 +6,7 @@ import { Button } from "../theme/button";
 import { Tabs } from "../theme/tabs";
 import { SIDE, type SideName, type SidePage } from "./layout";
 import type { Shell } from "./shell";
-import { SIDE_PAGES } from "./side_pages";
+import { sidePages } from "./side_pages";
 
 interface SidePanelProps {
   readonly shell: Shell;
@@ -17,7 +17,7 @@ const LABELS: Readonly<Record<SideName, string>> = { left: "World and displays",
 
 export function SidePanel({ shell, side }: SidePanelProps): JSX.Element {
   const { layout } = shell;
-  const pages = SIDE_PAGES[side];
+  const pages = sidePages(shell, side);
   const shown = layout[side].page.value;
   const page = pages.find(({ id }) => id === shown) ?? pages[0];
   const Content = page?.component;
@@ -46,7 +46,7 @@ function Rail({ shell, side }: SidePanelProps): JSX.Element {
     <aside class={`panel rail ${side}`} aria-label={LABELS[side]}>
       <div class="railbox">
         <Button icon={side === "left" ? "collapse_right" : "collapse_left"} label="Open the panel" small onClick={() => layout.open(layout[side].page.peek())} />
-        {SIDE_PAGES[side].map(({ id, title }) => (
+        {sidePages(shell, side).map(({ id, title }) => (
           <Button key={id} class="v" onClick={() => layout.open(id)}>
             {title}
           </Button>

@@ -5,7 +5,7 @@ import type { JSX } from "preact";
 import { MenuButton, type MenuItem } from "../theme/menu";
 import type { Shell } from "./shell";
 
-const COMMANDS = ["new_model", "save_world", "reload"];
+const COMMANDS = ["side.insert", "new_model", "save_world", "reload"];
 
 export function WorldMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const items = (): readonly MenuItem[] =>

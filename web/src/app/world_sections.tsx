@@ -3,7 +3,9 @@
 import type { JSX } from "preact";
 
 import type { LightInfo, Manifest } from "../scene/simulated_world";
+import { Button } from "../theme/button";
 import { plain } from "../theme/format";
+import { deleteLight } from "./model_edits";
 import type { Shell } from "./shell";
 import { KeyValue, NumbersRow } from "./value_rows";
 import { canEdit, editWorld, withNumber, type Fields } from "./world_edits";
@@ -48,6 +50,13 @@ export function LightSections({ shell, light }: { readonly shell: Shell; readonl
         <>
           <NumbersRow name="Red · green · blue" labels={["red", "green", "blue"]} values={diffuse} min={0} max={1} onCommit={(i, value) => set({ diffuse: withNumber(diffuse, i, value) })} />
           <NumbersRow name="Intensity" labels={["intensity"]} values={[intensity]} min={0} max={1e6} onCommit={(_, value) => set({ intensity: value })} />
+          {light.body === null && (
+            <div class="sides">
+              <Button small tone="line" onClick={() => deleteLight(shell, name)}>
+                Delete
+              </Button>
+            </div>
+          )}
         </>
       ) : (
         <KeyValue name="Intensity" value={plain(intensity)} />

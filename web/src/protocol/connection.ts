@@ -69,6 +69,8 @@ export interface RequestAnswer {
   readonly exists?: string;
   /** Text of a world. */
   readonly sdf?: string;
+  /** Models that can be inserted. */
+  readonly models?: readonly { readonly name: string; readonly title: string; readonly description: string }[];
   /** What a saved world does not hold. */
   readonly lost?: readonly string[];
   /** True if an .rviz file was saved; false: one is in the way. */

@@ -3,6 +3,7 @@
 import type { ReadonlySignal } from "@preact/signals";
 
 import type { Property, YamlMapping } from "../displays/properties";
+import type { InsertTool } from "./insert_tool";
 
 export interface PointerInput {
   readonly x: number;
@@ -36,6 +37,8 @@ export interface Tool {
 export interface ToolBox {
   readonly tools: readonly Tool[];
   readonly current: ReadonlySignal<Tool>;
+  /** Null where no world can be changed. */
+  readonly insert: InsertTool | null;
   use(className: string): void;
   /** The `Tools` list of an .rviz file. */
   save(): readonly YamlMapping[];

@@ -5,6 +5,7 @@ import { signal, type ReadonlySignal } from "@preact/signals";
 import type { YamlMapping } from "../displays/properties";
 import type { BaseTool, ToolContext } from "./base_tool";
 import { FocusCamera } from "./focus_camera";
+import { InsertTool } from "./insert_tool";
 import { Interact } from "./interact";
 import { Measure } from "./measure";
 import { MoveCamera } from "./move_camera";
@@ -26,6 +27,7 @@ const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Se
 
 export class ToolList implements ToolBox {
   readonly tools: readonly BaseTool[];
+  readonly insert: InsertTool | null;
   private readonly chosen;
   private lasting: string = "rviz/Interact";
   /** Entries of the file, in its order, with those that are no tools of ours. */
@@ -37,7 +39,8 @@ export class ToolList implements ToolBox {
     if (interact === undefined) throw new Error("there are no tools");
     const { editor } = context;
     const handling = editor === null ? [] : [MoveModel, RotateModel, PushModel].map((Class) => new Class(context, back, editor));
-    this.tools = [interact, ...handling, ...others];
+    this.insert = editor === null ? null : new InsertTool(context, back);
+    this.tools = [interact, ...handling, ...others, ...(this.insert === null ? [] : [this.insert])];
     this.chosen = signal<BaseTool>(interact);
     this.start(interact);
   }

@@ -1,4 +1,4 @@
-"""Pictures of the models that can be inserted, drawn by Trundle's renderer and kept in the user's cache folder."""
+"""Pictures and shapes of the models that can be inserted, the pictures kept in the user's cache folder."""
 
 import hashlib
 import io
@@ -15,10 +15,12 @@ from PIL import Image
 from trundle.atomic_write import write_atomically
 from trundle.description import load
 from trundle.diagnostics import Diagnostics, TrundleError, UsageError
+from trundle.gltf import Document, add_scene
 from trundle.meshes import cache_folder
-from trundle.model import flattened
+from trundle.model import World, flattened
 from trundle.ownership import is_owned_by_user
 from trundle.packages import Packages
+from trundle.page import RenderModel
 from trundle.render import DEFAULT_LIGHTS, Intrinsics, NativeRenderer, corners_of, scene_from_world
 from trundle.spatial import Pose, Vector3, rows_from_poses
 
@@ -31,24 +33,27 @@ _LARGEST_M = 50.0
 """Shapes farther out than this, such as ground planes, do not count for the view."""
 _BACKGROUND = (0.5, 0.53, 0.56, 1.0)
 _MAX_FILES = 1000
+_MAX_GLB_BYTES = 32_000_000
 _VERSION = 1
 """Version in every key; raised when the picture of the same model changes."""
 
 
 class ModelPictures:
-    """Draws pictures on a thread of its own; `respond` is called there with a request's id, and the PNG or an error."""
+    """Draws on a thread of its own; `respond` is called there with a request's id, and the PNG, the GLB or an error."""
 
     def __init__(self, respond: Callable[[int, bytes | str], None], packages: Packages) -> None:
         self._respond, self._packages = respond, packages
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-models")
 
-    def draw(self, request_id: int, model: str) -> None:
-        """Ask for a picture; returns at once."""
-        self._thread.submit(self._run, request_id, model)
+    def draw(self, request_id: int, request: RenderModel) -> None:
+        """Ask for a picture or a shape; returns at once."""
+        self._thread.submit(
+            self._run, request_id, request.model, cached_picture if request.kind == "picture" else model_glb
+        )
 
-    def _run(self, request_id: int, model: str) -> None:
+    def _run(self, request_id: int, model: str, draw: Callable[[str, Packages], bytes]) -> None:
         try:
-            self._respond(request_id, cached_picture(model, self._packages))
+            self._respond(request_id, draw(model, self._packages))
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
         except Exception as error:  # a file of any kind lies on the model path; the simulation goes on
@@ -100,15 +105,37 @@ def _trim(cache: Path) -> None:
         file.unlink(missing_ok=True)
 
 
+def model_glb(model: str, packages: Packages) -> bytes:
+    """Return a model's visuals as GLB, in the world's frame.
+
+    Raises:
+        TrundleError: it cannot be read, or is too large to be shown before it is inserted.
+    """
+    if model not in packages.models():
+        raise UsageError(f"no model {model!r} on the model path")
+    world, poses = _read(model, packages)
+    document = Document(embed=True)
+    scene = replace(scene_from_world(world, Diagnostics()), lights=())
+    glb = document.glb(add_scene(document, scene, rows_from_poses(poses), range(len(poses))))
+    if len(glb) > _MAX_GLB_BYTES:
+        raise UsageError(f"model {model!r} is too large to be shown before it is inserted")
+    return glb
+
+
+def _read(model: str, packages: Packages) -> tuple[World, list[Pose]]:
+    """Return a world with a model alone, and the poses of its links in the world."""
+    world = flattened(load(f"model://{model}", Diagnostics(), packages=packages).world)
+    return world, [each.world_from_model @ link.model_from_link for each in world.models for link in each.links]
+
+
 def draw_model(model: str, packages: Packages) -> bytes:
     """Return a model's picture as PNG.
 
     Raises:
         TrundleError: it cannot be read, or has nothing to see.
     """
-    world = flattened(load(f"model://{model}", Diagnostics(), packages=packages).world)
+    world, poses = _read(model, packages)
     scene = scene_from_world(world, Diagnostics())
-    poses = [each.world_from_model @ link.model_from_link for each in world.models for link in each.links]
     corners: list[Vector3] = []
     for shape in scene.shapes:
         world_from_shape, points = poses[shape.body] @ shape.body_from_shape, corners_of(shape.geometry)

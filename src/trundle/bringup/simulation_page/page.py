@@ -157,7 +157,7 @@ class SimulationPage:
                 self._draw(request.id, request.action)
                 continue
             if isinstance(request.action, RenderModel):
-                self._model_pictures.draw(request.id, request.action.model)
+                self._model_pictures.draw(request.id, request.action)
                 continue
             if isinstance(request.action, Play | Step | Reset | Reload):
                 self.warn(None)
