@@ -21,6 +21,7 @@ from .reader import CheckedModel, ModelReader
 
 _MAX_BYTES = 4_000_000
 _MAX_UNDO = 200
+_MAX_UNDO_BYTES = 64_000_000
 _GAP_M = 0.2
 
 
@@ -275,6 +276,8 @@ class Draft:
 
     def _remember(self, edit: "_Edit") -> None:
         self._done = [*self._done, edit][-_MAX_UNDO:]
+        while sum(len(each.text) for each in self._done) > _MAX_UNDO_BYTES:
+            del self._done[0]
         self._undone.clear()
 
     def _check(self, text: bytes) -> CheckedModel:

@@ -1,0 +1,139 @@
+"""The draft of a model beside a running world, by requests of the page."""
+
+import queue
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from trundle.bringup.simulation_page.drafting import Drafting, ShownDraft
+from trundle.bringup.simulation_page.edits import edit
+from trundle.bringup.simulation_page.model_edits import ModelEdits
+from trundle.bringup.world_contents import BareContents
+from trundle.description import load_text
+from trundle.diagnostics import Diagnostics, UsageError
+from trundle.packages import Packages
+from trundle.page import AddPart, BeginDraft, DraftAction, FinishDraft, LeaveDraft, SaveDraft, SetField, SetMass
+from trundle.simulation import Simulation
+
+BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
+WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><pose>3 0 0.5 0 0 0</pose>
+<!-- of wood --><link name="body"><collision name="c">{BOX}</collision><visual name="v">{BOX}</visual></link></model>
+</world></sdf>"""
+_PATIENCE_S = 30.0
+
+
+class Editor:
+    """Asks, and waits for the answer as the page's owner does."""
+
+    def __init__(self, folder: Path) -> None:
+        (folder / "yard.sdf").write_text(WORLD)
+        packages, report = Packages({}, start=folder), Diagnostics()
+        world = load_text(WORLD, name=str(folder / "yard.sdf"), folder=folder, packages=packages, report=report).world
+        self.simulation = Simulation(world, report)
+        contents = BareContents(self._do)
+        self.edits = ModelEdits(self.simulation, contents, self._do)
+        self._answers: queue.SimpleQueue[tuple[str | None, dict[str, Any]]] = queue.SimpleQueue()
+        self.drafting = Drafting(self._respond, contents, folder)
+        self.shown: list[ShownDraft] = []
+
+    def _do(self, command: Any) -> None:
+        command(self.simulation)
+
+    def _respond(self, request_id: int, error: str | None = None, **fields: Any) -> None:
+        del request_id
+        self._answers.put((error, fields))
+
+    def ask(self, action: DraftAction) -> dict[str, Any]:
+        """Return the answer's fields, with `error` where it was refused."""
+        self.drafting.handle(1, action, self.simulation)
+        end = time.monotonic() + _PATIENCE_S
+        while time.monotonic() < end:
+            self.shown += self.drafting.poll(self.simulation, self.edits)
+            try:
+                error, fields = self._answers.get(timeout=0.01)
+            except queue.Empty:
+                continue
+            self.shown += self.drafting.poll(self.simulation, self.edits)
+            return fields if error is None else {"error": error}
+        raise AssertionError(f"no answer to {action}")
+
+
+@pytest.fixture
+def editor(tmp_path: Path) -> Iterator[Editor]:
+    editor = Editor(tmp_path)
+    yield editor
+    editor.drafting.close()
+
+
+def test_a_model_is_edited_in_its_place_and_replaced(editor: Editor) -> None:
+    assert editor.ask(BeginDraft(model="crate")) == {}
+    entry = editor.shown[-1].entry
+    assert entry is not None
+    assert entry["of"] == "crate"
+    assert entry["pose"][:3] == pytest.approx([3.0, 0.0, 0.5])
+    assert editor.shown[-1].files.keys() >= {file["url"] for file in entry["files"]}
+    with pytest.raises(UsageError, match="edited already"):
+        editor.drafting.handle(1, BeginDraft(model=None), editor.simulation)
+
+    editor.ask(SetField(part=("link", "body"), field="inertial/mass", value=(7.0,)))
+    assert editor.simulation["crate"].links[0].link.inertial.mass == 1.0
+    assert editor.ask(FinishDraft()) == {"name": "crate"}
+
+    crate = editor.simulation["crate"]
+    assert crate.links[0].link.inertial.mass == 7.0
+    assert crate.pose.position == pytest.approx((3.0, 0.0, 0.5))
+    assert editor.shown[-1].entry is None
+    assert not editor.drafting.is_open
+
+
+def test_what_was_changed_while_it_ran_is_in_the_draft(editor: Editor) -> None:
+    edit(SetMass(model="crate", link="body", mass=4.0), editor.simulation)
+
+    editor.ask(BeginDraft(model="crate"))
+
+    entry = editor.shown[-1].entry
+    assert entry is not None
+    assert next(part for part in entry["parts"] if part["tag"] == "link")["mass"] == 4.0
+
+
+def test_a_draft_that_cannot_be_spawned_leaves_the_model(editor: Editor) -> None:
+    """Plugins cannot be started here."""
+    editor.ask(BeginDraft(model="crate"))
+    editor.ask(AddPart(into=(), kind="plugin", type="libgazebo_ros_p3d.so"))
+
+    assert "would not run here" in editor.ask(FinishDraft())["error"]
+
+    assert [model.name for model in editor.simulation.models] == ["crate"]
+    assert editor.drafting.is_open
+    assert editor.ask(LeaveDraft()) == {}
+
+
+def test_an_empty_model_is_not_put_into_the_world(editor: Editor) -> None:
+    editor.ask(BeginDraft(model=None))
+
+    assert "no links yet" in editor.ask(FinishDraft())["error"]
+    assert "no shape 'wheel'" in editor.ask(AddPart(into=(), kind="link", type="wheel"))["error"]
+
+
+def test_no_file_is_replaced_unasked(editor: Editor, tmp_path: Path) -> None:
+    editor.ask(BeginDraft(model="crate"))
+
+    assert editor.ask(SaveDraft(folder="models/crate")) == {"folder": "models/crate"}
+    file = tmp_path / "models/crate/model.sdf"
+    assert "<!-- of wood -->" in file.read_text()
+    assert (tmp_path / "models/crate/model.config").is_file()
+    editor.ask(SetField(part=(), field="@name", value="box"))
+    assert editor.ask(SaveDraft(folder="models/crate")) == {"exists": "models/crate"}
+    assert '<model name="crate">' in file.read_text()
+    assert editor.ask(SaveDraft(folder="models/crate", replace=True)) == {"folder": "models/crate"}
+    assert '<model name="box">' in file.read_text()
+    for name in ("../crate", "/tmp/crate", "models/.hidden"):
+        assert "below the folder" in editor.ask(SaveDraft(folder=name))["error"]
+
+
+def test_no_edit_without_a_draft(editor: Editor) -> None:
+    with pytest.raises(UsageError, match="no model is edited"):
+        editor.drafting.handle(1, LeaveDraft(), editor.simulation)
