@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 
 import type { Selection } from "../app/page";
 import type { Shell } from "../app/shell";
+import { canEdit } from "../app/world_edits";
 import { Button } from "../theme/button";
 import { count, fixed } from "../theme/format";
 import { Icon } from "../theme/icons";
@@ -21,6 +22,7 @@ interface TreeProps {
 
 export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
   const { editor, page } = shell;
+  const edits = canEdit(shell);
   const shut = useSignal<ReadonlySet<string>>(new Set());
   const isAdding = useSignal(draft.parts.length === 1);
   const selected = page.selection.value?.kind === "part" ? keyOf(page.selection.value.part) : null;
@@ -36,7 +38,7 @@ export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
         <span class="n">
           Editing <b>{draft.name}</b>
         </span>
-        <Button icon="close" label="Leave the editor" small onClick={() => editor.leave()} />
+        {edits && <Button icon="close" label="Leave the editor" small onClick={() => editor.leave()} />}
       </div>
       <div class="scroll">
         <Tree
@@ -55,18 +57,20 @@ export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
           }}
         />
       </div>
-      {isAdding.value && <PartDrawer shell={shell} draft={draft} onClose={() => (isAdding.value = false)} />}
+      {edits && isAdding.value && <PartDrawer shell={shell} draft={draft} onClose={() => (isAdding.value = false)} />}
       <Verdict draft={draft} />
-      <div class="foot">
-        <Button icon="plus" class="add" tone="line" on={isAdding.value} onClick={() => (isAdding.value = !isAdding.value)}>
-          Add
-        </Button>
-        <span class="sp" />
-        <Button onClick={() => (shell.dialog.value = "save_model")}>Save…</Button>
-        <Button tone="primary" onClick={() => void editor.finish()}>
-          Finish
-        </Button>
-      </div>
+      {edits && (
+        <div class="foot">
+          <Button icon="plus" class="add" tone="line" on={isAdding.value} onClick={() => (isAdding.value = !isAdding.value)}>
+            Add
+          </Button>
+          <span class="sp" />
+          <Button onClick={() => (shell.dialog.value = "save_model")}>Save…</Button>
+          <Button tone="primary" onClick={() => void editor.finish()}>
+            Finish
+          </Button>
+        </div>
+      )}
     </>
   );
 }

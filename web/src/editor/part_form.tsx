@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 
 import type { Shell } from "../app/shell";
+import { canEdit } from "../app/world_edits";
 import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { StatusShape } from "../theme/status_shape";
@@ -21,7 +22,7 @@ export function PartForm({ shell, draft, path }: FormProps): JSX.Element {
   const part = findPart(draft, path);
   if (part === null) return <p class="empty">It is no longer in the model.</p>;
   return (
-    <div class="scroll inspector" key={path.join("\n")}>
+    <fieldset class="scroll inspector form" key={path.join("\n")} disabled={!canEdit(shell)}>
       <Title shell={shell} part={part} />
       {part.findings.length > 0 && <Findings findings={part.findings} />}
       {part.sections.map(({ title, fields }) => (
@@ -33,7 +34,7 @@ export function PartForm({ shell, draft, path }: FormProps): JSX.Element {
           {part.tag === "plugin" && title === "Parameters" && <NewParameter shell={shell} path={path} />}
         </section>
       ))}
-    </div>
+    </fieldset>
   );
 }
 
