@@ -11,6 +11,7 @@ BENCHES = (
     "descriptions",
     "commands",
     "step",
+    "sweep",
     "robots",
     "hooks",
     "contacts",
