@@ -74,7 +74,7 @@ class Rp2w(Plugin):
             ros.Transform(parent="world", child="odom", rotation=x_forward)
         )
         states = bridge.JointStatesTopic(node, model)
-        sim.add_hook(states, period_ns=states.period_ns, enabled=states.has_subscribers)
+        sim.add_hook(states, period_ns=states.period_ns, enabled=states.enabled)
         node.subscribe("/cmd_vel", "geometry_msgs/Twist", self.take)
         node.subscribe("/camera/pan", "std_msgs/Float64", lambda message: self.look(self.pan, message.data))
         # The tilt joint's axis is the model's +x, to the right: turning about it lifts the view.
