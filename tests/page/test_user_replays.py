@@ -12,6 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 from tests.page.panel_user import PanelUser
+from tests.system.browser import running_page
 
 from trundle.bringup.play import LogPage, PlayOptions
 from trundle.bringup.recorded_run import open_recording
@@ -142,6 +143,25 @@ def test_it_looks_as_the_page_does(log: Path, chromium: Any, tmp_path: Path) -> 
     assert (difference > 24).mean() < 0.005, "edges are smoothed differently, no more"
     moved = (np.abs(before.astype(int) - at_end.astype(int)).max(axis=-1) > 24).mean()
     assert moved > 0.01, "the ball is elsewhere at another time"
+
+
+def test_the_page_saves_the_last_minutes(chromium: Any, tmp_path: Path) -> None:
+    """The replay begins with the view that the person had, and shows the ball fall."""
+    (tmp_path / "w.sdf").write_text(WORLD)
+    with running_page("run", str(tmp_path / "w.sdf"), "--no-ros", environment={}) as url:
+        user = PanelUser(chromium, url)
+        user.until(lambda: float(user.page.evaluate("performance.now()")) > 3000, what="for some seconds")
+        with user.page.expect_download() as download:
+            choose(user, "Save a replay")
+        download.value.save_as(tmp_path / "run.html")
+        user.close()
+
+    replay = ReplayUser(chromium, (tmp_path / "run.html").as_uri())
+    end = float(replay.time.get_attribute("max"))
+    first, last = replay.show(0.0), replay.show(end)
+    replay.close()
+    assert end > 1.0
+    assert (np.abs(first.astype(int) - last.astype(int)).max(axis=-1) > 24).mean() > 0.005, "the ball has fallen"
 
 
 def test_it_plays_and_stands_still(log: Path, chromium: Any, tmp_path: Path) -> None:

@@ -79,4 +79,5 @@ from .world_requests import ModelAction as ModelAction
 from .world_requests import RenderModel as RenderModel
 from .world_requests import RestoreLight as RestoreLight
 from .world_requests import RestoreModel as RestoreModel
+from .world_requests import SaveReplay as SaveReplay
 from .world_requests import SaveWorld as SaveWorld

@@ -10,7 +10,7 @@ import msgspec
 
 from .draft_requests import DraftAction
 from .edit_requests import Action, EditAction
-from .world_requests import InsertAction, ModelAction, RenderModel, SaveWorld
+from .world_requests import InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
 
 _MAX_STEPS = 1_000_000
 _MAX_TEXT = 4_000_000
@@ -139,6 +139,7 @@ ClientAction: TypeAlias = (
     | Seek
     | EditAction
     | SaveWorld
+    | SaveReplay
     | InsertAction
     | ModelAction
     | DraftAction

@@ -18,6 +18,13 @@ class SaveWorld(Action, frozen=True, tag="save_world"):
     """True if a person has agreed to replace the file."""
 
 
+class SaveReplay(Action, frozen=True, tag="replay"):
+    """Make a replay of the last minutes; answered with its `html`."""
+
+    view: Annotated[str, msgspec.Meta(max_length=4000)] | None = None
+    """JSON of the view from which it is seen first, as an .rviz file has it."""
+
+
 class ListModels(Action, frozen=True, tag="models"):
     """Ask for the models that can be inserted; answered with `models`."""
 

@@ -2,6 +2,7 @@
 
 import { canControl } from "./looking";
 import type { Command, Page } from "./page";
+import { saveReplay } from "./save_replay";
 import type { Shell } from "./shell";
 
 /** True where there is a clock to control: a simulation, a recorded run, a bag. */
@@ -32,6 +33,7 @@ export function simulationCommands(shell: Shell): readonly Command[] {
     command("reset.all", "Reset time and poses", () => shell.request("Reset", "reset", { what: "all" }), "Shift R"),
     command("reset.poses", "Reset poses only", () => shell.request("Reset", "reset", { what: "poses" })),
     command("reset.time", "Reset time only", () => shell.request("Reset", "reset", { what: "time" })),
+    command("replay", "Save a replay of the last minutes", () => void saveReplay(shell)),
     command("reload", "Load the world again", () => shell.request("Load the world again", "reload")),
   ];
 }

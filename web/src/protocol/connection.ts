@@ -71,6 +71,8 @@ export interface RequestAnswer {
   readonly sdf?: string;
   /** Models that can be inserted. */
   readonly models?: readonly { readonly name: string; readonly title: string; readonly description: string }[];
+  /** A replay of the last minutes. */
+  readonly html?: string;
   /** What a saved world does not hold. */
   readonly lost?: readonly string[];
   /** True if an .rviz file was saved; false: one is in the way. */

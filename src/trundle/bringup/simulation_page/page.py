@@ -18,6 +18,7 @@ from trundle.page import (
     RenderView,
     Request,
     Reset,
+    SaveReplay,
     SaveWorld,
     Step,
 )
@@ -36,6 +37,7 @@ from .insertion import Insertion
 from .model_edits import ModelEdits
 from .model_pictures import ModelPictures
 from .pictures import WorldPictures
+from .pose_history import ReplaySaver
 from .titles import page_names
 from .world_saver import WorldSaver
 from .world_streams import WorldStreams
@@ -86,6 +88,7 @@ class SimulationPage:
         here = Path.cwd()
         self._contents = BareContents(self._do) if contents is None else contents
         packages = self._contents.packages
+        self._replays = ReplaySaver(self._server.respond)
         self._saver = WorldSaver(self._server.respond, packages, here)
         self._model_pictures = ModelPictures(self._respond_picture, packages)
         self._streams = WorldStreams(
@@ -177,6 +180,10 @@ class SimulationPage:
             world = current_world(self._simulation)
             self._saver.save(request.id, request.action, world, self._simulation.seed)
             return paused
+        if isinstance(request.action, SaveReplay):
+            title = self._page.session.title
+            self._replays.save(request.id, request.action, self._streams.history.motion(self._simulation.world, title))
+            return paused
         if isinstance(request.action, InsertAction):
             self._server.respond(request.id, **self._insertion.handle(request.action))
             pacer.restart()
@@ -220,6 +227,7 @@ class SimulationPage:
         self._streams.close()
         self._pictures.close()
         self._saver.close()
+        self._replays.close()
         self._drafting.close()
         self._model_pictures.close()
         self._page.release(shows_world=True)

@@ -25,6 +25,7 @@ from .drafting import ShownDraft
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
 from .missing_meshes import missing_meshes
+from .pose_history import PoseHistory
 from .series_sampler import SeriesSampler
 from .world_builder import BuiltWorld, WorldBuilder
 
@@ -62,6 +63,8 @@ class WorldStreams:
         self._rays = RayOverlay(lambda: server.is_watched(LINES))
         self._ranges = RayOverlay(lambda: server.is_watched(RANGES), of_all=True)
         self._series = SeriesSampler(server)
+        self.history = PoseHistory()
+        """Poses of the last minutes."""
         self._bodies = BodyNumbers()
         self._builder = WorldBuilder()
         self._generation = server.generation
@@ -117,6 +120,7 @@ class WorldStreams:
         self._ranges.set_sensors(sensors)
         self._contacts = ContactRows(simulation, self._bodies)
         self._series.show(simulation, sensors)
+        self.history.clear()
         if not self._has_graph:
             self._listen([sensor for sensor in sensors if isinstance(sensor, CameraSensor)])
 
@@ -148,8 +152,9 @@ class WorldStreams:
         self._series.put()
         snapshot = self._simulation.snapshot()
         server, time_ns = self._server, snapshot.time_ns
+        poses = self._bones.with_bones(snapshot.poses, self._simulation.animation_state)
+        self.history.add(time_ns, poses, paused=paused)
         if server.is_watched(POSES):
-            poses = self._bones.with_bones(snapshot.poses, self._simulation.animation_state)
             server.put_poses(time_ns, self._bodies.rows(poses))
         if server.is_watched(LINES):
             server.put_lines(time_ns, [*plugin_lines(self._simulation), *self._rays.lines(snapshot)])
