@@ -22,7 +22,7 @@ from .sensor_series import SENSOR_VALUES, ReadingValue
 _AXES = "xyz"
 
 
-class Instant:
+class SampledState:
     """State of a simulation now; contacts are computed where something asks for them."""
 
     def __init__(self, simulation: Simulation, snapshot: Snapshot) -> None:
@@ -40,7 +40,7 @@ class Instant:
         return sums
 
 
-_Read: TypeAlias = Callable[[Instant], float]
+_Read: TypeAlias = Callable[[SampledState], float]
 
 
 class Series(Struct, frozen=True, eq=False):
@@ -122,7 +122,7 @@ class _SensorSeries:
         self._latest: SensorValue | None = None
         self.series = Series(unit, self._read)
 
-    def _read(self, _: Instant) -> float:
+    def _read(self, _: SampledState) -> float:
         if self._latest is None:
             self._latest = self._listen(self._sensor)
         reading = self._latest.reading
@@ -157,7 +157,7 @@ def _rpy(snapshot: Snapshot, link: int) -> tuple[float, float, float]:
     return rpy_from_quaternion((qw, qx, qy, qz))
 
 
-def _contact(now: Instant, link: str, column: int) -> float:
+def _contact(now: SampledState, link: str, column: int) -> float:
     sums = now.contact_forces.get(link)
     return 0.0 if sums is None else float(sums[column])
 

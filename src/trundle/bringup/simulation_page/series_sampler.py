@@ -10,7 +10,7 @@ from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.spatial import NS_PER_S
 
-from .series import Instant, SensorValue, Series, SeriesFinder
+from .series import SampledState, SensorValue, Series, SeriesFinder
 
 _ROWS = 64
 """Rows of a message: about a second of strides, so that a page that is late misses none."""
@@ -47,7 +47,7 @@ class SeriesSampler:
         if time_ns < self._time_ns:
             self._find(names)  # time was set back, and with it who listens to sensors
         self._time_ns = time_ns
-        now = Instant(self._simulation, self._simulation.snapshot())
+        now = SampledState(self._simulation, self._simulation.snapshot())
         row = [time_ns / NS_PER_S, *(each.read(now) for each in self._series)]
         self._rows = [*self._rows[1 - _ROWS :], row]
         self._count += 1
