@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from tests.graphs import running_graph
 
 from trundle.bringup.plugins import load_plugins
 from trundle.bringup.world_setup import load_world
@@ -101,3 +102,20 @@ def test_a_reset_takes_the_command_back() -> None:
     run.sim.run(1.0)
 
     assert run.robot.pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
+
+
+def test_the_world_of_the_demo_loads_its_plugin_without_a_finding(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A plugin that fails is a warning, and the run goes on without it."""
+    monkeypatch.chdir(tmp_path)
+    with running_graph() as graph:
+        report = Diagnostics()
+        stage = load_world("rp2w_at_home.world", Packages({}, start=tmp_path), report)
+        sim = Simulation(stage.world, report)
+
+        loaded = load_plugins(sim, graph.node, {}, say=lambda _: None)
+        sim.run(0.2)
+
+    assert [type(plugin).__name__ for plugin in loaded] == ["Rp2w"]
+    assert report.warnings == []
