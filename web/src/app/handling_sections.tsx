@@ -17,7 +17,7 @@ const ZERO = [0, 0, 0] as const;
 /** What can be done with a model as a whole. */
 export function ModelButtons({ shell, name, model }: { readonly shell: Shell; readonly name: string; readonly model: ModelInfo }): JSX.Element {
   return (
-    <div class="sides">
+    <div class="sides two">
       {!model.static && (
         <Button small tone="line" on={model.held} onClick={() => holdModel(shell, name, !model.held)}>
           Hold in the air
