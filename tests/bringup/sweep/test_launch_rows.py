@@ -71,6 +71,16 @@ def test_a_row_of_a_launch_repeats_to_the_byte(plan: Path) -> None:
 
 
 @pytest.mark.slow
+def test_repetitions_of_a_launch_differ_by_their_seed(plan: Path) -> None:
+    (plan.parent / "gain.py").write_text("def gain(sim):\n    return sim.seed\n")
+    read = load_plan(plan)
+    rows = [Rows(read).row(number) for number in range(2)]
+
+    assert [runner_of(read).run(row).measures["params"] for row in rows] == [row.seed for row in rows]
+    assert rows[0].seed != rows[1].seed
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changed", "by", "said"),
     [

@@ -59,11 +59,11 @@ class GazeboContents:
             clock_hz: rate of /clock; None: the usual one.
             deliver: runs the plugins' callbacks on this thread.
             say: prints which plugins are loaded, and where logs are.
-            setup: changes spawned models, and begins with the simulation; None: they are spawned as read.
+            setup: seeds the simulation, begins with it, changes spawned models; None: they are spawned as read.
         """
         self.packages, self.environment = packages, env
         self._folder, self._report, self._say = folder, report, say
-        self.simulation = Simulation(world, report)
+        self.simulation = Simulation(world, report, seed=0 if setup is None else setup.seed)
         self._setup = setup
         if setup is not None:
             setup.start(self.simulation, node)

@@ -10,6 +10,11 @@ from trundle.simulation import Simulation
 class WorldSetup(Protocol):
     """Changes to a world and to the models spawned into it; called on the simulation's thread."""
 
+    @property
+    def seed(self) -> int:
+        """Seed of all random numbers of the simulation."""
+        ...
+
     def world(self, world: World) -> World:
         """Return the world to simulate."""
         ...

@@ -45,6 +45,11 @@ class LaunchSetup:
         self._has_started = False
 
     @property
+    def seed(self) -> int:
+        """Seed of the row."""
+        return self._row.seed
+
+    @property
     def time_s(self) -> float | None:
         """Simulation time [s]; None: there is no world yet."""
         return self.simulation.time_ns / NS_PER_S if self._has_started else None
