@@ -11,7 +11,7 @@ from trundle.bringup.simulation_page.edits import edit
 from trundle.description import SavedWorld, save_world
 from trundle.model import Light, World
 from trundle.packages import Packages
-from trundle.page import DeleteModel, EditAction, SetFriction, SetLight, SetMass, SetPhysics, SetPose
+from trundle.page import EditAction, SetFriction, SetLight, SetMass, SetPhysics, SetPose
 from trundle.simulation import Simulation
 
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
@@ -100,13 +100,15 @@ def test_an_included_model_whose_mass_changes_is_written_out(file: Path) -> None
 
 
 def test_physics_light_friction_and_a_deleted_model(file: Path) -> None:
+    simulation = trundle.load(str(file))
+    simulation.delete("ball")
+
     saved = _saved(
-        trundle.load(str(file)),
+        simulation,
         file,
         SetPhysics(gravity=(0.0, 1.0, -2.0), wind=(3.0, 0.0, 0.0), step=0.004),
         SetLight("lamp", (0.5, 0.25, 0.125), 2.0),
         SetFriction("crate", "body", 0.25, 0.5),
-        DeleteModel("ball"),
     )
 
     world = _reread(saved, file)
