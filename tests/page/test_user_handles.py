@@ -181,7 +181,7 @@ def test_a_model_is_copied_and_deleted_by_keys_and_both_are_undone(user: WorldUs
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Shift+C")
     user.until(lambda: user.model("crate_0"))
-    user.page.get_by_role("heading", name="crate_0").wait_for()
+    user.page.get_by_role("heading", name="crate_0", exact=True).wait_for()
     assert user.place("crate_0")[0] == pytest.approx(user.place("crate")[0] + 0.5, abs=0.2)
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Delete")

@@ -194,7 +194,7 @@ def test_the_world_s_tree_finds_shows_and_hides(user: SceneUser) -> None:
     tree.get_by_role("treeitem").filter(has_text="hinge").wait_for()
     search.press("Escape")
     tree.get_by_role("treeitem").filter(has_text="arm").click()
-    user.page.get_by_role("heading", name="arm").wait_for()
+    user.page.get_by_role("heading", name="arm", exact=True).wait_for()
     user.page.get_by_text("link of balloon").wait_for()
     tree.get_by_role("treeitem").filter(has_text="balloon").first.hover()
     user.button("Hide balloon").click()
