@@ -122,7 +122,7 @@ def test_nothing_is_measured_while_nothing_is_plotted(
 def test_rows_of_a_past_that_is_looked_at_are_not_sampled_again(
     simulation: Simulation, sampled: tuple[SeriesSampler, FakeServer]
 ) -> None:
-    """Scrubbing back shows what was; going on from there samples anew."""
+    """Scrubbing back shows what was; going on from there samples again."""
     sampler, server = sampled
     server.plotted = ("arm::hinge.position",)
     saved = simulation.save()
