@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { Box3, Group, Object3D, PerspectiveCamera, Quaternion, Ray, Vector3 } from "three";
 
 import { CommandList } from "../src/app/commands";
-import { Drive } from "../src/app/drive";
+import { Drive } from "../src/app/drive/drive";
 import { ShownParts } from "../src/scene/overlays/shown_parts";
 import type { Page } from "../src/app/page";
 import { liveSession, type Session } from "../src/app/session";

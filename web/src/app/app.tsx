@@ -6,8 +6,8 @@ import { useEffect, useRef } from "preact/hooks";
 
 import { Tooltips } from "../theme/tooltips";
 import { Bar } from "./bar";
-import { CameraFrame } from "./camera_frame";
-import { Dialogs } from "./dialogs";
+import { CameraFrame } from "./cameras/frame";
+import { Dialogs } from "./dialogs/dialogs";
 import type { Shell } from "./shell";
 import { Sheet } from "./sheet";
 import { SidePanel } from "./side_panel";

@@ -10,7 +10,7 @@ import { MenuButton, type MenuItem } from "../theme/menu";
 import { StatusShape } from "../theme/status_shape";
 import { Clock } from "./clock";
 import { canControl, LOOKS_ONLY } from "./looking";
-import { colourOf, nameOf } from "./people";
+import { colourOf, nameOf } from "./people/people";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 import { switchTheme } from "./theme";

@@ -21,20 +21,20 @@ import { SelectionOutline } from "../scene/world/selection_outline";
 import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
 import { CommandList } from "./commands";
-import { Drive } from "./drive";
+import { Drive } from "./drive/drive";
 import { freezable } from "./freeze";
-import { outlinedBodies, targetPose } from "./framing";
+import { outlinedBodies, targetPose } from "./views/framing";
 import { mount } from "./mount";
 import type { Page } from "./page";
-import { followPeople } from "./people";
-import { labelOthers, othersOutlines } from "./people_marks";
+import { followPeople } from "./people/people";
+import { labelOthers, othersOutlines } from "./people/marks";
 import { liveSession, type Session } from "./session";
 import { startDisplays, startView } from "./start";
 import { makeTheme } from "./theme";
 import { UndoHistory } from "./undo";
 import type { Shell } from "./shell";
-import { makeEditor } from "./world_edits";
-import { allModels, type ScopedModel } from "./world_nodes";
+import { makeEditor } from "./world/edits";
+import { allModels, type ScopedModel } from "./world/nodes";
 
 /** Fetch what the page is for; throws a sentence. */
 export async function fetchSession(address: string): Promise<Session> {

@@ -19,19 +19,19 @@ import "../theme/dockview.css";
 import { editorCommands } from "../editor/editor_commands";
 import type { Panel } from "../panels/panel";
 import { App } from "./app";
-import { modelCommands } from "./model_edits";
-import { cameraCommands } from "./first_person";
-import { insertionCommands } from "./insertion";
+import { modelCommands } from "./world/model_edits";
+import { cameraCommands } from "./views/first_person";
+import { insertionCommands } from "./insert/insertion";
 import { listenForKeys, type CommandList } from "./commands";
-import { acceptDroppedRviz } from "./open_rviz";
+import { acceptDroppedRviz } from "./dialogs/open_rviz";
 import type { Page } from "./page";
 import { pageCommands } from "./page_commands";
 import { Shell } from "./shell";
-import { saveCommands } from "./save_world";
+import { saveCommands } from "./dialogs/save_world";
 import { simulationCommands } from "./simulation_commands";
 import { toolCommands } from "./tool_bar";
-import { rememberShown } from "./shown_parts";
-import { viewMenuCommands } from "./view_menu";
+import { rememberShown } from "./views/shown_parts";
+import { viewMenuCommands } from "./views/view_menu";
 
 export interface Parts {
   readonly page: Page;

@@ -1,16 +1,16 @@
 /** Commands of the page: its panels, the view, undo. */
 
-import { toggleFirstPerson } from "./first_person";
-import { toggleFollowing } from "./following";
-import { frameSelection } from "./framing";
+import { toggleFirstPerson } from "./views/first_person";
+import { toggleFollowing } from "./views/following";
+import { frameSelection } from "./views/framing";
 import { canControl } from "./looking";
-import { chooseRviz } from "./open_rviz";
+import { chooseRviz } from "./dialogs/open_rviz";
 import type { Command } from "./page";
-import { download, rvizFile, save } from "./rviz_foot";
+import { download, rvizFile, save } from "./displays/rviz_foot";
 import type { Shell } from "./shell";
 import { sidePages } from "./side_pages";
 import { switchTheme } from "./theme";
-import { toggleVideo } from "./video_note";
+import { toggleVideo } from "./views/video_note";
 
 const SIDES = ["front", "back", "left", "right", "top", "bottom"] as const;
 

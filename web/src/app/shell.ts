@@ -5,14 +5,14 @@ import { computed, effect, signal, type Signal } from "@preact/signals";
 import type { Display } from "../displays/display";
 import { ModelEditor } from "../editor/model_editor";
 import type { Panel } from "../panels/panel";
-import { cameraTopics } from "./camera_topics";
+import { cameraTopics } from "./cameras/topics";
 import { CommandList } from "./commands";
 import { Dock } from "./dock";
-import { Insertion } from "./insertion";
+import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
-import { Notices } from "./notices";
+import { Notices } from "./notices/notices";
 import type { Page } from "./page";
-import { ViewVideo } from "./view_video";
+import { ViewVideo } from "./views/view_video";
 import { isBoolean, recall, remember } from "./storage";
 
 export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | null;

@@ -2,15 +2,15 @@
 
 import type { ComponentType } from "preact";
 
-import { DisplaysPage } from "./displays_page";
-import { InsertPage } from "./insert_page";
-import { Inspector } from "./inspector";
+import { DisplaysPage } from "./displays/displays_page";
+import { InsertPage } from "./insert/page";
+import { Inspector } from "./inspector/inspector";
 import type { SideName, SidePage } from "./layout";
 import type { Shell } from "./shell";
 import { ToolsPage } from "./tools_page";
-import { ViewsPage } from "./views_page";
-import { canEdit } from "./world_edits";
-import { WorldTree } from "./world_tree";
+import { ViewsPage } from "./views/views_page";
+import { canEdit } from "./world/edits";
+import { WorldTree } from "./world/tree";
 
 export interface SidePageInfo {
   readonly id: SidePage;

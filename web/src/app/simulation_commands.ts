@@ -2,7 +2,7 @@
 
 import { canControl } from "./looking";
 import type { Command, Page } from "./page";
-import { saveReplay } from "./save_replay";
+import { saveReplay } from "./dialogs/save_replay";
 import type { Shell } from "./shell";
 
 /** True where there is a clock to control: a simulation, a recorded run, a bag. */

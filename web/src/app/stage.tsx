@@ -2,14 +2,14 @@
 
 import type { JSX } from "preact";
 
-import { CameraTiles } from "./camera_tiles";
-import { DriveView } from "./drive_view";
-import { NoticeLine } from "./notice_line";
-import { SceneNotes } from "./scene_notes";
+import { CameraTiles } from "./cameras/tiles";
+import { DriveView } from "./drive/view";
+import { NoticeLine } from "./notices/line";
+import { SceneNotes } from "./notices/scene_notes";
 import type { Shell } from "./shell";
 import { ToolBar } from "./tool_bar";
-import { VideoNote } from "./video_note";
-import { ViewMenu } from "./view_menu";
+import { VideoNote } from "./views/video_note";
+import { ViewMenu } from "./views/view_menu";
 
 export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
   const phone = shell.layout.isPhone.value;

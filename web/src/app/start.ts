@@ -4,10 +4,10 @@ import { computed, effect, untracked } from "@preact/signals";
 import { Box3, Sphere } from "three";
 
 import type { Rgb, Yaml } from "../displays/properties";
-import { differs, robotBox, simulatedRobot } from "./framing";
+import { differs, robotBox, simulatedRobot } from "./views/framing";
 import type { Shell } from "./shell";
-import { linkedView } from "./view_link";
-import { bodiesOf } from "./world_nodes";
+import { linkedView } from "./views/view_link";
+import { bodiesOf } from "./world/nodes";
 
 /** Wall seconds in which more of a robot may appear. */
 const SETTLING = 3;

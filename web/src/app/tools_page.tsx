@@ -4,7 +4,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
 import { Tree } from "../theme/tree";
-import { propertyRows } from "./property_rows";
+import { propertyRows } from "./displays/property_rows";
 import type { Shell } from "./shell";
 
 export function ToolsPage({ shell }: { readonly shell: Shell }): JSX.Element {

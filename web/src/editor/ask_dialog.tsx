@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import { Dialog } from "../app/dialog";
+import { Dialog } from "../app/dialogs/dialog";
 import type { Shell } from "../app/shell";
 import type { Question } from "./model_editor";
 

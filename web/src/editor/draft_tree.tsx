@@ -5,7 +5,7 @@ import type { JSX } from "preact";
 
 import type { Selection } from "../app/page";
 import type { Shell } from "../app/shell";
-import { canEdit } from "../app/world_edits";
+import { canEdit } from "../app/world/edits";
 import { Button } from "../theme/button";
 import { count, fixed } from "../theme/format";
 import { Icon } from "../theme/icons";

@@ -2,7 +2,7 @@
 
 import type { Command } from "../app/page";
 import type { Shell } from "../app/shell";
-import { canEdit } from "../app/world_edits";
+import { canEdit } from "../app/world/edits";
 import type { PartPath } from "./draft";
 
 export function editorCommands(shell: Shell): readonly Command[] {

@@ -3,10 +3,10 @@
 import { computed, signal } from "@preact/signals";
 import { Box3, Vector3 } from "three";
 
-import type { Notices } from "../app/notices";
+import type { Notices } from "../app/notices/notices";
 import type { Page } from "../app/page";
-import { poseFields, type Fields } from "../app/world_edits";
-import { bodiesOf } from "../app/world_nodes";
+import { poseFields, type Fields } from "../app/world/edits";
+import { bodiesOf } from "../app/world/nodes";
 import type { Transform } from "../frames/transform";
 import type { RequestAnswer } from "../protocol/connection";
 import { bodyOf, findPart, type Draft, type FieldValue, type PartPath } from "./draft";

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 
 import type { Shell } from "../app/shell";
-import { canEdit } from "../app/world_edits";
+import { canEdit } from "../app/world/edits";
 import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { StatusShape } from "../theme/status_shape";

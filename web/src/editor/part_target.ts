@@ -2,7 +2,7 @@
 
 import { Matrix4, Quaternion, Vector3, type Object3D } from "three";
 
-import { orientationOf, poseFields } from "../app/world_edits";
+import { orientationOf, poseFields } from "../app/world/edits";
 import type { Transform } from "../frames/transform";
 import type { SixNumbers } from "../scene/simulated_world";
 import type { Asked, Drawn, HandleTarget } from "../tools/handles/handle_target";

@@ -3,7 +3,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import { Dialog } from "../app/dialog";
+import { Dialog } from "../app/dialogs/dialog";
 import type { Shell } from "../app/shell";
 import { sentence } from "../panels/use";
 

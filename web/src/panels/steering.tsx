@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
-import type { Drive, Held } from "../app/drive";
+import type { Drive, Held } from "../app/drive/drive";
 import { canControl, LOOKS_ONLY } from "../app/looking";
 import { Combo } from "../theme/combo";
 import { fixed } from "../theme/format";

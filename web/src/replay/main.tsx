@@ -9,7 +9,7 @@ import "./replay.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
 
-import { linkedView } from "../app/view_link";
+import { linkedView } from "../app/views/view_link";
 import { isMapping, type Yaml } from "../displays/properties";
 import { ORIGIN } from "../scene/views/view";
 import { SceneInput } from "../scene/pointer_input";

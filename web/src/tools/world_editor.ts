@@ -2,7 +2,7 @@
 
 import type { Quaternion, Vector3 } from "three";
 
-import type { Fields } from "../app/world_edits";
+import type { Fields } from "../app/world/edits";
 import type { SimulatedWorld } from "../scene/simulated_world";
 
 export interface WorldEditor {

@@ -2,10 +2,10 @@
 
 import { Quaternion, Vector3 } from "three";
 
-import { findJoint, findLink, findModel } from "../../app/framing";
+import { findJoint, findLink, findModel } from "../../app/views/framing";
 import type { Selection } from "../../app/page";
-import { orientationOf, poseFields, type Fields } from "../../app/world_edits";
-import { allModels, bodiesOf } from "../../app/world_nodes";
+import { orientationOf, poseFields, type Fields } from "../../app/world/edits";
+import { allModels, bodiesOf } from "../../app/world/nodes";
 import { partTarget } from "../../editor/part_target";
 import type { Transform } from "../../frames/transform";
 import type { JointInfo, LightInfo, SixNumbers } from "../../scene/simulated_world";

@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Plane, Vector3, type Matrix4 } from "three";
 
-import { findModel } from "../../app/framing";
+import { findModel } from "../../app/views/framing";
 import { NOT_PICKED } from "../../scene/picking";
 import type { SceneView } from "../../scene/scene_view";
 import { selectionOf } from "../picked";

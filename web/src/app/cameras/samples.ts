@@ -1,0 +1,49 @@
+/** Single pictures of a topic with rests between them: a simulated camera is drawn only while somebody subscribes. */
+
+import { effect, signal } from "@preact/signals";
+
+import { drawPicture, PictureStream, type Picture, type PictureSource } from "../../displays/pictures/picture_stream";
+import type { Connection } from "../../protocol/connection";
+
+const REST = 1000; // ms
+
+export class CameraSamples implements PictureSource {
+  readonly picture = signal<Picture | null>(null);
+  readonly fault = signal<string | null>(null);
+  private stream: PictureStream | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private stopWatching = (): void => undefined;
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly topic: string,
+  ) {
+    this.take();
+  }
+
+  close(): void {
+    clearTimeout(this.timer);
+    this.rest();
+  }
+
+  private take(): void {
+    const stream = new PictureStream(this.connection, this.topic);
+    this.stream = stream;
+    this.stopWatching = effect(() => {
+      this.fault.value = stream.fault.value;
+      const picture = stream.picture.value;
+      if (picture === null) return;
+      const image = document.createElement("canvas"); // the stream's own picture ends with it
+      drawPicture(image, picture);
+      this.picture.value = { ...picture, image };
+      this.timer = setTimeout(() => this.take(), REST);
+      queueMicrotask(() => this.rest()); // not while the stream tells of its picture
+    });
+  }
+
+  private rest(): void {
+    this.stopWatching();
+    this.stream?.close();
+    this.stream = null;
+  }
+}

@@ -1,0 +1,42 @@
+/** Which cameras have a tile: those of the world, image topics that the launch shows, and displays of pictures. */
+
+import type { Display } from "../../displays/display";
+import { isEnabled, withMembers } from "../../displays/group";
+import { PictureDisplay } from "../../displays/pictures/picture_display";
+import type { TopicInfo } from "../../protocol/connection";
+import type { Manifest } from "../../scene/simulated_world";
+import type { Session } from "../session";
+
+export interface CameraTopic {
+  readonly name: string;
+  readonly topic: string;
+  /** As the model of a simulated camera says [Hz]; null: it is another's. */
+  readonly rate: number | null;
+  /** The display whose picture it is; none: the topic's own. */
+  readonly display?: PictureDisplay;
+}
+
+export function cameraTopics(session: Pick<Session, "images">, manifest: Manifest | null, displays: readonly Display[] = []): readonly CameraTopic[] {
+  const enabled = withMembers(displays, isEnabled).filter((display) => display instanceof PictureDisplay);
+  const shown = enabled.flatMap((display): CameraTopic[] => {
+    const { topic } = display;
+    return topic === null ? [] : [{ name: display.name.value, topic, rate: null, display }];
+  });
+  const taken = new Set(shown.filter(({ display }) => display?.className === "rviz/Image").map(({ topic }) => topic));
+  const cameras = (manifest?.cameras ?? []).map(({ name, topic, rate }) => ({ name, topic, rate }));
+  const known = new Set([...taken, ...cameras.map((camera) => camera.topic)]);
+  const asked = session.images.filter((topic) => !known.has(topic)).map((topic) => ({ name: topic.replace(/^\//, ""), topic, rate: null }));
+  return [...asked, ...cameras.filter(({ topic }) => !taken.has(topic)), ...shown];
+}
+
+/** What tells tiles apart: a topic may have one by itself and one with the scene over it. */
+export function tileKey({ topic, display }: CameraTopic): string {
+  return display === undefined ? topic : `${display.className} ${display.name.value} ${topic}`;
+}
+
+/** The compressed topic where there is one and the page comes over a network; raw pictures of a camera fill it. */
+export function streamedTopic(topic: string, topics: ReadonlyMap<string, TopicInfo>, host: string): string {
+  const compressed = `${topic}/compressed`;
+  const isNear = /^(localhost|127\.|\[::1\])/.test(host);
+  return !isNear && topics.has(compressed) ? compressed : topic;
+}

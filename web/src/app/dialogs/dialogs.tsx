@@ -1,0 +1,31 @@
+/** The dialog that is open. */
+
+import type { JSX } from "preact";
+
+import { AskDialog } from "../../editor/ask_dialog";
+import { SaveModel } from "../../editor/save_model";
+import { CodeDialog } from "./code_dialog";
+import { Help } from "./help";
+import { NoticeList } from "../notices/list";
+import { Palette } from "./palette";
+import { PictureDialog } from "./picture_dialog";
+import { SaveDialog } from "./save_dialog";
+import { SaveWorld } from "./save_world";
+import type { Shell } from "../shell";
+import { LinkDialog } from "./view_link_dialog";
+
+export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | null {
+  const dialog = shell.dialog.value;
+  const question = shell.editor.question.value;
+  if (question !== null) return <AskDialog shell={shell} question={question} />;
+  const code = shell.insertion.asked.value;
+  if (code !== null) return <CodeDialog shell={shell} code={code} />;
+  if (dialog === "palette") return <Palette shell={shell} />;
+  if (dialog === "help") return <Help shell={shell} />;
+  if (dialog === "picture") return <PictureDialog shell={shell} />;
+  if (dialog === "link") return <LinkDialog shell={shell} />;
+  if (dialog === "save") return <SaveDialog shell={shell} />;
+  if (dialog === "save_world") return <SaveWorld shell={shell} />;
+  if (dialog === "save_model") return <SaveModel shell={shell} />;
+  return dialog === "notices" ? <NoticeList shell={shell} /> : null;
+}

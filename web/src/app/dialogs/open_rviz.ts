@@ -1,0 +1,37 @@
+/** Opens an .rviz file of the person's machine: chosen, or dropped onto the page. */
+
+import type { Shell } from "../shell";
+
+/** Let the person choose a file. */
+export function chooseRviz(shell: Shell): void {
+  const input = Object.assign(document.createElement("input"), { type: "file", accept: ".rviz,.yaml,.yml" });
+  input.addEventListener("change", () => void open(shell, input.files?.[0]));
+  input.click();
+}
+
+/** Take files that are dropped onto the page; returns how to stop. */
+export function acceptDroppedRviz(shell: Shell): () => void {
+  const events = new AbortController();
+  const hasFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") === true;
+  const over = (event: DragEvent): void => {
+    if (hasFile(event)) event.preventDefault();
+  };
+  const drop = (event: DragEvent): void => {
+    if (!hasFile(event)) return;
+    event.preventDefault();
+    void open(shell, event.dataTransfer?.files[0]);
+  };
+  addEventListener("dragover", over, { signal: events.signal });
+  addEventListener("drop", drop, { signal: events.signal });
+  return () => events.abort();
+}
+
+async function open(shell: Shell, file: File | undefined): Promise<void> {
+  if (file === undefined) return;
+  const { displays } = shell.page;
+  const text = await file.text();
+  shell.display.value = null;
+  for (const fault of displays.load(text)) shell.notices.report(file.name, fault, "warn");
+  shell.ownFile.value = { name: file.name, writable: false };
+  shell.layout.open("displays");
+}

@@ -1,0 +1,59 @@
+/** The link to the current view, to be copied; one of its own kind only allows looking. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useMemo, useRef } from "preact/hooks";
+
+import { Button } from "../../theme/button";
+import { Dialog } from "./dialog";
+import type { Session } from "../session";
+import type { Shell } from "../shell";
+import { linkTo } from "../views/view_link";
+
+function linkText({ asks_token, view_only }: Session, looks: boolean): string {
+  if (!looks) return "Whoever can open this page sees it from here.";
+  const text = "Whoever has this link sees the page from here, and can drive and change nothing.";
+  return asks_token || view_only ? text : `${text} On this machine the page opens without a link, too; --view-only makes it ask for one.`;
+}
+
+export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
+  const field = useRef<HTMLInputElement>(null);
+  const copied = useSignal(false);
+  const { session, views } = shell.page;
+  const looks = useSignal(session.view_only);
+  const link = useMemo(() => linkTo(views, location.href, looks.value ? session.view_token : null), [views, session, looks.value]);
+  const copy = (): void => {
+    field.current?.select();
+    if (!window.isSecureContext) return; // Ctrl C copies what is selected
+    void navigator.clipboard.writeText(link).then(() => (copied.value = true), () => undefined);
+  };
+  return (
+    <Dialog title="Link to this view" class="save" onClose={() => (shell.dialog.value = null)}>
+      <div class="form">
+        {!session.view_only && (
+          <div role="group" aria-label="What the link allows">
+            <Button small on={!looks.value} onClick={() => (looks.value = false)}>
+              Look and control
+            </Button>
+            <Button small on={looks.value} onClick={() => (looks.value = true)}>
+              Look only
+            </Button>
+          </div>
+        )}
+        <p class="t2">{linkText(session, looks.value)}</p>
+        <label class="field">
+          <input ref={field} aria-label="Link" readOnly value={link} autoFocus onFocus={(event) => event.currentTarget.select()} />
+        </label>
+      </div>
+      <div class="foot">
+        <span class="sm t2" role="status">
+          {copied.value && "Copied."}
+        </span>
+        <span class="sp" />
+        <Button tone="line" onClick={copy}>
+          {window.isSecureContext ? "Copy" : "Select"}
+        </Button>
+      </div>
+    </Dialog>
+  );
+}

@@ -1,0 +1,67 @@
+/** The .rviz file: how much it was changed, and how to save it. */
+
+import type { JSX } from "preact";
+
+import { saveFile, sentence } from "../../panels/use";
+import { Button } from "../../theme/button";
+import { count } from "../../theme/format";
+import { canControl } from "../looking";
+import type { RvizFileInfo, Shell } from "../shell";
+
+export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | null {
+  const file = rvizFile(shell);
+  const changes = shell.page.displays.changes.value;
+  if (changes === 0) return null;
+  return (
+    <div class="foot">
+      <span class="sm t2 n" data-tip={file?.name}>
+        {count(changes, "change")}, not saved
+      </span>
+      <span class="sp" />
+      {file?.writable === true && canControl(shell.page) ? (
+        <Button small tone="line" onClick={() => save(shell)}>
+          Save
+        </Button>
+      ) : (
+        <>
+          <Button small onClick={() => download(shell)}>
+            Download
+          </Button>
+          {canControl(shell.page) && (
+            <Button small tone="line" onClick={() => (shell.dialog.value = "save")}>
+              Save as
+            </Button>
+          )}
+        </>
+      )}
+    </div>
+  );
+}
+
+/** What the displays were read from or saved as last; null: no file. */
+export function rvizFile({ ownFile, page }: Shell): RvizFileInfo | null {
+  return ownFile.value ?? page.session.rviz;
+}
+
+/** Name for a file that is new: the robot's, else the page's. */
+export function newName({ robot, page }: Shell): string {
+  const name = robot.value ?? page.session.title.replace(/\.\w+$/, "");
+  return `${name.replace(/[\s/\\]+/g, "_")}.rviz`;
+}
+
+/** Write the file that the page was started with, or the one that was saved here. */
+export function save(shell: Shell): void {
+  const { connection, displays } = shell.page;
+  const text = displays.save();
+  const own = shell.ownFile.peek();
+  const saved = own === null ? connection.request("save_rviz", { text }) : connection.saveRvizAs(own.name, text, true);
+  saved.then(() => displays.markSaved(), (error: unknown) => shell.notices.report("Save", sentence(error)));
+}
+
+/** Hand the text to the browser. */
+export function download(shell: Shell): void {
+  const { displays } = shell.page;
+  const name = rvizFile(shell)?.name ?? newName(shell);
+  saveFile(name.split("/").at(-1) ?? name, new Blob([displays.save()], { type: "text/yaml" }));
+  displays.markSaved();
+}

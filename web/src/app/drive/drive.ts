@@ -1,0 +1,107 @@
+/** Driving with a dead man's rule: commands go out at 10 Hz while something is held, then one release. */
+
+import { computed, effect, signal } from "@preact/signals";
+
+import { isWatcher } from "../../protocol/watchers";
+import type { Page } from "../page";
+import { isNumber, recall, remember } from "../storage";
+
+const PERIOD = 100; // ms
+const TWISTS = ["geometry_msgs/Twist", "geometry_msgs/TwistStamped"];
+/** Not every subscriber says its type; by convention this is the topic's name. */
+const BY_NAME = /(^|\/)cmd_vel$/;
+
+/** Shares −1…1 of the limits. */
+export interface Held {
+  readonly linear: number;
+  readonly angular: number;
+}
+
+export class Drive {
+  private readonly chosen = signal<string | null>(null);
+  private readonly held = signal<ReadonlyMap<string, Held>>(new Map());
+  private driven: string | null = null;
+  private known: readonly string[] = [];
+  private timer: ReturnType<typeof setInterval> | undefined;
+
+  /** Topics of velocities that a node which does not only watch listens to, the session's first. */
+  readonly topics = computed<readonly string[]>(() => {
+    const { connection, session } = this.page;
+    if (session.view_only) return [];
+    const { types, subscribers } = connection.graph.value;
+    const published = [...connection.topics.value.values()].map(({ name, type }) => [name, type] as const);
+    const typed = [...published, ...types].flatMap(([name, type]) => (TWISTS.includes(type) ? [name] : []));
+    const named = [...subscribers.keys()].filter((name) => BY_NAME.test(name));
+    const isHeard = (name: string): boolean => (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
+    const isFirst = (name: string): number => Number(name !== session.drive_topic);
+    const isUntold = types.size + subscribers.size === 0; // as after a lost connection, when topics are told of before the graph
+    if (isUntold || connection.state.value.kind !== "connected") return this.known;
+    this.known = [...new Set([...typed, ...named].filter(isHeard))].sort((a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1));
+    return this.known;
+  });
+  /** The topic that is driven; null: there is none. */
+  readonly topic = computed(() => this.chosen.value ?? this.topics.value[0] ?? null);
+  /** Greatest velocities [m/s], [rad/s]. */
+  readonly linearLimit;
+  readonly angularLimit;
+  /** Velocities that go out now [m/s], [rad/s]; null: nothing is held. */
+  readonly command = computed<Held | null>(() => {
+    if (this.held.value.size === 0) return null;
+    const sum = (part: keyof Held): number => clamp([...this.held.value.values()].reduce((total, each) => total + each[part], 0));
+    return { linear: sum("linear") * this.linearLimit.value, angular: sum("angular") * this.angularLimit.value };
+  });
+
+  constructor(private readonly page: Pick<Page, "connection" | "session">) {
+    const key = page.session.robot ?? page.session.title;
+    this.linearLimit = signal(recall(`drive.${key}.linear`, 0.5, isNumber));
+    this.angularLimit = signal(recall(`drive.${key}.angular`, 1, isNumber));
+    effect(() => remember(`drive.${key}.linear`, this.linearLimit.value));
+    effect(() => remember(`drive.${key}.angular`, this.angularLimit.value));
+    effect(() => {
+      if (page.connection.state.value.kind !== "connected") this.releaseAll();
+    });
+  }
+
+  choose(topic: string): void {
+    this.releaseAll();
+    this.chosen.value = topic;
+  }
+
+  /** Hold a key, the disc or a stick; without a connection or topic nothing is held. */
+  hold(source: string, linear: number, angular: number): void {
+    if (this.topic.peek() === null || this.page.connection.state.peek().kind !== "connected") return;
+    this.held.value = new Map(this.held.peek()).set(source, { linear: clamp(linear), angular: clamp(angular) });
+    if (this.driven !== null) return;
+    this.driven = this.topic.peek();
+    this.timer = setInterval(() => this.send(), PERIOD);
+    this.send();
+  }
+
+  release(source: string): void {
+    if (!this.held.peek().has(source)) return;
+    const held = new Map(this.held.peek());
+    held.delete(source);
+    this.held.value = held;
+    if (held.size === 0) this.stop();
+  }
+
+  releaseAll(): void {
+    if (this.held.peek().size > 0) this.held.value = new Map();
+    this.stop();
+  }
+
+  private send(): void {
+    const command = this.command.peek();
+    if (command !== null && this.driven !== null) this.page.connection.drive(this.driven, command.linear, command.angular);
+  }
+
+  private stop(): void {
+    clearInterval(this.timer);
+    if (this.driven !== null) this.page.connection.release(this.driven);
+    this.driven = null;
+  }
+}
+
+function clamp(share: number): number {
+  return Math.min(1, Math.max(-1, share));
+}

@@ -1,0 +1,75 @@
+/** A button for something to insert: dragged into the scene, or pressed and then a place; Enter puts it into the middle. */
+
+import type { ComponentChildren, JSX, TargetedPointerEvent } from "preact";
+import { useRef } from "preact/hooks";
+
+import type { Insertable } from "../../tools/insertable";
+import type { Shell } from "../shell";
+
+/** A shorter way of the pointer is a press [px]. */
+const CLICK = 4;
+
+export interface InsertButtonProps {
+  readonly shell: Shell;
+  readonly thing: Insertable;
+  readonly class: string;
+  readonly tip?: string;
+  readonly children: ComponentChildren;
+}
+
+export function InsertButton({ shell, thing, class: name, tip, children }: InsertButtonProps): JSX.Element {
+  const { scene, tools } = shell.page;
+  const from = useRef<{ readonly x: number; readonly y: number } | null>(null);
+  const isDragged = useRef(false);
+  const chosen = tools.insert?.chosen.value ?? null;
+  const isChosen = chosen?.kind === thing.kind && chosen.name === thing.name;
+  const move = (event: TargetedPointerEvent<HTMLButtonElement>): void => {
+    const { current: start } = from;
+    if (start === null) return;
+    if (!isDragged.current && Math.hypot(event.clientX - start.x, event.clientY - start.y) > CLICK) {
+      isDragged.current = true;
+      shell.insertion.choose(thing);
+    }
+    const at = isDragged.current ? inScene(scene.element, event) : null;
+    if (at === null) tools.insert?.hide();
+    else tools.insert?.hover(...at);
+  };
+  const end = (event: TargetedPointerEvent<HTMLButtonElement>): void => {
+    from.current = null;
+    if (!isDragged.current) return;
+    const at = event.type === "pointerup" ? inScene(scene.element, event) : null;
+    if (at === null) tools.use("rviz/Interact");
+    else tools.insert?.place(...at);
+  };
+  return (
+    <button
+      type="button"
+      class={isChosen ? `${name} on` : name}
+      aria-label={`Insert ${thing.title}`}
+      aria-pressed={isChosen}
+      data-tip={tip}
+      onPointerDown={(event) => {
+        isDragged.current = false;
+        if (event.button !== 0) return;
+        event.currentTarget.setPointerCapture(event.pointerId);
+        from.current = { x: event.clientX, y: event.clientY };
+      }}
+      onPointerMove={move}
+      onPointerUp={end}
+      onPointerCancel={end}
+      onClick={({ detail }) => {
+        if (isDragged.current) return;
+        shell.insertion.choose(thing);
+        if (detail === 0) tools.insert?.placeInMiddle(); // by the keyboard
+      }}
+    >
+      {children}
+    </button>
+  );
+}
+
+/** Place of a pointer in the scene [px]; null: it is over something else. */
+function inScene(element: HTMLElement, { clientX, clientY }: PointerEvent): [number, number] | null {
+  const { left, top } = element.getBoundingClientRect();
+  return document.elementFromPoint(clientX, clientY) === element ? [clientX - left, clientY - top] : null;
+}

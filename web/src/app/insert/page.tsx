@@ -1,0 +1,69 @@
+/** The Insert page: shapes, lights and the models of the model path. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+
+import { Icon, type IconName } from "../../theme/icons";
+import type { Insertable } from "../../tools/insertable";
+import { InsertButton } from "./button";
+import type { ModelEntry } from "./insertion";
+import type { Shell } from "../shell";
+
+const SIMPLE: readonly { readonly icon: IconName; readonly label: string; readonly thing: Insertable }[] = [
+  { icon: "model", label: "box", thing: { kind: "shape", name: "box", title: "box" } },
+  { icon: "sphere", label: "sphere", thing: { kind: "shape", name: "sphere", title: "sphere" } },
+  { icon: "cylinder", label: "cylinder", thing: { kind: "shape", name: "cylinder", title: "cylinder" } },
+  { icon: "light", label: "point", thing: { kind: "light", name: "point", title: "point light" } },
+  { icon: "sun", label: "directional", thing: { kind: "light", name: "directional", title: "directional light" } },
+  { icon: "spot", label: "spot", thing: { kind: "light", name: "spot", title: "spot light" } },
+];
+
+export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { insertion } = shell;
+  const search = useSignal("");
+  useEffect(() => insertion.list(), [insertion]);
+  const models = insertion.models.value;
+  const wanted = search.value.trim().toLowerCase();
+  const found = (models ?? []).filter(({ name, title }) => `${name} ${title}`.toLowerCase().includes(wanted));
+  const said = models === null ? "Looking for models." : models.length === 0 ? "There are no models on the model path." : "Nothing is named so.";
+  return (
+    <>
+      <div class="simple" role="group" aria-label="Simple shapes and lights">
+        {SIMPLE.map(({ icon, label, thing }) => (
+          <InsertButton key={thing.title} shell={shell} thing={thing} class="b">
+            <Icon name={icon} />
+            {label}
+          </InsertButton>
+        ))}
+      </div>
+      <label class="field find">
+        <Icon name="find" />
+        <input type="search" placeholder="Search the models" aria-label="Search the models" onInput={(event) => (search.value = event.currentTarget.value)} />
+      </label>
+      <div class="scroll models" role="group" aria-label="Models">
+        {found.length === 0 && <p class="empty">{said}</p>}
+        {found.map((model) => (
+          <ModelButton key={model.name} shell={shell} model={model} />
+        ))}
+      </div>
+    </>
+  );
+}
+
+function ModelButton({ shell, model }: { readonly shell: Shell; readonly model: ModelEntry }): JSX.Element {
+  const { name, title, description } = model;
+  return (
+    <InsertButton shell={shell} thing={{ kind: "model", name, title }} class="model" tip={description === "" ? title : `${title}: ${description}`}>
+      <Picture name={name} />
+      <span>{title}</span>
+    </InsertButton>
+  );
+}
+
+/** The server's picture of a model, asked for once it is seen. */
+function Picture({ name }: { readonly name: string }): JSX.Element {
+  const failed = useSignal(false);
+  if (failed.value) return <Icon name="model" />;
+  return <img src={`model.png?model=${encodeURIComponent(name)}`} alt="" loading="lazy" draggable={false} onError={() => (failed.value = true)} />;
+}

@@ -1,0 +1,65 @@
+/** Sections with which a model is held in the air, copied, deleted, or pushed by a force for a time. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+
+import type { ModelInfo } from "../../scene/simulated_world";
+import { Button } from "../../theme/button";
+import { copyModel, deleteModel, holdModel } from "../world/model_edits";
+import type { Shell } from "../shell";
+import { NumbersRow } from "./value_rows";
+import { withNumber } from "../world/edits";
+
+const LIMITS = { min: -1e6, max: 1e6 };
+const AXES = ["x", "y", "z"] as const;
+const ZERO = [0, 0, 0] as const;
+
+/** What can be done with a model as a whole. */
+export function ModelButtons({ shell, name, model }: { readonly shell: Shell; readonly name: string; readonly model: ModelInfo }): JSX.Element {
+  return (
+    <div class="sides two">
+      {!model.static && (
+        <Button small tone="line" on={model.held} onClick={() => holdModel(shell, name, !model.held)}>
+          Hold in the air
+        </Button>
+      )}
+      <Button small tone="line" onClick={() => void shell.editor.begin(name)}>
+        Edit model…
+      </Button>
+      <Button small tone="line" onClick={() => copyModel(shell, name)}>
+        Copy
+      </Button>
+      <Button small tone="line" onClick={() => deleteModel(shell, name)}>
+        Delete
+      </Button>
+    </div>
+  );
+}
+
+/** Pushes a link at its centre of mass with a force and a torque that are typed. */
+export function WrenchSection({ shell, model, link }: { readonly shell: Shell; readonly model: string; readonly link: string }): JSX.Element {
+  const force = useSignal<readonly number[]>(ZERO);
+  const torque = useSignal<readonly number[]>(ZERO);
+  const duration = useSignal(1);
+  const push = (by: { readonly force: readonly number[]; readonly torque: readonly number[] }, seconds: number): void =>
+    shell.request(`Force on ${link}`, "wrench", { model, link, ...by, duration: seconds });
+  const labels = (name: string): readonly string[] => AXES.map((axis) => `${name} ${axis}`);
+  return (
+    <section class="sec">
+      <h3>
+        Force and torque <span class="dim">in world</span>
+      </h3>
+      <NumbersRow name="Force" labels={labels("force")} values={force.value} unit="N" {...LIMITS} onCommit={(i, value) => (force.value = withNumber(force.value, i, value))} />
+      <NumbersRow name="Torque" labels={labels("torque")} values={torque.value} unit="N m" {...LIMITS} onCommit={(i, value) => (torque.value = withNumber(torque.value, i, value))} />
+      <NumbersRow name="For" labels={["duration"]} values={[duration.value]} unit="s" min={1e-3} max={1e6} onCommit={(_, value) => (duration.value = value)} />
+      <div class="sides">
+        <Button small tone="line" onClick={() => push({ force: force.value, torque: torque.value }, duration.value)}>
+          Apply
+        </Button>
+        <Button small tone="line" onClick={() => push({ force: ZERO, torque: ZERO }, 1e-3)}>
+          Stop
+        </Button>
+      </div>
+    </section>
+  );
+}

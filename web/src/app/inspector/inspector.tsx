@@ -1,0 +1,144 @@
+/** The Inspector: what is selected, with units, and the file and line it comes from. */
+
+import type { JSX } from "preact";
+
+import { PartForm } from "../../editor/part_form";
+import { NoTransform } from "../../frames/transform";
+import { Button } from "../../theme/button";
+import { Icon, type IconName } from "../../theme/icons";
+import { findJoint, findLink, findModel, frameSelection } from "../views/framing";
+import { JointSection, ModelJoints } from "./joint_sliders";
+import { LinkSections, ModelSections } from "./link_sections";
+import type { Selection } from "../page";
+import { PickedSection } from "./picked_section";
+import { PoseSection } from "./pose_section";
+import type { Shell } from "../shell";
+import { ShownSection } from "../views/view_menu";
+import { LightSections, WorldSections } from "./world_sections";
+
+export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
+  const selection = shell.page.selection.value;
+  const { draft } = shell.editor;
+  if (selection?.kind === "part") {
+    return draft.value === null ? <p class="empty">It is no longer edited.</p> : <PartForm shell={shell} draft={draft.value} path={selection.part} />;
+  }
+  if (selection === null) return <p class="empty">Nothing is selected. Press something in the scene or in a tree.</p>;
+  return (
+    <div class="scroll inspector">
+      <Title shell={shell} selection={selection} />
+      <Sections shell={shell} selection={selection} />
+    </div>
+  );
+}
+
+type Shown = Exclude<Selection, { readonly kind: "part" }>;
+
+interface SelectionProps {
+  readonly shell: Shell;
+  readonly selection: Shown;
+}
+
+function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
+  const { page } = shell;
+  const manifest = page.world.manifest.value;
+  if (selection.kind === "picked") return <PickedSection fields={selection.fields} />;
+  if (selection.kind === "frame") return <FrameSections shell={shell} frame={selection.frame} />;
+  if (selection.kind === "world") return manifest === null ? null : <WorldSections shell={shell} manifest={manifest} />;
+  if (selection.kind === "light") {
+    const light = manifest?.lights.find(({ name }) => name === selection.light);
+    return light === undefined ? <p class="empty">It is no longer in the world.</p> : <LightSections shell={shell} light={light} />;
+  }
+  const model = manifest !== null ? findModel(page, selection.model) : null;
+  if (model === null) return <p class="empty">It is no longer in the world.</p>;
+  if (selection.kind === "joint") {
+    const joint = findJoint(page, selection.model, selection.joint);
+    return joint === null ? null : <JointSection shell={shell} model={selection.model} joint={joint} />;
+  }
+  const link = selection.kind === "link" ? findLink(page, selection.model, selection.link) : null;
+  return (
+    <>
+      {link === null ? <ModelSections shell={shell} name={selection.model} model={model} /> : <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />}
+      <ModelJoints shell={shell} name={selection.model} model={model} />
+      <ShownSection shell={shell} model={selection.model} />
+    </>
+  );
+}
+
+function FrameSections({ shell, frame }: { readonly shell: Shell; readonly frame: string }): JSX.Element {
+  const { frames, displays } = shell.page;
+  const fixed = displays.fixedFrame.value;
+  const pose = (): ReturnType<typeof frames.lookup> => frames.lookup(fixed, frame, 0n);
+  const info = frames.describe().find((each) => each.name === frame);
+  const found = pose();
+  return (
+    <>
+      {found instanceof NoTransform ? (
+        <p class="empty">
+          {found.text}. {found.advice}
+        </p>
+      ) : (
+        <PoseSection within={fixed} pose={() => asPose(pose())} />
+      )}
+      <section class="sec">
+        <h3>Frame</h3>
+        <div class="kv">
+          <span>Parent</span>
+          <span>{info?.parent ?? "none"}</span>
+        </div>
+        <div class="kv">
+          <span>Kind</span>
+          <span>{info?.isStatic === true ? "static" : "moving"}</span>
+        </div>
+      </section>
+    </>
+  );
+}
+
+function asPose<T>(found: T | NoTransform): T | null {
+  return found instanceof NoTransform ? null : found;
+}
+
+const ICONS: Readonly<Record<Shown["kind"], IconName>> = { world: "world", light: "light", model: "model", link: "link", joint: "joint", frame: "frame", picked: "select" };
+
+function Title({ shell, selection }: SelectionProps): JSX.Element {
+  const { name, of, source } = titleOf(shell, selection);
+  return (
+    <div class="ti">
+      <h2>
+        <Icon name={ICONS[selection.kind]} />
+        <span class="n">{name}</span>
+      </h2>
+      {selection.kind !== "picked" && (
+        <Button icon="focus" label="Frame it in the view" keys="F" small onClick={() => frameSelection(shell.page, selection)} />
+      )}
+      <span class="sm t2">
+        {of}
+        {source !== null && (
+          <>
+            {of === "" ? "" : " · "}
+            <span class="src" data-tip={source}>
+              {shortSource(source)}
+            </span>
+          </>
+        )}
+      </span>
+    </div>
+  );
+}
+
+/** The file with its folder, and the line; the whole path is in the tooltip. */
+export function shortSource(source: string): string {
+  return source.split("/").slice(-2).join("/");
+}
+
+function titleOf(shell: Shell, selection: Shown): { name: string; of: string; source: string | null } {
+  const { page } = shell;
+  if (selection.kind === "picked") return { name: selection.title, of: "", source: null };
+  if (selection.kind === "world") return { name: page.world.manifest.value?.name ?? "world", of: "world", source: null };
+  if (selection.kind === "light") return { name: selection.light, of: "light", source: null };
+  if (selection.kind === "frame") return { name: selection.frame, of: "frame", source: null };
+  if (selection.kind === "model") return { name: selection.model, of: "model", source: findModel(page, selection.model)?.source ?? null };
+  const of = `${selection.kind} of ${selection.model}`;
+  if (selection.kind === "link") return { name: selection.link, of, source: findLink(page, selection.model, selection.link)?.source ?? null };
+  return { name: selection.joint, of, source: findJoint(page, selection.model, selection.joint)?.source ?? null };
+}

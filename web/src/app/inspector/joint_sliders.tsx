@@ -1,0 +1,157 @@
+/** Joints with sliders: positions where there are limits, velocities where there are none. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+
+import type { JointInfo, JointState, ModelInfo } from "../../scene/simulated_world";
+import { Button } from "../../theme/button";
+import { fixed } from "../../theme/format";
+import { Slider } from "../../theme/slider";
+import { jointValue, turnsFreely } from "./joint_values";
+import { JOINT_VALUES } from "../../panels/plots/simulated_values";
+import { PlotMenu } from "./plot_menu";
+import type { Shell } from "../shell";
+import { NumbersRow } from "./value_rows";
+import { canEdit, editWorld, type Fields } from "../world/edits";
+
+/** Range of a velocity slider [rad/s or m/s]. */
+const FASTEST = 10;
+
+export function ModelJoints({ shell, name, model }: { readonly shell: Shell; readonly name: string; readonly model: ModelInfo }): JSX.Element | null {
+  const joints = model.joints.filter((joint) => joint.index !== null);
+  if (joints.length === 0) return null;
+  const zero = (): void => joints.forEach((joint) => setJoint(shell, name, joint, Math.min(joint.upper ?? 0, Math.max(joint.lower ?? 0, 0))));
+  return (
+    <section class="sec">
+      <h3>
+        Joints of {model.name}
+        <span class="sp" />
+        <Button small disabled={!canEdit(shell)} onClick={zero}>
+          All to zero
+        </Button>
+      </h3>
+      {joints.map((joint) => (
+        <JointSlider key={joint.name} shell={shell} model={name} joint={joint} />
+      ))}
+    </section>
+  );
+}
+
+export function JointSection({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element {
+  const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
+  const rows: readonly (readonly [string, string])[] = [
+    ["Type", joint.type],
+    ["Parent", joint.parent],
+    ["Child", joint.child],
+    ...(state === undefined ? [] : [["Effort", `${fixed(state.effort, 2)} ${joint.type === "prismatic" ? "N" : "N m"}`] as const]),
+  ];
+  return (
+    <section class="sec">
+      <h3>
+        Joint
+        {joint.index !== null && <span class="sp" />}
+        {joint.index !== null && <PlotMenu shell={shell} owner={`${model}::${joint.name}`} values={JOINT_VALUES} />}
+      </h3>
+      {rows.map(([name, value]) => (
+        <div key={name} class="kv">
+          <span>{name}</span>
+          <span>{value}</span>
+        </div>
+      ))}
+      {joint.index !== null && <JointSlider shell={shell} model={model} joint={joint} />}
+      {state !== undefined && canEdit(shell) && <JointTargets shell={shell} model={model} joint={joint} state={state} />}
+    </section>
+  );
+}
+
+function setJoint(shell: Shell, model: string, joint: JointInfo, value: number): void {
+  const fields = turnsFreely(joint) ? { velocity: value } : { position: value };
+  shell.request(joint.name, "joint", { model, joint: joint.name, ...fields });
+}
+
+interface TargetProps {
+  readonly shell: Shell;
+  readonly model: string;
+  readonly joint: JointInfo;
+  readonly state: JointState;
+}
+
+/** Commands of the joint's motor as numbers: the last one holds. */
+function JointTargets({ shell, model, joint, state }: TargetProps): JSX.Element {
+  const [metre, newton] = joint.type === "prismatic" ? ["m", "N"] : ["rad", "N m"];
+  const targets: readonly (readonly [TargetName, number, string])[] = [
+    ["position", state.position, metre],
+    ["velocity", state.velocity, `${metre}/s`],
+    ["effort", Number.isFinite(state.effort) ? state.effort : 0, newton],
+  ];
+  return (
+    <>
+      {targets.map(([name, now, unit]) => (
+        <NumbersRow
+          key={name}
+          name={`Target ${name}`}
+          labels={[`target ${name}`]}
+          values={[now]}
+          decimals={3}
+          unit={unit}
+          min={-1e6}
+          max={1e6}
+          onCommit={(_, value) => driveJoint(shell, model, joint.name, { [name]: value }, { [name]: name === "position" ? now : 0 })}
+        />
+      ))}
+    </>
+  );
+}
+
+type TargetName = "position" | "velocity" | "effort";
+type Target = Readonly<Partial<Record<TargetName, number>>>;
+
+/** Command a joint; `before` takes it back. */
+function driveJoint(shell: Shell, model: string, joint: string, after: Target, before: Target): void {
+  const fields = (target: Target): Fields => ({ model, joint, ...target });
+  void editWorld(shell, `Joint ${joint}`, "joint", fields(after), fields(before));
+}
+
+function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element | null {
+  const held = useSignal<number | null>(null);
+  const start = useSignal(0);
+  const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
+  if (state === undefined) return null;
+  const { isVelocity, value, unit } = jointValue(joint, state);
+  const [lower, upper] = isVelocity ? [-FASTEST, FASTEST] : [joint.lower ?? 0, joint.upper ?? 0];
+  const shown = held.value ?? value;
+  const decimals = unit.startsWith("m") ? 3 : 2;
+  return (
+    <div class="jt">
+      <div class="h">
+        <span>{joint.name}</span>
+        <span>
+          {fixed(value, decimals)}
+          <span class="unit">{unit}</span>
+        </span>
+      </div>
+      <Slider
+        label={joint.name}
+        value={shown}
+        lower={lower}
+        upper={upper}
+        text={`${fixed(shown, decimals)} ${unit}`}
+        disabled={!canEdit(shell)}
+        onInput={(to) => {
+          if (held.value === null) start.value = isVelocity ? 0 : value;
+          held.value = to;
+          setJoint(shell, model, joint, to);
+        }}
+        onRelease={() => {
+          const name = isVelocity ? "velocity" : "position";
+          if (held.value !== null) driveJoint(shell, model, joint.name, { [name]: held.value }, { [name]: start.value });
+          held.value = null;
+        }}
+      />
+      <div class="lim">
+        <span>{isVelocity ? "no limits" : fixed(lower, 2)}</span>
+        <span>{isVelocity ? "" : fixed(upper, 2)}</span>
+      </div>
+    </div>
+  );
+}

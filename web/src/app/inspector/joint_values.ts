@@ -1,0 +1,25 @@
+/** The value of a joint that a person looks for: a wheel's velocity, else its position. */
+
+import type { JointInfo, JointState } from "../../scene/simulated_world";
+import { fixed } from "../../theme/format";
+
+export interface JointValue {
+  /** True for joints without limits, which are set by their velocity. */
+  readonly isVelocity: boolean;
+  readonly value: number;
+  readonly unit: string;
+  readonly text: string;
+}
+
+/** Without limits a joint turns for ever, and its position says nothing. */
+export function turnsFreely(joint: JointInfo): boolean {
+  return joint.lower === null || joint.upper === null;
+}
+
+export function jointValue(joint: JointInfo, state: JointState): JointValue {
+  const isVelocity = turnsFreely(joint);
+  const value = isVelocity ? state.velocity : state.position;
+  const metres = joint.type === "prismatic" || joint.type === "screw";
+  const unit = `${metres ? "m" : "rad"}${isVelocity ? "/s" : ""}`;
+  return { isVelocity, value, unit, text: `${fixed(value, metres ? 3 : 2)} ${unit}` };
+}

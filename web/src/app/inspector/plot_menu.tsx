@@ -1,0 +1,47 @@
+/** A menu of values of what is inspected, each of which is plotted or no longer. */
+
+import type { JSX } from "preact";
+
+import { plotsState } from "../../panels/plots/plots_state";
+import { MenuButton } from "../../theme/menu";
+import type { Shell } from "../shell";
+
+interface PlotMenuProps {
+  readonly shell: Shell;
+  /** `model::link`, or a joint's. */
+  readonly owner: string;
+  /** As `pose.x`. */
+  readonly values: readonly string[];
+}
+
+export function PlotMenu({ shell, owner, values }: PlotMenuProps): JSX.Element | null {
+  const { page, dock } = shell;
+  if (page.session.kind !== "simulation") return null;
+  const state = plotsState(page);
+  return (
+    <MenuButton
+      icon="plots"
+      class="sml"
+      label={`Plot of ${owner}`}
+      items={() =>
+        values.map((value) => {
+          const path = `${owner}.${value}`;
+          const curve = state.curves.find((each) => each.path === path);
+          return {
+            title: value,
+            checked: curve !== undefined,
+            stays: true,
+            run: () => {
+              if (curve !== undefined) {
+                state.remove(curve);
+                return;
+              }
+              state.add(path);
+              dock.open("plots");
+            },
+          };
+        })
+      }
+    />
+  );
+}

@@ -1,0 +1,89 @@
+/** Section with the twist of a body, of which each number can be typed where it can be set. */
+
+import type { JSX } from "preact";
+import { useEffect, useState } from "preact/hooks";
+
+import { fixed } from "../../theme/format";
+import { NumberField } from "../../theme/number_field";
+import type { Page } from "../page";
+import { REFRESH } from "../sampled";
+import { twistOf, type StampedPose, type Twist } from "./twist";
+import { withNumber } from "../world/edits";
+
+const STILL: Twist = { linear: [0, 0, 0], angular: [0, 0, 0] };
+
+interface TwistProps {
+  readonly page: Page;
+  readonly body: number;
+  /** Sets it once; without it the numbers are only shown. */
+  readonly onCommit?: ((after: Twist, before: Twist) => void) | undefined;
+}
+
+export function TwistSection({ page, body, onCommit }: TwistProps): JSX.Element {
+  const [before, setBefore] = useState<readonly StampedPose[]>([]);
+  useEffect(() => {
+    const timer = setInterval(() => {
+      const pose = page.world.pose(body);
+      const time = page.world.state.peek()?.time_ns ?? 0;
+      if (pose === null) return;
+      const sample = { time: time / 1e9, position: pose.position.clone(), orientation: pose.orientation.clone() };
+      setBefore((samples) => (samples.at(-1)?.time === sample.time ? samples : [...samples.slice(-1), sample]));
+    }, 2 * REFRESH);
+    return () => clearInterval(timer);
+  }, [page, body]);
+  const [first, second] = before;
+  const isMoving = page.world.state.value?.paused !== true;
+  const twist = first === undefined || second === undefined || !isMoving ? null : twistOf(first, second);
+  const now = twist ?? STILL;
+  const commit = (part: keyof Twist) =>
+    onCommit === undefined ? null : (index: number, value: number): void => onCommit({ ...now, [part]: withNumber(now[part], index, value) }, now);
+  return (
+    <section class="sec">
+      <h3>
+        Twist <span class="dim">in world</span>
+      </h3>
+      <div class="twist3">
+        {["", "x", "y", "z", ""].map((head, index) => (
+          <span key={index} class="h">
+            {head}
+          </span>
+        ))}
+        <TwistRow name="linear" values={twist?.linear} unit="m/s" onCommit={commit("linear")} />
+        <TwistRow name="angular" values={twist?.angular} unit="rad/s" onCommit={commit("angular")} />
+      </div>
+    </section>
+  );
+}
+
+interface RowProps {
+  readonly name: string;
+  readonly values: Twist["linear"] | undefined;
+  readonly unit: string;
+  readonly onCommit: ((index: number, value: number) => void) | null;
+}
+
+function TwistRow({ name, values, unit, onCommit }: RowProps): JSX.Element {
+  return (
+    <>
+      <span>{name}</span>
+      {[0, 1, 2].map((index) => (
+        <span key={index}>
+          {onCommit === null ? (
+            fixed(values?.[index], 2)
+          ) : (
+            <NumberField
+              label={`${name} ${"xyz"[index] ?? ""} [${unit}]`}
+              value={values?.[index] ?? 0}
+              decimals={2}
+              min={-1e6}
+              max={1e6}
+              class="small bare num"
+              onCommit={(value) => onCommit(index, value)}
+            />
+          )}
+        </span>
+      ))}
+      <span>{unit}</span>
+    </>
+  );
+}

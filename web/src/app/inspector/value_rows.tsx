@@ -1,0 +1,56 @@
+/** Rows of the Inspector: a name with a value, or with numbers that can be typed. */
+
+import type { JSX } from "preact";
+
+import { NumberField } from "../../theme/number_field";
+
+export function KeyValue({ name, value, unit }: { readonly name: string; readonly value: string; readonly unit?: string }): JSX.Element {
+  return (
+    <div class="kv">
+      <span>{name}</span>
+      <span>
+        {value}
+        {unit !== undefined && <span class="unit">{unit}</span>}
+      </span>
+    </div>
+  );
+}
+
+interface NumbersProps {
+  readonly name: string;
+  /** Of each number, for a screen reader: "mu", "mu2". */
+  readonly labels: readonly string[];
+  readonly values: readonly number[];
+  readonly decimals?: number;
+  readonly unit?: string;
+  readonly min?: number;
+  readonly max?: number;
+  readonly onCommit: (index: number, value: number) => void;
+}
+
+export function NumbersRow({ name, labels, values, decimals, unit, min, max, onCommit }: NumbersProps): JSX.Element {
+  const isSingle = labels.length === 1;
+  return (
+    <div class="kv numbers">
+      <span>
+        {name}
+        {!isSingle && unit !== undefined && <span class="unit">{unit}</span>}
+      </span>
+      <span>
+        {labels.map((label, index) => (
+          <NumberField
+            key={label}
+            label={label}
+            value={values[index] ?? 0}
+            {...(decimals === undefined ? {} : { decimals })}
+            unit={isSingle ? unit : undefined}
+            min={min}
+            max={max}
+            class="small num"
+            onCommit={(value) => onCommit(index, value)}
+          />
+        ))}
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,113 @@
+/** Faults of the page in one line with counts, and as a list. */
+
+import { computed, signal, type ReadonlySignal } from "@preact/signals";
+
+import type { Display, StatusLevel } from "../../displays/display";
+import { isEnabled, withMembers } from "../../displays/group";
+import { count } from "../../theme/format";
+import type { Page } from "../page";
+
+export interface Notice {
+  readonly level: StatusLevel;
+  /** What has the fault: a display's name, "Server". */
+  readonly title: string;
+  readonly text: string;
+  readonly advice?: string;
+  readonly display?: Display;
+}
+
+const KEPT = 100;
+/** Begin of the ids of warnings about the world's, the robot's and the launch's files. */
+const FILE = "file/";
+
+export class Notices {
+  private readonly reports = signal<readonly Notice[]>([]);
+  private readonly dismissed = signal("");
+  /** Every fault there is, most severe first. */
+  readonly all: ReadonlySignal<readonly Notice[]>;
+  /** The line: "17 displays have no data · 1 has no transform"; empty: nothing to say. */
+  readonly line: ReadonlySignal<{ readonly level: StatusLevel; readonly text: string }>;
+
+  constructor({ displays, connection, world }: Pick<Page, "displays" | "connection" | "world">) {
+    const faults = computed(() => withMembers(displays.displays.value, isEnabled).flatMap(displayFaults));
+    const unsupported = computed(() =>
+      displays.unsupported.value.map(({ name, className, reason }): Notice => ({ level: "warn", title: name || className, text: reason })),
+    );
+    const isWritten = (id: string | undefined): boolean => id?.startsWith(FILE) ?? false;
+    const told = computed(() => connection.notices.value.filter(({ level }) => level !== "info"));
+    const server = computed(() =>
+      told.value
+        .filter(({ id }) => !isWritten(id))
+        .map(({ level, text }): Notice => ({ level: level === "error" ? "error" : "warn", title: "Server", text })),
+    );
+    const files = computed(() => told.value.filter(({ id }) => isWritten(id)).map(({ text }): Notice => ({ level: "warn", title: "File", text })));
+    const drawn = computed(() => world.faults.value.map((text): Notice => ({ level: "warn", title: "World", text })));
+    this.all = computed(() => bySeverity([...this.reports.value, ...server.value, ...files.value, ...drawn.value, ...faults.value, ...unsupported.value]));
+    this.line = computed(() => {
+      const line = summary(this.reports.value, [...server.value, ...drawn.value], faults.value, unsupported.value.length, files.value);
+      return line.text === this.dismissed.value ? { level: "ok", text: "" } : line;
+    });
+  }
+
+  /** Say that something that a person asked for could not be done. */
+  report(title: string, text: string, level: StatusLevel = "error"): void {
+    const notice: Notice = { level, title, text };
+    this.reports.value = [...this.reports.peek().filter((other) => other.text !== text), notice].slice(-KEPT);
+  }
+
+  /** Hide the line until it says something else. */
+  dismiss(): void {
+    this.dismissed.value = this.line.peek().text;
+    this.reports.value = [];
+  }
+}
+
+/** Nothing came yet: a ring and "no data", not a fault. */
+export function isSilence({ level, text }: Pick<Notice, "level" | "text">): boolean {
+  return level === "none" || (level === "warn" && /^No \w+ received$/.test(text));
+}
+
+const RANK: Readonly<Record<StatusLevel, number>> = { error: 0, warn: 1, none: 2, ok: 3 };
+
+function bySeverity(notices: readonly Notice[]): readonly Notice[] {
+  return [...notices].sort((a, b) => RANK[a.level] - RANK[b.level]);
+}
+
+function displayFaults(display: Display): Notice[] {
+  return [...display.statuses.value]
+    .filter(([, status]) => status.level !== "ok")
+    .map(([, status]) => ({ ...status, title: display.name.value, display }));
+}
+
+function summary(
+  reports: readonly Notice[],
+  server: readonly Notice[],
+  faults: readonly Notice[],
+  unsupported: number,
+  files: readonly Notice[],
+): { level: StatusLevel; text: string } {
+  const displays = (which: (notice: Notice) => boolean): number => new Set(faults.filter(which).map((notice) => notice.display)).size;
+  const isTransform = (notice: Notice): boolean => /no transform|fixed frame/i.test(notice.text);
+  const isMesh = (notice: Notice): boolean => notice.text.startsWith("Could not load mesh");
+  const isSilent = (notice: Notice): boolean => !isTransform(notice) && isSilence(notice);
+  const silent = displays(isSilent);
+  const lost = displays(isTransform);
+  const meshes = faults.filter(isMesh).length;
+  const other = displays((notice) => !isTransform(notice) && !isSilent(notice) && !isMesh(notice));
+  const parts: string[] = reports.slice(-1).map(({ title, text }) => `${title}: ${text}`);
+  const say = (number: number, one: string, many: string): void => {
+    if (number > 0) parts.push(number === 1 ? one : `${number} ${many}`);
+  };
+  say(silent, "1 display has no data", "displays have no data");
+  const noun = silent > 0 ? "" : "display ";
+  say(lost, `1 ${noun}has no transform`, silent > 0 ? "have no transform" : "displays have no transform");
+  say(meshes, "1 mesh is missing", "meshes are missing");
+  say(other, "1 display has a fault", "displays have faults");
+  say(unsupported, "1 display is not supported", "displays are not supported");
+  if (server.length === 1) parts.push(server[0]?.text ?? "");
+  else if (server.length > 1) parts.push(count(server.length, "warning"));
+  say(files.length, files[0]?.text ?? "", "warnings about the files");
+  const isDone = parts.length === 1 && reports.at(-1)?.level === "ok";
+  const isFault = [...reports, ...server].some((notice) => notice.level === "error");
+  return { level: isDone ? "ok" : isFault ? "error" : "warn", text: parts.join(" · ") };
+}

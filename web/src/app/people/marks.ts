@@ -1,0 +1,29 @@
+/** What the others have selected, in the scene: an outline in their colour, and their name. */
+
+import { effect, untracked } from "@preact/signals";
+
+import type { Outlined } from "../../scene/world/selection_outline";
+import { selectedBodies } from "../views/framing";
+import type { Page } from "../page";
+import { colourOf, nameOf, others } from "./people";
+
+/** An outline for each of the others who has selected something. */
+export function othersOutlines(page: Page): readonly Outlined[] {
+  return others(page.people.value)
+    .map((person): Outlined => ({ thin: selectedBodies(page, person.selection), broad: [], colour: colourOf(person) }))
+    .filter(({ thin }) => thin.length > 0);
+}
+
+/** Keep each name at what its person has selected. */
+export function labelOthers(page: Page): void {
+  effect(() => {
+    page.world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- of models that come, too
+    const shown = others(page.people.value).flatMap((person) => {
+      const [body] = selectedBodies(page, person.selection);
+      const anchor = body === undefined ? null : page.world.object(body);
+      return anchor === null ? [] : [{ anchor, person }];
+    });
+    const labels = untracked(() => shown.map(({ anchor, person }) => page.scene.addLabel(anchor, nameOf(person), colourOf(person))));
+    return () => labels.forEach((label) => label.remove());
+  });
+}

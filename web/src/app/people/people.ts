@@ -1,0 +1,64 @@
+/** People at the same page: who is there, and what each has selected. */
+
+import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
+
+import type { Connection, SharedSelection } from "../../protocol/connection";
+import type { Selection } from "../page";
+
+export interface Person {
+  readonly number: number;
+  readonly view_only: boolean;
+  readonly selection: SharedSelection | null;
+}
+
+export interface People {
+  /** Number of the person at this page. */
+  readonly you: number;
+  readonly people: readonly Person[];
+}
+
+const NOBODY: People = { you: 0, people: [] };
+const COLOURS = 6;
+
+/** Follow who is there, and show them what is selected here. */
+export function followPeople(connection: Connection, selection: ReadonlySignal<Selection | null>): ReadonlySignal<People> {
+  const people = signal(NOBODY);
+  const isThere = computed(() => people.value !== NOBODY);
+  connection.subscribeRaw("trundle/people", (payload) => {
+    people.value = JSON.parse(new TextDecoder().decode(payload)) as People;
+  });
+  effect(() => {
+    if (connection.state.value.kind !== "connected") people.value = NOBODY;
+  });
+  effect(() => {
+    if (isThere.value) connection.present(shared(selection.value));
+  });
+  return people;
+}
+
+/** What others are shown of a selection; null: nothing of the simulated world. */
+export function shared(selection: Selection | null): SharedSelection | null {
+  switch (selection?.kind) {
+    case "model":
+    case "link":
+    case "joint":
+    case "light":
+      return selection;
+    default:
+      return null;
+  }
+}
+
+export function nameOf({ number }: Person): string {
+  return `Person ${number}`;
+}
+
+/** Token of the colour in which others see a person's selection. */
+export function colourOf({ number }: Person): `--${string}` {
+  return `--person-${((number - 1) % COLOURS) + 1}`;
+}
+
+/** Everybody but the person at this page. */
+export function others({ you, people }: People): readonly Person[] {
+  return people.filter(({ number }) => number !== you);
+}

@@ -1,0 +1,77 @@
+/** Names of what can be shown of the world, and what this browser remembers of it. */
+
+import { effect, untracked } from "@preact/signals";
+
+import { PARTS, WORLD_PARTS, type ModelParts, type Part, type WorldPart } from "../../scene/overlays/shown_parts";
+import type { Page } from "../page";
+import { isOneOf, recall, remember } from "../storage";
+
+/** Gazebo's names, in its menu's order. */
+export const PART_NAMES: Readonly<Record<Part, string>> = {
+  visuals: "Visuals",
+  transparent: "Transparent",
+  wireframe: "Wireframe",
+  collisions: "Collisions",
+  joints: "Joints",
+  centres: "Centres of mass",
+  inertias: "Inertias",
+  contacts: "Contacts",
+  frames: "Link frames",
+  cameras: "Cameras",
+  rays: "Lidar rays",
+  points: "Lidar points",
+  sonars: "Sonar cones",
+};
+
+export const WORLD_PART_NAMES: Readonly<Record<WorldPart, string>> = { grid: "Grid", origin: "World origin", wind: "Wind" };
+
+/** Parts that only a running simulation has. */
+const LIVE: readonly Part[] = ["contacts", "rays", "points", "sonars"];
+
+/** Parts that a page can show. */
+export function partsOf({ session }: Page): readonly Part[] {
+  return session.kind === "simulation" ? PARTS : PARTS.filter((part) => !LIVE.includes(part));
+}
+
+export function isWorldPartShown({ world }: Pick<Page, "world">, part: WorldPart): boolean {
+  return world.shown.world.value.get(part) ?? (part === "grid" && world.manifest.value?.scene.grid === true);
+}
+
+const isPart = isOneOf(...PARTS);
+const isWorldPart = isOneOf(...WORLD_PARTS);
+
+type Saved<Key extends string> = readonly (readonly [Key, boolean])[];
+
+/** Remember what is shown: of all models everywhere, of single ones in the world of this name. */
+export function rememberShown({ world }: Pick<Page, "world">): void {
+  const { shown } = world;
+  shown.all.value = new Set(recall("shown", ["visuals"], isListOf(isPart)));
+  shown.world.value = new Map(recall<Saved<WorldPart>>("shown.world", [], isListOf(isPair(isWorldPart))));
+  effect(() => remember("shown", [...shown.all.value]));
+  effect(() => remember("shown.world", [...shown.world.value]));
+  let recalled: string | null = null;
+  effect(() => {
+    const name = world.manifest.value?.name;
+    if (name === undefined) return;
+    if (name !== recalled) {
+      recalled = name;
+      const saved = recall<readonly (readonly [string, Saved<Part>])[]>(`shown.models.${name}`, [], isListOf(isModel));
+      untracked(() => (shown.models.value = new Map(saved.map(([model, own]) => [model, new Map(own)])) satisfies ModelParts));
+    }
+    remember(`shown.models.${name}`, [...shown.models.value].map(([model, own]) => [model, [...own]]));
+  });
+}
+
+type Guard<T> = (value: unknown) => value is T;
+
+function isListOf<T>(is: Guard<T>): Guard<readonly T[]> {
+  return (value): value is readonly T[] => Array.isArray(value) && value.every(is);
+}
+
+function isPair<Key extends string>(isKey: Guard<Key>): Guard<readonly [Key, boolean]> {
+  return (value): value is readonly [Key, boolean] => Array.isArray(value) && value.length === 2 && isKey(value[0]) && typeof value[1] === "boolean";
+}
+
+function isModel(value: unknown): value is readonly [string, Saved<Part>] {
+  return Array.isArray(value) && typeof value[0] === "string" && isListOf(isPair(isPart))(value[1]);
+}

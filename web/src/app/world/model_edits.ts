@@ -1,0 +1,101 @@
+/** Edits of whole models: held in the air, copied, deleted. */
+
+import { Vector3 } from "three";
+
+import { findModel } from "../views/framing";
+import { selectOnceThere } from "../insert/insertion";
+import type { Command, Page, Selection } from "../page";
+import type { Shell } from "../shell";
+import { canEdit, editWorld } from "./edits";
+import { bodiesOf } from "./nodes";
+import type { ModelInfo } from "../../scene/simulated_world";
+
+/** Gap between a model and its copy [m]. */
+const GAP = 0.1;
+
+/** Fix a model's base where it is, or free it. */
+export function holdModel(shell: Shell, model: string, on: boolean): void {
+  void editWorld(shell, `${on ? "Hold" : "Release"} of ${model}`, "hold", { model, on }, { model, on: !on });
+}
+
+/** Put a copy beside a model, and select it. */
+export function copyModel(shell: Shell, model: string): void {
+  const { page } = shell;
+  const outer = outermost(page, model);
+  if (outer === null) return;
+  const name = freeName(page, outer.name);
+  const offset = [page.world.bounds(bodiesOf(outer)).getSize(new Vector3()).x + GAP, 0, 0];
+  const copy = { request: "copy", fields: { model: outer.name, name, offset } };
+  const remove = { request: "delete", fields: { model: name } };
+  const restore = { request: "restore", fields: { model: name } }; // the copy, with what became of it
+  void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
+    if (isDone) selectOnceThere(shell, { kind: "model", model: name });
+  });
+}
+
+/** Delete a model, with its sensors and plugins. */
+export function deleteModel(shell: Shell, model: string): void {
+  const outer = outermost(shell.page, model);
+  if (outer === null) return;
+  const remove = { request: "delete", fields: { model: outer.name } };
+  void change(shell, `Delete ${outer.name}`, remove, { request: "restore", fields: { model: outer.name } });
+}
+
+/** Delete a light of the world itself. */
+export function deleteLight(shell: Shell, light: string): void {
+  void change(shell, `Delete ${light}`, { request: "delete_light", fields: { light } }, { request: "restore_light", fields: { light } });
+}
+
+/** Commands for what is selected. */
+export function modelCommands(shell: Shell): readonly Command[] {
+  const selected = (): string | null => modelOf(shell.page.selection.peek());
+  const command = (id: string, title: string, keys: string, run: (model: string) => void): Command => ({
+    id,
+    title,
+    group: "Simulation",
+    keys,
+    enabled: () => canEdit(shell) && selected() !== null,
+    run: () => run(selected() ?? ""),
+  });
+  return [
+    command("copy_model", "Copy the selected model", "Shift C", (model) => copyModel(shell, model)),
+    command("delete_model", "Delete the selected model", "Delete", (model) => deleteModel(shell, model)),
+    command("hold_model", "Hold the selected model in the air, or free it", "H", (model) =>
+      holdModel(shell, model, outermost(shell.page, model)?.held !== true),
+    ),
+  ];
+}
+
+interface Asked {
+  readonly request: string;
+  readonly fields: Parameters<Page["connection"]["request"]>[1];
+}
+
+/** An edit that another kind of request takes back, and `again` redoes; true: it is done. */
+async function change(shell: Shell, title: string, after: Asked, before: Asked, again = after): Promise<boolean> {
+  try {
+    await shell.page.connection.request(after.request, after.fields);
+  } catch (error) {
+    shell.notices.report(title, error instanceof Error ? error.message : String(error));
+    return false;
+  }
+  const send = ({ request, fields }: Asked) => (): void => shell.request(title, request, fields);
+  shell.page.undo.record(title, send(again), send(before));
+  return true;
+}
+
+function modelOf(selection: Selection | null): string | null {
+  return selection?.kind === "model" || selection?.kind === "link" ? selection.model : null;
+}
+
+/** The model of the world that a name, `outer::inner`, is in. */
+function outermost(page: Page, name: string): ModelInfo | null {
+  const models = page.world.manifest.peek()?.models ?? [];
+  return models.find((model) => `${name}::`.startsWith(`${model.name}::`)) ?? null;
+}
+
+function freeName(page: Page, name: string): string {
+  let number = 0;
+  while (findModel(page, `${name}_${number}`) !== null) number += 1;
+  return `${name}_${number}`;
+}

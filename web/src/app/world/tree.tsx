@@ -1,0 +1,167 @@
+/** The World page: search, and the tree of what is simulated. */
+
+import { useComputed, useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+
+import { DraftTree } from "../../editor/draft_tree";
+import type { Manifest } from "../../scene/simulated_world";
+import { Icon } from "../../theme/icons";
+import { Tree, type TreeRow } from "../../theme/tree";
+import { frameSelection } from "../views/framing";
+import { jointValue } from "../inspector/joint_values";
+import type { Shell } from "../shell";
+import { canEdit } from "./edits";
+import { WorldMenu } from "./menu";
+import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type WorldNode } from "./nodes";
+
+export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { world, selection, session } = shell.page;
+  const root = useComputed(() => (world.manifest.value === null ? null : worldNode(world.manifest.value, shell.page.session.title)));
+  const search = useSignal("");
+  const rows = useRef(new WorldRows());
+  const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
+  const isOpen = (node: WorldNode): boolean => toggled.value.get(node.key) ?? opensAtFirst(node, world.manifest.value);
+  if (root.value === null) {
+    const said = session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
+    return <p class="empty">{said}</p>;
+  }
+  const draft = shell.editor.draft.value;
+  if (draft !== null) return <DraftTree shell={shell} draft={draft} />;
+  const seen = seenNodes(root.value, isOpen, search.value);
+  const byKey = new Map(seen.map((each) => [each.node.key, each.node]));
+  const selected = keyOf(selection.value);
+  return (
+    <>
+      <div class="search">
+        <Search shell={shell} onInput={(text) => (search.value = text)} />
+        {canEdit(shell) && <WorldMenu shell={shell} />}
+      </div>
+      <div class="scroll">
+        {seen.length === 0 && <p class="empty">Nothing is named so.</p>}
+        <Tree
+          label="World"
+          rows={seen.map((each) => rows.current.of(shell, each, each.node.key === selected))}
+          onToggle={(key, open) => (toggled.value = new Map(toggled.value).set(key, open))}
+          onSelect={(key) => {
+            const node = byKey.get(key);
+            if (node?.selection !== null && node?.selection !== undefined) selection.value = node.selection;
+          }}
+          onHover={(key) => (shell.page.hovered.value = (key === null ? null : byKey.get(key)?.selection) ?? null)}
+          onActivate={(key) => {
+            const chosen = byKey.get(key)?.selection ?? null;
+            selection.value = chosen ?? selection.value;
+            frameSelection(shell.page, chosen);
+          }}
+          onKey={(key, event) => {
+            const hides = byKey.get(key)?.hides ?? null;
+            if (event.key !== " " || hides === null) return;
+            event.preventDefault();
+            toggleHidden(shell, hides);
+          }}
+        />
+      </div>
+    </>
+  );
+}
+
+/** The world, its groups and the robot are open at first; without a robot, a model that moves alone. */
+function opensAtFirst(node: WorldNode, manifest: Manifest | null): boolean {
+  if (node.selection?.kind !== "model") return true;
+  const models = allModels(manifest?.models ?? []);
+  const robot = manifest?.robot ?? null;
+  const shown = robot === null ? models.filter(({ model }) => !model.static) : models.filter(({ model }) => bodiesOf(model).includes(robot));
+  return shown.length === 1 || robot !== null ? shown.some(({ name }) => node.hides === name) : false;
+}
+
+/** Rows of the tree; one that shows what it did before is the same object. */
+class WorldRows {
+  private readonly known = new WeakMap<WorldNode, { readonly shows: string; readonly row: TreeRow }>();
+
+  of(shell: Shell, seen: SeenNode, selected: boolean): TreeRow {
+    const { node, depth, isOpen } = seen;
+    const hidden = node.hides !== null && shell.page.world.hidden.value.has(node.hides);
+    const shows = `${depth} ${isOpen} ${selected} ${hidden}`;
+    const known = this.known.get(node);
+    if (known?.shows === shows) return known.row;
+    const row = makeRow(shell, seen, selected, hidden);
+    this.known.set(node, { shows, row });
+    return row;
+  }
+}
+
+function makeRow(shell: Shell, { node, depth, isOpen }: SeenNode, selected: boolean, hidden: boolean): TreeRow {
+  return {
+    key: node.key,
+    depth,
+    open: isOpen,
+    selected,
+    content: (
+      <>
+        {node.icon !== null && <Icon name={node.icon} />}
+        <span class={`${node.icon === null ? "n g" : "n"}${hidden ? " hid" : ""}`}>{node.label}</span>
+        <span class="r">{typeof node.detail === "string" ? node.detail : <JointValue shell={shell} node={node} />}</span>
+        {node.hides !== null && <Eye shell={shell} name={node.hides} hidden={hidden} />}
+      </>
+    ),
+  };
+}
+
+function JointValue({ shell, node }: { readonly shell: Shell; readonly node: WorldNode }): JSX.Element {
+  const joint = typeof node.detail === "string" ? null : node.detail.joint;
+  const state = joint?.index === null || joint === null ? undefined : shell.page.world.joints.value[joint.index];
+  return <>{joint === null || state === undefined ? (joint?.type ?? "") : jointValue(joint, state).text}</>;
+}
+
+function Eye({ shell, name, hidden }: { readonly shell: Shell; readonly name: string; readonly hidden: boolean }): JSX.Element {
+  return (
+    <button
+      type="button"
+      class={hidden ? "eye off" : "eye"}
+      tabIndex={-1}
+      aria-label={hidden ? `Show ${name}` : `Hide ${name}`}
+      onClick={(event) => {
+        event.stopPropagation();
+        toggleHidden(shell, name);
+      }}
+    >
+      <Icon name={hidden ? "eye_off" : "eye"} />
+    </button>
+  );
+}
+
+function toggleHidden(shell: Shell, name: string): void {
+  const { hidden } = shell.page.world;
+  const names = new Set(hidden.peek());
+  if (!names.delete(name)) names.add(name);
+  hidden.value = names;
+  shell.page.scene.invalidate();
+}
+
+function Search({ shell, onInput }: { readonly shell: Shell; readonly onInput: (text: string) => void }): JSX.Element {
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(
+    () =>
+      shell.commands.add({ id: "search_world", title: "Search the world", group: "View", keys: "/", run: () => input.current?.focus() }),
+    [shell],
+  );
+  return (
+    <label class="field find">
+      <Icon name="find" />
+      <input
+        ref={input}
+        type="search"
+        placeholder="Search the world"
+        aria-label="Search the world"
+        onInput={(event) => onInput(event.currentTarget.value)}
+        onKeyDown={(event) => {
+          if (event.key !== "Escape") return;
+          event.currentTarget.value = "";
+          onInput("");
+          event.currentTarget.blur();
+        }}
+      />
+      <kbd>/</kbd>
+    </label>
+  );
+}

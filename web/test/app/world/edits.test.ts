@@ -1,0 +1,47 @@
+// @vitest-environment jsdom
+import { Quaternion, Vector3 } from "three";
+import { expect, it, vi } from "vitest";
+
+import { Notices } from "../../../src/app/notices/notices";
+import type { Shell } from "../../../src/app/shell";
+import { rollPitchYaw } from "../../../src/app/inspector/twist";
+import { editWorld, orientationOf, poseFields, withNumber } from "../../../src/app/world/edits";
+import { fakePage } from "../../fake_page";
+
+function fakeShell(answer: () => Promise<unknown>): { shell: Shell; sent: object[] } {
+  const page = fakePage();
+  const sent: object[] = [];
+  const request = vi.spyOn(page.connection, "request").mockImplementation((name, fields) => {
+    sent.push({ name, ...fields });
+    return answer() as ReturnType<typeof page.connection.request>;
+  });
+  expect(request).toBeDefined();
+  const notices = new Notices(page);
+  const shell = { page, notices, request: (_: string, name: string, fields: object) => void page.connection.request(name, fields as never) };
+  return { shell: shell as unknown as Shell, sent };
+}
+
+it("can be undone only after the server has done it", async () => {
+  const { shell, sent } = fakeShell(() => Promise.resolve({}));
+  const edit = editWorld(shell, "Mass of base", "mass", { mass: 4 }, { mass: 2 });
+  expect(shell.page.undo.undoTitle.value).toBeNull();
+  await edit;
+  expect(shell.page.undo.undoTitle.value).toBe("Mass of base");
+  shell.page.undo.undo();
+  shell.page.undo.redo();
+  expect(sent).toEqual([4, 2, 4].map((mass) => ({ name: "mass", mass })));
+});
+
+it("leaves nothing to undo of what was refused, and says why", async () => {
+  const { shell } = fakeShell(() => Promise.reject(new Error("link 'arm' has no collision, and so no friction")));
+  await editWorld(shell, "Friction of arm", "friction", { mu: 4 }, { mu: 2 });
+  expect(shell.page.undo.undoTitle.value).toBeNull();
+  expect(shell.notices.line.value.text).toContain("no collision");
+});
+
+it("has poses as the server takes them", () => {
+  expect(poseFields(new Vector3(1, 2, 3), new Quaternion(0, 0, 1, 0))).toEqual({ position: [1, 2, 3], orientation: [0, 0, 0, 1] });
+  const angles = [0.3, -0.4, 2] as const;
+  rollPitchYaw(orientationOf(angles)).forEach((angle, index) => expect(angle).toBeCloseTo(angles[index] ?? 0));
+  expect(withNumber([1, 2, 3], 1, 7)).toEqual([1, 7, 3]);
+});

@@ -1,0 +1,30 @@
+import { describe, expect, it } from "vitest";
+
+import { keyOf, seenNodes, worldNode } from "../../../src/app/world/nodes";
+import { MANIFEST } from "../../harness/manifest";
+
+const labels = (search: string, open = true): string[] =>
+  seenNodes(worldNode(MANIFEST), () => open, search).map(({ node, depth }) => `${"  ".repeat(depth)}${node.label}`);
+
+describe("the world's tree", () => {
+  it("has models, their groups, sensors below their link, and lights", () => {
+    const all = labels("");
+    expect(all.slice(0, 4)).toEqual(["rp2w_at_home", "  rp2w", "    Links", "      chassis"]);
+    expect(all).toContain("        netbook_webcam");
+    expect(all.slice(-3)).toEqual(["  Lights", "    sun", "    lamp"]);
+    expect(labels("", false)).toEqual(["rp2w_at_home"]);
+  });
+
+  it("keeps the parents of what is searched, and all that lies below it", () => {
+    expect(labels("webcam")).toEqual(["rp2w_at_home", "  rp2w", "    Links", "      body", "        netbook_webcam"]);
+    expect(labels("ball")).toEqual(["rp2w_at_home", "  ball", "    Links", "      link"]);
+    expect(labels("nothing")).toEqual([]);
+  });
+
+  it("names nested models in full", () => {
+    const [robot] = MANIFEST.models;
+    const nested = { ...MANIFEST, models: [{ ...MANIFEST.models[2], name: "outer", models: robot === undefined ? [] : [robot] }] } as typeof MANIFEST;
+    const keys = seenNodes(worldNode(nested), () => true, "chassis").map(({ node }) => node.key);
+    expect(keys).toContain(keyOf({ kind: "link", model: "outer::rp2w", link: "chassis" }));
+  });
+});
