@@ -36,7 +36,7 @@ def test_a_world_that_is_reset_amid_a_stretch_goes_on_for_what_was_left(tmp_path
     )
 
     sim.post(lambda sim: sim.reset())
-    steps = SimpleNamespace(wait_settled=lambda *_: None, record_step=lambda _: None)
+    steps = SimpleNamespace(wait_settled=lambda *_: None, record_step=lambda _: None, over=threading.Event())
     GazeboStepper._step_lockstep(cast(GazeboStepper, world), sim, cast(Lockstep, steps), sim.time_ns + 20_000_000)
 
     assert (sim.time_ns, times) == (20_000_000, [20_000_000])

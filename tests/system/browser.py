@@ -9,18 +9,27 @@ import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 PATIENCE_S = 120.0
 
 
 @contextmanager
-def running_page(*words: str, environment: dict[str, str], folder: Path | None = None) -> Generator[str]:
-    """Run a command in a folder until its page answers; yields the page's address, then presses Ctrl-C."""
+def running_page(
+    *words: str, environment: dict[str, str], folder: Path | None = None, output: IO[str] | None = None
+) -> Generator[str]:
+    """Run a command in a folder until its page answers; yields the page's address, then presses Ctrl-C.
+
+    Args:
+        words: of the command.
+        environment: variables beside those of this process.
+        folder: None: the working folder.
+        output: takes what the command prints on stdout.
+    """
     process = subprocess.Popen(
         [sys.executable, "-m", "trundle", *words],
         stderr=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
+        stdout=output or subprocess.DEVNULL,
         text=True,
         env={**os.environ, **environment},
         start_new_session=True,

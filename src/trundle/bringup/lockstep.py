@@ -1,4 +1,4 @@
-"""Lockstep of a flat-out run: time advances only when this process's nodes have settled, so that runs repeat."""
+"""Lockstep of a run: time advances only when this process's nodes have settled, so that runs repeat."""
 
 import threading
 import time
@@ -19,7 +19,13 @@ class Lockstep:
     """Holds time at zero while a launch starts, at each step until the nodes have settled, and at the end."""
 
     def __init__(
-        self, loop: GraphLoop, *, end_ns: int | None, recorder: StepRecorder | None, say: Callable[[str], None]
+        self,
+        loop: GraphLoop,
+        *,
+        end_ns: int | None,
+        recorder: StepRecorder | None,
+        say: Callable[[str], None],
+        settle: Callable[[], bool] | None = None,
     ) -> None:
         """Hold time at zero.
 
@@ -28,7 +34,9 @@ class Lockstep:
             end_ns: end of time [ns]; None: open.
             recorder: writes the messages of each step.
             say: prints that a wait timed out.
+            settle: called at each time at which the nodes have settled; True is the end, too.
         """
+        self._settle = settle
         self._loop = loop
         self._end_ns = end_ns
         self._recorder = recorder
@@ -58,6 +66,10 @@ class Lockstep:
         """True if time may advance now."""
         return self._begun.is_set() and not self.over.is_set()
 
+    def rewind(self) -> None:
+        """Let time advance again after the end, to the same one."""
+        self.over.clear()
+
     def target_ns(self, wanted_ns: int) -> int:
         """Time to advance to [ns]: at most the end."""
         return wanted_ns if self._end_ns is None else min(wanted_ns, self._end_ns)
@@ -85,7 +97,8 @@ class Lockstep:
         """Record the messages up to a time [ns] at which the nodes have settled."""
         if self._recorder is not None:
             self._recorder.write(time_ns)
-        if self._end_ns is not None and time_ns >= self._end_ns:
+        is_over = self._settle is not None and self._settle()
+        if is_over or (self._end_ns is not None and time_ns >= self._end_ns):
             self.over.set()
 
     def _give_up(self) -> None:

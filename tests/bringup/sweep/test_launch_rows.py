@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 import trundle
+from trundle.bringup.sweep.sweep import open_results
 from trundle.bringup.sweep.trial import runner_of
-from trundle.diagnostics import TrundleError
+from trundle.diagnostics import TrundleError, UsageError
 from trundle.ros import open_bag
 from trundle.trials import Rows, load_plan
 
@@ -103,3 +104,55 @@ def test_an_unknown_argument_is_refused(plan: Path) -> None:
     plan.write_text(PLAN.replace("arguments/height", "arguments/hight"))
     with pytest.raises(TrundleError, match=r"box\.launch:1: error: no argument 'hight' to set; "):
         trundle.sweep(plan)
+
+
+MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "changed", "by"),
+    [
+        ("empty.world", "0 0 -10", "0 0 -9"),
+        ("box.urdf", 'value="1"', 'value="1.5"'),
+        ("box.obj", "v 1 0 0", "v 1.5 0 0"),
+        ("table.sdf", "<mass>3</mass>", "<mass>4</mass>"),
+        ("table.obj", "v 1 0 0", "v 1.5 0 0"),
+        ("box.launch", 'default="1"', 'default="2"'),
+        ("gain.py", "len(sim.models)", "len(sim.models) + 1"),
+    ],
+)
+def test_a_sweep_does_not_go_on_with_a_changed_file(plan: Path, name: str, changed: str, by: str) -> None:
+    """World, spawned models, their meshes, functions: by their content, wherever they are named."""
+    folder = plan.parent
+    mesh = '<geometry><mesh filename="file://{}"/></geometry>'.format(folder / "box.obj")
+    (folder / "box.urdf").write_text(URDF.replace("</link>", f"<visual>{mesh}</visual></link>"))
+    shape = f"<geometry><mesh><uri>file://{folder / 'table.obj'}</uri></mesh></geometry>"
+    link = f'<link name="top"><inertial><mass>3</mass></inertial><collision name="c">{shape}</collision></link>'
+    (folder / "table.sdf").write_text(f'<sdf version="1.6"><model name="table">{link}</model></sdf>')
+    node = (
+        '<node pkg="gazebo_ros" type="spawn_model" name="table" args="-sdf -file $(dirname)/table.sdf -model table"/>'
+    )
+    (folder / "box.launch").write_text(LAUNCH.replace("</launch>", f"{node}</launch>"))
+    for file in ("box.obj", "table.obj"):
+        (folder / file).write_text(MESH)
+    read, results = load_plan(plan), folder / "out"
+    open_results(read, Rows(read), results, runner_of(read)).close()
+    open_results(read, Rows(read), results, runner_of(read)).close()
+
+    text = (folder / name).read_text()
+    assert changed in text
+    (folder / name).write_text(text.replace(changed, by))
+
+    with pytest.raises(UsageError, match="another plan"):
+        open_results(read, Rows(read), results, runner_of(read))
+
+
+@pytest.mark.slow
+def test_a_stop_condition_holds_the_world_where_it_became_true(plan: Path) -> None:
+    plan.write_text(PLAN.replace("every: 0.1", "every: 0.01\nstop: [models.box.z < 19.5]"))
+    read = load_plan(plan)
+
+    result = runner_of(read).run(Rows(read).row(0))
+
+    assert result.time == pytest.approx(0.71, abs=1e-9), "0.5 m at 2 m/s² takes 0.707 s"
+    assert result.measures["z"] == pytest.approx(20 - 0.71**2, abs=0.01)

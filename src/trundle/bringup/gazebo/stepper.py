@@ -8,7 +8,7 @@ from trundle.simulation import Simulation
 
 from ..lockstep import Lockstep
 from ..plugin_error import plugin_error
-from ..realtime_pacer import RealtimePacer
+from ..realtime_pacer import STRIDE_FLAT_OUT_NS, RealtimePacer
 from .simulation_thread import SimulationThread
 
 IDLE_S = 0.01
@@ -52,6 +52,11 @@ class GazeboStepper:
         """True if time waits for the nodes at each step."""
         return self._lockstep is not None
 
+    @property
+    def is_over(self) -> bool:
+        """True at the end of a run in lockstep."""
+        return self._lockstep is not None and self._lockstep.over.is_set()
+
     def set_paused(self, paused: bool) -> None:
         """Pause, or go on."""
         self.paused = paused
@@ -80,6 +85,7 @@ class GazeboStepper:
             if self._lockstep is None:
                 simulation.advance(target_ns)
             else:
+                target_ns = simulation.time_ns + STRIDE_FLAT_OUT_NS  # not the pacer's: so that runs repeat at any speed
                 self._step_lockstep(simulation, self._lockstep, self._lockstep.target_ns(target_ns))
         except SimulationUnstableError as error:
             self._stop(str(error))
@@ -93,6 +99,8 @@ class GazeboStepper:
         """Advance hook by hook, and wait after each until the nodes have settled."""
         end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may have time reset amid this
         while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self.paused and not self._ending.is_set():
+            if steps.over.is_set():
+                return
             simulation.stride(simulation.time_ns + left_ns)
             self.clock.set(simulation.time_ns)
             steps.wait_settled(

@@ -214,7 +214,8 @@ class GazeboWorld:
         if self._contents is None:
             time.sleep(IDLE_S)
             return
-        self._stepper.paused = self._window.update(self._stepper.pacer, paused=self._stepper.paused)
+        paused = self._stepper.paused or self._stepper.is_over
+        self._stepper.paused = self._window.update(self._stepper.pacer, paused=paused)
         self._stepper.step(self._contents.simulation)
 
     def _end(self) -> None:

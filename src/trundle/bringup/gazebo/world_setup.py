@@ -15,6 +15,10 @@ class WorldSetup(Protocol):
         """Seed of all random numbers of the simulation."""
         ...
 
+    def settle(self) -> bool:
+        """Do what is due when the nodes have settled at a time; return True if the run is to end there."""
+        ...
+
     def world(self, world: World) -> World:
         """Return the world to simulate."""
         ...

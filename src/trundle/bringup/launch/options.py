@@ -43,6 +43,8 @@ class LaunchOptions:
     """ROS distribution; None: that of the master; Noetic if it is started here."""
     speed: float | None = 1.0
     """Simulated seconds per second of wall time; None: flat out."""
+    in_step: bool = False
+    """Time waits for the nodes at each step at any speed, as it does flat out."""
     record: Path | None = None
     """Bag of every topic."""
     record_from_s: float = 0.0

@@ -29,10 +29,11 @@ from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
 
 if TYPE_CHECKING:
+    from trundle.page import PageServer
+
     from ..gazebo.world import GazeboWorld
     from ..gazebo.world_setup import WorldSetup
     from ..shared_page import SharedPage
-
 
 _START_S = 60.0
 """Starting programs takes long on a busy machine."""
@@ -89,7 +90,9 @@ class LaunchSession:
             )
         )
         show.line(graph.summary)
-        launcher = Node("/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False)
+        launcher = self._launcher = Node(
+            "/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False
+        )
         logs = log_folder(read.env, str(graph.loop.run(launcher.params.get("/run_id", ""))))
         self._log = LaunchLog(logs)
         self._open_things.callback(self._log.close)
@@ -104,15 +107,17 @@ class LaunchSession:
             self._say(printing.summary(read.plan, values))
         graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
         programs = self._programs()
-        publishes_clock = options.speed is None and not programs and self._may_publish_clock(launcher)
-        in_step = publishes_clock or (options.speed is None and _has_world(read.plan))
+        may_wait = options.speed is None or options.in_step
+        publishes_clock = may_wait and not programs and self._may_publish_clock(launcher)
+        in_step = publishes_clock or (may_wait and _has_world(read.plan))
         if publishes_clock or (in_step and not graph.loop.run(launcher.params.has("/use_sim_time"))):
             graph.loop.run(launcher.params.set("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
         recorder = None if options.record is None else self._record(options.record, in_step, programs)
         if in_step:
             end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
-            self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line)
+            settle = None if self._setup is None else self._setup.settle
+            self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line, settle=settle)
             if publishes_clock:
                 show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
                 self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
@@ -210,8 +215,13 @@ class LaunchSession:
 
     @property
     def is_over(self) -> bool:
-        """True if a flat-out launch has reached its --duration and recorded it."""
+        """True if a launch in lockstep has reached its --duration and recorded it, or its setup says so."""
         return self._lockstep is not None and self._lockstep.over.is_set()
+
+    def rewind(self) -> None:
+        """Go on after the end of a launch in lockstep, whose world was reset."""
+        if self._lockstep is not None:
+            self._lockstep.rewind()
 
     @property
     def nodes(self) -> Sequence[LaunchNode]:
@@ -254,8 +264,29 @@ class LaunchSession:
         self._open_things.callback(gazebo.close)
         return gazebo
 
-    def start(self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False) -> RunningNodes:
-        """Start nodes, unless the end comes first, and print the table of them."""
+    def show_world(self) -> "PageServer":
+        """Serve the page and show the world there once there is one, as gzclient does; return the page's server.
+
+        Raises:
+            UsageError: the port asked for is taken.
+        """
+        assert self._page is not None, "the launch is headless"
+        assert self._gazebo is not None, "the launch has no world"
+        server = self._page.acquire(self._launcher, shows_world=True)
+        window = self.graph.loop.spawn(self._gazebo.show(self._launcher))
+        self._open_things.callback(window.cancel)
+        return server
+
+    def start(
+        self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False, begins: bool = True
+    ) -> RunningNodes:
+        """Start nodes, unless the end comes first, and print the table of them.
+
+        Args:
+            nodes: of the launch.
+            is_ending: polled; True ends the start.
+            begins: False: time stays at zero until `begin`, in lockstep.
+        """
         loop, options = self.graph.loop, self._options
         timeouts = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
         running = self._running = RunningNodes(
@@ -264,14 +295,19 @@ class LaunchSession:
         steps = self._lockstep
         # No timeout: a large launch on a busy machine takes minutes.
         loop.run(running.start(is_ending, None if steps is None else steps.wait_started), timeout_s=None)
-        if steps is not None:
-            steps.start()
+        if begins:
+            self.begin()
         self._read.show.findings()
         if running.launched and not options.quiet:
             page = self._page if opens_page(running.launched) else None
             url = None if page is None else await_url(page, lambda: is_ending() or running.is_over)
             self._say(what_runs(running.launched, url))
         return running
+
+    def begin(self) -> None:
+        """Let time advance, in lockstep."""
+        if self._lockstep is not None:
+            self._lockstep.start()
 
     def _say(self, text: str) -> None:
         say(text)

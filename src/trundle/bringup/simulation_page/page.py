@@ -8,6 +8,7 @@ from typing import Self
 from trundle.bridge import WORLD_FRAME
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.page import (
+    POSES,
     BeginDraft,
     DraftAction,
     InsertAction,
@@ -97,6 +98,11 @@ class SimulationPage:
         self._drafting = Drafting(self._server.respond, self._contents, here)
         self._pictures = WorldPictures(self._server.respond_picture)
         self._set_simulation(simulation, sensors, recorder, timeline)
+
+    @property
+    def is_seen(self) -> bool:
+        """True while a browser draws the world."""
+        return self._server.is_watched(POSES)
 
     def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Set the sensors that measure after models came or went."""

@@ -1,36 +1,49 @@
-"""Digest of everything that the results of a sweep depend on: the plan, its world as read, meshes, Python files."""
+"""Digest of everything that the results of a sweep depend on: the plan, what it simulates, files by their content."""
 
 import hashlib
+import os
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from msgspec import Struct
 
-from trundle.model import World
+from trundle.meshes import MeshError, load_mesh
+from trundle.model import PluginTag, World
+from trundle.plugins import find_user_file
 from trundle.trials import Plan
 from trundle.xmlnode import XmlNode
 
+_MESHES = frozenset({".dae", ".obj", ".glb", ".stl"})
 
-def plan_digest(plan: Plan, world: World | str, files: Iterable[Path] = ()) -> str:
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunInputs:
+    """Inputs of a run beside its plan."""
+
+    worlds: tuple[World, ...]
+    """Worlds and spawned models, as read."""
+    texts: tuple[str, ...] = ()
+    files: tuple[Path, ...] = ()
+
+
+def plan_digest(plan: Plan, inputs: RunInputs) -> str:
     """Return a digest that changes with anything that may change a row.
 
     Args:
         plan: as read.
-        world: world of the first row, or the text of its parameters.
-        files: further files that count.
+        inputs: of the first row.
     """
     functions = {each.function[0] for each in plan.measures if each.function is not None}
-    parts = [hashlib.sha256(plan.text.encode()).digest()]
-    if isinstance(world, str):
-        parts.append(hashlib.sha256(world.encode()).digest())
-    else:
-        digest, meshes = hashlib.sha256(), set[Path]()
-        for part in _parts(world, meshes):
-            digest.update(part.encode() + b"\0")
-        parts.append(digest.digest())
-        files = [*files, *sorted(meshes)]
-    parts += [hashlib.sha256(path.read_bytes()).digest() for path in (*files, *sorted(functions)) if path.is_file()]
-    return hashlib.sha256(b"".join(parts)).hexdigest()
+    files = {*inputs.files, *functions}
+    digest = hashlib.sha256()
+    for part in (plan.text, *inputs.texts, *(part for world in inputs.worlds for part in _parts(world, files))):
+        digest.update(part.encode() + b"\0")
+    for path in sorted(files | _textures(files)):
+        if path.is_file():
+            digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
 
 
 def _parts(value: object, files: set[Path]) -> Iterator[str]:
@@ -40,6 +53,8 @@ def _parts(value: object, files: set[Path]) -> Iterator[str]:
     elif isinstance(value, XmlNode):
         yield value.xml()
     elif isinstance(value, Struct):
+        if isinstance(value, PluginTag) and (code := find_user_file(value, os.environ)) is not None:
+            files.add(code)
         yield type(value).__name__
         for name in value.__struct_fields__:
             if name != "at":
@@ -51,3 +66,13 @@ def _parts(value: object, files: set[Path]) -> Iterator[str]:
             yield from _parts(each, files)
     else:
         yield repr(value)
+
+
+def _textures(files: Iterable[Path]) -> set[Path]:
+    """Return the images that meshes name."""
+    found: set[Path] = set()
+    for path in files:
+        if path.suffix.lower() in _MESHES:
+            with suppress(MeshError):  # the run says so
+                found |= {part.texture for part in load_mesh(path).parts if isinstance(part.texture, Path)}
+    return found

@@ -90,18 +90,24 @@ class LaunchSetup:
         self.simulation = simulation
         reader = TopicReader(node, self._topics) if self._topics else None
         self.script = RunScript(self._plan, self._row, simulation, self._expressions, reader)
+        simulation.on_reset(self.script.restart)
         self._has_started = True
         for period_ns in self.script.periods_ns:
             simulation.add_hook(_Act(self), period_ns=period_ns)
 
     def act(self) -> None:
         """Perform what is due; what goes wrong ends the run."""
-        if self.is_over:
+        if self.is_over or not self._has_started:
             return
         try:
             self.script.act()
         except TrundleError as error:
             self._error = error
+
+    def settle(self) -> bool:
+        """Perform what is due; return True if a stop condition is true, or something failed."""
+        self.act()
+        return self.is_over
 
     def finish(self) -> None:
         """Raise what went wrong.

@@ -16,9 +16,12 @@ from trundle.trials import Plan, Row, RowResult, Value
 from ..launch.launch import read_files
 from ..launch.loaded_launch import LoadedLaunch
 from ..launch.options import LaunchOptions
+from ..launch.running_nodes import RunningNodes
 from ..launch.session import LaunchSession
 from .assignments import Assignments, assignments_of
+from .digest import RunInputs
 from .judge import Judge
+from .launch_inputs import launch_inputs
 from .launch_setup import LaunchSetup
 from .state_names import StateExpressions
 from .topics import topics_of
@@ -77,31 +80,50 @@ class LaunchTrialRunner:
         params += [LaunchParam(name=name, value=_parameter(value), at=at) for name, value in ours.items()]
         return replace_fields(read, params=params)
 
-    def files(self, row: Row) -> tuple[list[Path], str]:
-        """Return the files that a row depends on, and the text of its parameters.
+    def inputs(self, row: Row) -> RunInputs:
+        """Return what a row depends on.
 
         Raises:
             TrundleError: the launch cannot be read.
         """
         with _quiet_environment() as environment:
-            read = self.read(assignments_of(self._plan, row, self._expressions), environment)
-        return list(read.plan.files), repr([(each.name, each.value) for each in read.params])
+            return launch_inputs(self.read(assignments_of(self._plan, row, self._expressions), environment))
 
     def _run(self, row: Row, options: LaunchOptions) -> RowResult:
-        options = replace_fields(options, headless=True, speed=None, summary=False, quiet=True, output="log")
+        said = io.StringIO()
+        options = replace_fields(options, headless=True, speed=None)
+        try:
+            with redirect_stderr(said), redirect_stdout(said), self.session(row, options) as (session, setup):
+                try:
+                    self._wait(session, setup)
+                except TrundleError as error:
+                    return RowResult(row.number, "error", str(error), setup.time_s)
+                return self.result(row, setup)
+        except TrundleError as error:
+            return RowResult(row.number, "error", str(error))
+
+    @contextmanager
+    def session(self, row: Row, options: LaunchOptions) -> Generator[tuple[LaunchSession, LaunchSetup]]:
+        """Yield the launch of a row, on a graph of its own, and its setup; no node is started yet.
+
+        Raises:
+            TrundleError: it cannot be read.
+        """
+        options = replace_fields(options, summary=False, quiet=True, output="log")
         assigned = assignments_of(self._plan, row, self._expressions)
         setup = LaunchSetup(self._plan, row, assigned.properties, self._expressions, self._topics)
-        said = io.StringIO()
+        with (
+            _environment() as environment,
+            LaunchSession(self.read(assigned, environment), options, ports=(0,), rosout=False, setup=setup) as session,
+        ):
+            yield session, setup
+
+    def result(self, row: Row, setup: LaunchSetup) -> RowResult:
+        """Return the result of a run that has ended."""
         try:
-            with (
-                _quiet_environment(said) as environment,
-                LaunchSession(
-                    self.read(assigned, environment), options, ports=(0,), rosout=False, setup=setup
-                ) as session,
-            ):
-                self._wait(session, setup)
-                measures = setup.script.measures() | self._judge.call_functions(setup.simulation)
-                return self._judge.judged(row, setup.time_s or 0.0, measures, "")
+            setup.finish()
+            measures = setup.script.measures() | self._judge.call_functions(setup.simulation)
+            return self._judge.judged(row, setup.time_s or 0.0, measures, "")
         except TrundleError as error:
             return RowResult(row.number, "error", str(error), setup.time_s)
 
@@ -113,28 +135,45 @@ class LaunchTrialRunner:
         """
         running = session.start(session.nodes)
         paused_s: float | None = None
-        while not (session.is_over or setup.is_over):
+        while not session.is_over:
             time.sleep(_POLL_S)
-            if running.required_died:
-                raise UsageError("a required node died")
-            if running.is_worldless():
-                raise UsageError("the launch has no world (a node of gazebo_ros), or it has ended")
+            check_running(running)
             if not session.is_paused:
                 paused_s = None
+            elif setup.is_over:
+                return
             elif paused_s is None:
                 paused_s = time.monotonic()
             elif session.stop_reason is not None or time.monotonic() - paused_s > _PAUSED_S:
                 raise UsageError(session.stop_reason or "the world stays paused")
-        setup.finish()
+
+
+def check_running(running: RunningNodes) -> None:
+    """Raise an error if the nodes of a launch have ended before its end.
+
+    Raises:
+        UsageError: they have.
+    """
+    if running.required_died:
+        raise UsageError("a required node died")
+    if running.is_worldless():
+        raise UsageError("the launch has no world (a node of gazebo_ros), or it has ended")
 
 
 @contextmanager
-def _quiet_environment(said: io.StringIO | None = None) -> Generator[dict[str, str]]:
-    """Yield the variables of a launch on a graph of its own, with logs that are not kept and nothing printed."""
-    said = said or io.StringIO()
-    with TemporaryDirectory(prefix="trundle-sweep-") as logs, redirect_stderr(said), redirect_stdout(said):
+def _environment() -> Generator[dict[str, str]]:
+    """Yield the variables of a launch on a graph of its own, with logs that are not kept."""
+    with TemporaryDirectory(prefix="trundle-sweep-") as logs:
         environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
         yield environment | {"ROS_LOG_DIR": logs}
+
+
+@contextmanager
+def _quiet_environment() -> Generator[dict[str, str]]:
+    """Yield the same while nothing is printed."""
+    said = io.StringIO()
+    with redirect_stderr(said), redirect_stdout(said), _environment() as environment:
+        yield environment
 
 
 def _parameter(value: Value) -> ParamValue:

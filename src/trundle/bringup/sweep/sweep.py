@@ -63,12 +63,7 @@ def open_results(plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | Lau
     Raises:
         UsageError: the folder has the results of another plan, or cannot be written.
     """
-    first = rows.row(0)
-    if isinstance(runner, LaunchTrialRunner):
-        files, parameters = runner.files(first)
-        digest = plan_digest(plan, parameters, files)
-    else:
-        digest = plan_digest(plan, runner.stage(first).written)
+    digest = plan_digest(plan, runner.inputs(rows.row(0)))
     return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text)
 
 

@@ -18,6 +18,7 @@ from trundle.trials import Plan, Row, RowResult, Rows
 from ..loaded_simulation import LoadedSimulation
 from ..world_setup import LoadedWorld, load_world
 from .assignments import assignments_of
+from .digest import RunInputs
 from .judge import Judge
 from .launch_trial import LaunchTrialRunner
 from .script import RunScript
@@ -83,8 +84,16 @@ class TrialRunner:
                     simulation.advance(round(self._plan.duration_s * NS_PER_S))
                 finally:
                     time_s = simulation.time_ns / NS_PER_S
-                measures = simulation.script.measures() | self._judge.call_functions(simulation)
-                return self._judge.judged(row, time_s, measures, "; ".join(simulation.report.warnings))
+                return self.result(row, simulation)
+        except TrundleError as error:
+            return RowResult(row.number, "error", str(error), time_s)
+
+    def result(self, row: Row, simulation: "TrialSimulation") -> RowResult:
+        """Return the result of a run that has come to its end."""
+        time_s = simulation.time_ns / NS_PER_S
+        try:
+            measures = simulation.script.measures() | self._judge.call_functions(simulation)
+            return self._judge.judged(row, time_s, measures, "; ".join(simulation.report.warnings))
         except TrundleError as error:
             return RowResult(row.number, "error", str(error), time_s)
 
@@ -148,6 +157,14 @@ class TrialRunner:
             simulation.close()
             raise
         return simulation
+
+    def inputs(self, row: Row) -> RunInputs:
+        """Return what a row depends on.
+
+        Raises:
+            TrundleError: its world cannot be read.
+        """
+        return RunInputs(worlds=(self.stage(row).written,))
 
     def stage(self, row: Row) -> LoadedWorld:
         """Return the world of a row.
