@@ -49,9 +49,11 @@ test-all: $(READY) dist/.built $(VENV)/.large  ## everything
 	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2
 
-# Large, and not for every platform: without one its tests are skipped.
+# Large, and not for every platform: without one its tests are skipped. As the extras of pyproject.toml say.
+LARGE = import tomllib; extras = tomllib.load(open('pyproject.toml', 'rb'))['project']['optional-dependencies']; \
+  print(*sorted({*extras['ray'], *extras['learn']}), sep='\n')
 $(VENV)/.large: $(READY)
-	@for package in 'ray>=2.40,<3' 'stable-baselines3>=2.6,<3'; do \
+	@$(BIN)/python -c "$(LARGE)" | while read -r package; do \
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt "$$package" || \
 	  echo "PyPI brought no $$package: make test-all skips what uses it"; \
 	done
