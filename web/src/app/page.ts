@@ -3,7 +3,8 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 
 import type { DisplayList } from "../displays/display_list";
-import type { PartPath } from "../editor/draft";
+import type { UndoStack } from "../displays/undo_stack";
+import type { PartPath } from "../scene/draft";
 import type { FrameTree } from "../frames/frame_tree";
 import type { Connection } from "../protocol/connection";
 import type { SceneView } from "../scene/scene_view";
@@ -42,18 +43,6 @@ export interface Commands {
   readonly all: ReadonlySignal<readonly Command[]>;
   /** Add commands; returns how to remove them. */
   add(...commands: readonly Command[]): () => void;
-}
-
-/** Edits that can be taken back. */
-export interface UndoStack {
-  readonly undoTitle: ReadonlySignal<string | null>;
-  readonly redoTitle: ReadonlySignal<string | null>;
-  /** Do something now and remember how to undo it; "Change of Alpha". */
-  run(title: string, redo: () => void, undo: () => void): void;
-  /** Remember how to do again and undo what has been done. */
-  record(title: string, redo: () => void, undo: () => void): void;
-  undo(): void;
-  redo(): void;
 }
 
 /** The page's own stack. */

@@ -3,7 +3,7 @@
 import { computed, effect, untracked } from "@preact/signals";
 import { Box3, Sphere } from "three";
 
-import type { Rgb, Yaml } from "../displays/properties";
+import type { Rgb, Yaml } from "../rviz/properties";
 import { differs, robotBox, simulatedRobot } from "./views/framing";
 import type { Shell } from "./shell";
 import { linkedView } from "./views/view_link";

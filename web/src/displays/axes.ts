@@ -1,10 +1,10 @@
 /** Axes: three axes at the origin of a frame. */
 
 import { Display } from "./display";
-import { BoolProperty, FIXED_FRAME, FrameProperty, NumberProperty } from "./properties";
+import { BoolProperty, FIXED_FRAME, FrameProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { Axes } from "./shapes/axes";
-import { Trail } from "./shapes/trail";
+import { Axes } from "../shapes/axes";
+import { Trail } from "../shapes/trail";
 import { watch } from "./watch";
 
 export class AxesDisplay extends Display {

@@ -13,7 +13,7 @@ import { ScenePicture } from "./cameras/scene_picture";
 import { VisibilityProperty } from "./cameras/visibility";
 import { PictureDisplay } from "./pictures/picture_display";
 import type { Picture } from "./pictures/picture_stream";
-import { EnumProperty, NumberProperty } from "./properties";
+import { EnumProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { readValues } from "./watch";
 

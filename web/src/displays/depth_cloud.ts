@@ -12,7 +12,7 @@ import { PointCloudCommon } from "./clouds/point_cloud_common";
 import { Display, type DisplayContext } from "./display";
 import { MessageFilter } from "./message_filter";
 import { readPixels } from "./pictures/pixels";
-import { BoolProperty, EnumProperty, IntProperty, NumberProperty, TopicProperty } from "./properties";
+import { BoolProperty, EnumProperty, IntProperty, NumberProperty, TopicProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { touch } from "./topic_display";
 

@@ -8,9 +8,8 @@ import type { GraphNames } from "../protocol/graph_names";
 import type { FrameTree } from "../frames/frame_tree";
 import { NoTransform, type Transform } from "../frames/transform";
 import type { SceneView } from "../scene/scene_view";
-import { BoolProperty, isMapping, TopicProperty, type Property, type Yaml, type YamlMapping } from "./properties";
-
-export type StatusLevel = "ok" | "warn" | "error" | "none";
+import type { StatusLevel } from "../rviz/status_level";
+import { BoolProperty, isMapping, TopicProperty, type Property, type Yaml, type YamlMapping } from "../rviz/properties";
 
 export interface Status {
   readonly level: StatusLevel;

@@ -4,7 +4,7 @@ import type { ReadonlySignal, Signal } from "@preact/signals";
 
 import type { TopicInfo } from "../protocol/connection";
 import type { Display, Status } from "./display";
-import type { ColorProperty, IntProperty } from "./properties";
+import type { ColorProperty, IntProperty } from "../rviz/properties";
 
 /** A topic that no display shows, with the class that would. */
 export interface Offer {

@@ -2,24 +2,29 @@
 
 import { computed, signal, type ReadonlySignal, type Signal } from "@preact/signals";
 
-import type { UndoStack } from "../app/page";
+import type { UndoStack } from "./undo_stack";
 import { DEFAULT_FILE, RvizFile, RvizFileError, type RvizContent } from "../rviz/rviz_file";
 import type { Views } from "../scene/view_controller";
-import type { ToolBox } from "../tools/tool";
 import type { Display, DisplayContext, Status } from "./display";
 import type { DisplayList, Offer, Unsupported } from "./display_list";
 import { Edits } from "./edits";
 import { workOutFixedFrame } from "./fixed_frame";
 import { Group, isDisplay, type Entry, type UnsupportedEntry } from "./group";
 import { findOffers } from "./offers";
-import { BoolProperty, ColorProperty, IntProperty, TopicProperty, type Yaml, type YamlMapping } from "./properties";
+import { BoolProperty, ColorProperty, IntProperty, TopicProperty, type Yaml, type YamlMapping } from "../rviz/properties";
 import { displayClass, displayClasses } from "./registry";
+
+/** Tools as a list of the file. */
+interface SavedTools {
+  save(): readonly YamlMapping[];
+  load(yaml: readonly YamlMapping[]): string[];
+}
 
 /** What the list works with. */
 export interface DisplayStoreParts extends Omit<DisplayContext, "fixedFrame" | "displays"> {
   readonly undo: UndoStack;
   readonly views: Pick<Views, "save" | "load">;
-  readonly tools: Pick<ToolBox, "save" | "load">;
+  readonly tools: SavedTools;
 }
 
 export class DisplayStore implements DisplayList {

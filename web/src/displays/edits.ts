@@ -2,7 +2,7 @@
 
 import { computed, signal } from "@preact/signals";
 
-import type { UndoStack } from "../app/page";
+import type { UndoStack } from "./undo_stack";
 
 export class Edits {
   private readonly applied = signal<readonly number[]>([]);

@@ -8,11 +8,11 @@ import type { JointState } from "../protocol/messages";
 import { RAINBOW } from "./clouds/cloud_colors";
 import type { DisplayContext } from "./display";
 import { KeyedProperty } from "./keyed_property";
-import { BoolProperty, IntProperty, NumberProperty, StringProperty } from "./properties";
+import { BoolProperty, IntProperty, NumberProperty, StringProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { readUrdf, UrdfError, type RobotJoint } from "./robot/urdf";
-import { Arrow } from "./shapes/arrow";
-import { BillboardLines } from "./shapes/billboard_lines";
+import { Arrow } from "../shapes/arrow";
+import { BillboardLines } from "../shapes/billboard_lines";
 import { TopicDisplay } from "./topic_display";
 
 /** Points of a ring, which is open by two of its parts, as rviz's. */

@@ -3,10 +3,10 @@
 import { BufferAttribute, BufferGeometry, Group, LineSegments } from "three";
 
 import { Display } from "./display";
-import { ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, VectorProperty } from "./properties";
+import { ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, VectorProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { BillboardLines } from "./shapes/billboard_lines";
-import { flatMaterial } from "./shapes/shape_material";
+import { BillboardLines } from "../shapes/billboard_lines";
+import { flatMaterial } from "../shapes/shape_material";
 import { watch } from "./watch";
 
 /** Indices of the plane's two axes and its normal. */

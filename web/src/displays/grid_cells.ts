@@ -7,9 +7,9 @@ import { cloudOf } from "./clouds/cloud";
 import { cloudObject } from "./clouds/point_cloud_object";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { ColorProperty, NumberProperty } from "./properties";
+import { ColorProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { INVALID_FLOATS, isFiniteXyz } from "./valid";
+import { INVALID_FLOATS, isFiniteXyz } from "../frames/valid";
 
 const TYPES = ["nav_msgs/GridCells"];
 

@@ -4,7 +4,7 @@ import { signal, type ReadonlySignal } from "@preact/signals";
 
 import { Display, type DisplayContext } from "./display";
 import type { Unsupported } from "./display_list";
-import { isMapping, type Yaml, type YamlMapping } from "./properties";
+import { isMapping, type Yaml, type YamlMapping } from "../rviz/properties";
 import { displayClass, register } from "./registry";
 import { unsupportedReason } from "./unsupported";
 

@@ -5,7 +5,7 @@ import { computed } from "@preact/signals";
 import type { DisplayContext } from "./display";
 import { PictureDisplay } from "./pictures/picture_display";
 import { isNumeric } from "./pictures/pixels";
-import { BoolProperty, IntProperty, NumberProperty } from "./properties";
+import { BoolProperty, IntProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
 
 export class ImageDisplay extends PictureDisplay {

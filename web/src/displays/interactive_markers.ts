@@ -9,7 +9,7 @@ import { withHandles } from "./interactive/default_handles";
 import { withLocalShapes } from "./interactive/local_shapes";
 import { MarkerClient } from "./interactive/marker_client";
 import { InteractiveMarkerView } from "./interactive/marker_view";
-import { BoolProperty, TopicProperty } from "./properties";
+import { BoolProperty, TopicProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { watch } from "./watch";
 

@@ -1,6 +1,6 @@
 /** A heading whose rows appear while it runs: links of a robot, frames, namespaces of markers. */
 
-import { GroupProperty, isMapping, type Property, type Yaml, type YamlMapping } from "./properties";
+import { GroupProperty, isMapping, type Property, type Yaml, type YamlMapping } from "../rviz/properties";
 
 /** What the file says of rows that have not appeared yet is kept, and taken when they do. */
 export class KeyedProperty<P extends Property<unknown>> extends GroupProperty {

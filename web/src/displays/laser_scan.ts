@@ -8,7 +8,7 @@ import { nanoseconds } from "../protocol/ros_types";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";
-import { areFinite, INVALID_FLOATS } from "./valid";
+import { areFinite, INVALID_FLOATS } from "../frames/valid";
 
 const TYPES = ["sensor_msgs/LaserScan"];
 /** Scans that take longer [s] are named, since they are shown that much later. */

@@ -10,9 +10,9 @@ import { Display } from "./display";
 import { MapObject } from "./maps/map_object";
 import { readMap, writeUpdate, type OccupancyMap } from "./maps/occupancy_map";
 import { COLOR_SCHEMES, type ColorScheme } from "./maps/palette";
-import { BoolProperty, EnumProperty, NumberProperty, StringProperty, TopicProperty } from "./properties";
+import { BoolProperty, EnumProperty, NumberProperty, StringProperty, TopicProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { quaternion, vector } from "./valid";
+import { quaternion, vector } from "../frames/valid";
 import { watch } from "./watch";
 
 const TYPE = "nav_msgs/OccupancyGrid";

@@ -11,7 +11,7 @@ import { KeyedProperty } from "./keyed_property";
 import { checkMarker } from "./markers/marker_checks";
 import { MarkerScene } from "./markers/marker_scene";
 import { Action, markerName } from "./markers/marker_type";
-import { BoolProperty, IntProperty, TopicProperty } from "./properties";
+import { BoolProperty, IntProperty, TopicProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { watch } from "./watch";
 

@@ -7,10 +7,10 @@ import type { Odometry, Pose } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { PoseShape } from "./pose_shape";
-import { IntProperty, NumberProperty } from "./properties";
+import { IntProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { CovarianceProperty, CovarianceVisual } from "./shapes/covariance";
-import { areFinite, INVALID_FLOATS, isFinitePose, isFiniteXyz, placed, quaternion, vector } from "./valid";
+import { CovarianceProperty, CovarianceVisual } from "../shapes/covariance";
+import { areFinite, INVALID_FLOATS, isFinitePose, isFiniteXyz, placed, quaternion, vector } from "../frames/valid";
 
 const TYPES = ["nav_msgs/Odometry"];
 /** What is kept where rviz keeps all. */

@@ -6,12 +6,12 @@ import { Group, type Object3D } from "three";
 import type { Path, Pose } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { ColorProperty, EnumProperty, IntProperty, NumberProperty, VectorProperty } from "./properties";
+import { ColorProperty, EnumProperty, IntProperty, NumberProperty, VectorProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { BillboardLines } from "./shapes/billboard_lines";
-import { PixelLine } from "./shapes/lines";
-import { arrowsAt, axesAt } from "./shapes/pose_instances";
-import { INVALID_FLOATS, isFinitePose } from "./valid";
+import { BillboardLines } from "../shapes/billboard_lines";
+import { PixelLine } from "../shapes/lines";
+import { arrowsAt, axesAt } from "../shapes/pose_instances";
+import { INVALID_FLOATS, isFinitePose } from "../frames/valid";
 
 const TYPES = ["nav_msgs/Path"];
 

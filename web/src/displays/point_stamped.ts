@@ -5,11 +5,11 @@ import { Group, type Object3D } from "three";
 import type { PointStamped } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { ColorProperty, IntProperty, NumberProperty } from "./properties";
+import { ColorProperty, IntProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { Solid } from "./shapes/solid";
-import { SPHERE } from "./shapes/solids";
-import { INVALID_FLOATS, isFiniteXyz, vector } from "./valid";
+import { Solid } from "../shapes/solid";
+import { SPHERE } from "../shapes/solids";
+import { INVALID_FLOATS, isFiniteXyz, vector } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PointStamped"];
 

@@ -5,10 +5,10 @@ import { Group, type Object3D } from "three";
 import type { PolygonStamped } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { ColorProperty, NumberProperty } from "./properties";
+import { ColorProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { PixelLine } from "./shapes/lines";
-import { INVALID_FLOATS, isFiniteXyz } from "./valid";
+import { PixelLine } from "../shapes/lines";
+import { INVALID_FLOATS, isFiniteXyz } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PolygonStamped"];
 

@@ -7,7 +7,7 @@ import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { PoseShape } from "./pose_shape";
 import { register } from "./registry";
-import { INVALID_FLOATS, isFinitePose, placed } from "./valid";
+import { INVALID_FLOATS, isFinitePose, placed } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PoseStamped"];
 

@@ -6,11 +6,11 @@ import { Group, Vector3, type Object3D } from "three";
 import type { Pose, PoseArray } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { ColorProperty, EnumProperty, NumberProperty } from "./properties";
+import { ColorProperty, EnumProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { PixelSegments } from "./shapes/lines";
-import { arrowsAt, axesAt } from "./shapes/pose_instances";
-import { INVALID_FLOATS, isFinitePose, quaternion, vector } from "./valid";
+import { PixelSegments } from "../shapes/lines";
+import { arrowsAt, axesAt } from "../shapes/pose_instances";
+import { INVALID_FLOATS, isFinitePose, quaternion, vector } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PoseArray"];
 const FLAT = "Arrow (Flat)";

@@ -3,9 +3,9 @@
 import { computed } from "@preact/signals";
 import type { Object3D } from "three";
 
-import { ColorProperty, EnumProperty, NumberProperty, type Property } from "./properties";
-import { Arrow } from "./shapes/arrow";
-import { Axes } from "./shapes/axes";
+import { ColorProperty, EnumProperty, NumberProperty, type Property } from "../rviz/properties";
+import { Arrow } from "../shapes/arrow";
+import { Axes } from "../shapes/axes";
 
 export class PoseShape {
   readonly shape = new EnumProperty("Shape", "Arrow", ["Arrow", "Axes"]);

@@ -7,8 +7,8 @@ import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { PoseShape } from "./pose_shape";
 import { register } from "./registry";
-import { CovarianceProperty, CovarianceVisual } from "./shapes/covariance";
-import { areFinite, INVALID_FLOATS, isFinitePose, placed, quaternion, vector } from "./valid";
+import { CovarianceProperty, CovarianceVisual } from "../shapes/covariance";
+import { areFinite, INVALID_FLOATS, isFinitePose, placed, quaternion, vector } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PoseWithCovarianceStamped"];
 

@@ -5,11 +5,11 @@ import { Group, type Object3D } from "three";
 import type { Range } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { ColorProperty, IntProperty, NumberProperty } from "./properties";
+import { ColorProperty, IntProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
-import { Solid } from "./shapes/solid";
-import { HEAD } from "./shapes/solids";
-import { areFinite, INVALID_FLOATS } from "./valid";
+import { Solid } from "../shapes/solid";
+import { HEAD } from "../shapes/solids";
+import { areFinite, INVALID_FLOATS } from "../frames/valid";
 
 const TYPES = ["sensor_msgs/Range"];
 

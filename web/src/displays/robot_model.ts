@@ -5,7 +5,7 @@ import { batch, effect, untracked } from "@preact/signals";
 import { NoTransform } from "../frames/transform";
 import { Display } from "./display";
 import { KeyedProperty } from "./keyed_property";
-import { BoolProperty, isMapping, NumberProperty, StringProperty, type YamlMapping } from "./properties";
+import { BoolProperty, isMapping, NumberProperty, StringProperty, type YamlMapping } from "../rviz/properties";
 import { register } from "./registry";
 import { LinkView, type LinkProperty } from "./robot/link_view";
 import { readUrdf, UrdfError, type Robot } from "./robot/urdf";

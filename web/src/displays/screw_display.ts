@@ -5,11 +5,11 @@ import { Group, Quaternion, Vector3, type Object3D } from "three";
 import type { Vector3 as Xyz } from "../protocol/messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { BoolProperty, ColorProperty, IntProperty, NumberProperty, type Rgb } from "./properties";
-import { Arrow } from "./shapes/arrow";
-import { BillboardLines } from "./shapes/billboard_lines";
+import { BoolProperty, ColorProperty, IntProperty, NumberProperty, type Rgb } from "../rviz/properties";
+import { Arrow } from "../shapes/arrow";
+import { BillboardLines } from "../shapes/billboard_lines";
 import type { Stamped } from "./topic_display";
-import { INVALID_FLOATS, isFiniteXyz, vector } from "./valid";
+import { INVALID_FLOATS, isFiniteXyz, vector } from "../frames/valid";
 
 const X = new Vector3(1, 0, 0);
 const Z = new Vector3(0, 0, 1);

@@ -4,7 +4,7 @@ import type { FrameInfo } from "../frames/frame_tree";
 import { NoTransform } from "../frames/transform";
 import { Display } from "./display";
 import { KeyedProperty } from "./keyed_property";
-import { BoolProperty, NumberProperty, StringProperty } from "./properties";
+import { BoolProperty, NumberProperty, StringProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { fadeOf, FrameRow, FrameView, TreeProperty } from "./tf/frame_row";
 import { TfShapes, type TfStyle } from "./tf/tf_shapes";

@@ -8,7 +8,7 @@ import type { Header } from "../protocol/messages";
 import { nanoseconds } from "../protocol/ros_types";
 import { Display, type DisplayContext } from "./display";
 import { MessageFilter } from "./message_filter";
-import { BoolProperty, IntProperty, TopicProperty } from "./properties";
+import { BoolProperty, IntProperty, TopicProperty } from "../rviz/properties";
 
 /** Wall seconds between updates of the count of messages. */
 const COUNT_PERIOD_S = 0.25;

@@ -2,7 +2,7 @@
 
 import { effect, untracked } from "@preact/signals";
 
-import type { Property } from "./properties";
+import type { Property } from "../rviz/properties";
 
 /** Call `draw` now and whenever one of the properties or those below them changes, but read-outs; returns how to stop. */
 export function watch(properties: readonly Property<unknown>[], draw: () => void): () => void {

@@ -11,7 +11,7 @@ import { count, fixed } from "../theme/format";
 import { Icon } from "../theme/icons";
 import { StatusShape } from "../theme/status_shape";
 import { Tree, type TreeRow } from "../theme/tree";
-import type { Draft, DraftPart, PartPath } from "./draft";
+import type { Draft, DraftPart, PartPath } from "../scene/draft";
 import { iconOf } from "./part_icons";
 import { PartDrawer } from "./part_drawer";
 

@@ -3,7 +3,7 @@
 import type { Command } from "../app/page";
 import type { Shell } from "../app/shell";
 import { canEdit } from "../app/world/edits";
-import type { PartPath } from "./draft";
+import type { PartPath } from "../scene/draft";
 
 export function editorCommands(shell: Shell): readonly Command[] {
   if (!canEdit(shell)) return [];

@@ -9,7 +9,7 @@ import { poseFields, type Fields } from "../app/world/edits";
 import { bodiesOf } from "../app/world/nodes";
 import type { Transform } from "../frames/transform";
 import type { RequestAnswer } from "../protocol/connection";
-import { bodyOf, findPart, type Draft, type FieldValue, type PartPath } from "./draft";
+import { bodyOf, findPart, type Draft, type FieldValue, type PartPath } from "../scene/draft";
 
 /** From what is there to a new model, and half of what the view shows around it [m]. */
 const BESIDE = 1.5;

@@ -9,7 +9,7 @@ import type { RequestAnswer } from "../protocol/connection";
 import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { Tabs } from "../theme/tabs";
-import { findPart, linkAround, type Draft } from "./draft";
+import { findPart, linkAround, type Draft } from "../scene/draft";
 
 const TABS = [
   { id: "link", title: "Link" },

@@ -8,7 +8,7 @@ import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { StatusShape } from "../theme/status_shape";
 import { TextField } from "../theme/text_field";
-import { findPart, type Draft, type DraftFinding, type DraftPart, type PartPath } from "./draft";
+import { findPart, type Draft, type DraftFinding, type DraftPart, type PartPath } from "../scene/draft";
 import { FieldRow } from "./field_rows";
 import { iconOf } from "./part_icons";
 

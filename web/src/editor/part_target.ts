@@ -7,7 +7,7 @@ import type { Transform } from "../frames/transform";
 import type { SixNumbers } from "../scene/simulated_world";
 import type { Asked, Drawn, HandleTarget } from "../tools/handles/handle_target";
 import type { WorldEditor } from "../tools/world_editor";
-import { findPart, linkAround, type PartPath } from "./draft";
+import { findPart, linkAround, type PartPath } from "../scene/draft";
 import { bodiesOfPart } from "./model_editor";
 
 /** The handles of a part's link, or of the model; null: they move nothing. */

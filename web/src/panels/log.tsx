@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import type { StatusLevel } from "../displays/display";
+import type { StatusLevel } from "../rviz/status_level";
 import { Button } from "../theme/button";
 import { StatusShape } from "../theme/status_shape";
 import { LEVELS, type Level, type LogEntry } from "./log/log_entries";

@@ -10,7 +10,7 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 
 import { linkedView } from "../app/views/view_link";
-import { isMapping, type Yaml } from "../displays/properties";
+import { isMapping, type Yaml } from "../rviz/properties";
 import { ORIGIN } from "../scene/views/view";
 import { SceneInput } from "../scene/pointer_input";
 import type { Manifest } from "../scene/simulated_world";

@@ -2,7 +2,7 @@
 
 import { isMap, isScalar, isSeq, Scalar, type Document, type Node, type YAMLMap, type YAMLSeq } from "yaml";
 
-import { isMapping, type Yaml, type YamlMapping } from "../displays/properties";
+import { isMapping, type Yaml, type YamlMapping } from "./properties";
 
 /** The node that stands for a value: the old one where it fits, changed in place, else a fresh one. */
 export function merge(document: Document, old: unknown, value: Yaml): Node {

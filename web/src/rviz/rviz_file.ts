@@ -2,7 +2,7 @@
 
 import { parseDocument, type Document } from "yaml";
 
-import { isMapping, type Yaml, type YamlMapping } from "../displays/properties";
+import { isMapping, type Yaml, type YamlMapping } from "./properties";
 import { merge } from "./merge";
 
 /** A file that is not one of rviz's; its message is a sentence. */

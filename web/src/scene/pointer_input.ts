@@ -1,6 +1,5 @@
 /** What mouse, touch and keys do in the scene: rviz's bindings. */
 
-import type { PointerInput } from "../tools/tool";
 import type { ThreeScene } from "./three_scene";
 import type { ViewList } from "./views/view_list";
 
@@ -20,6 +19,16 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowUp: [0, 1],
   ArrowDown: [0, -1],
 };
+
+/** What a tool gets of mouse, pen and finger. */
+export interface PointerInput {
+  readonly x: number;
+  readonly y: number;
+  readonly button: number;
+  readonly shift: boolean;
+  readonly control: boolean;
+  readonly kind: "down" | "move" | "up" | "cancel";
+}
 
 interface Finger {
   x: number;

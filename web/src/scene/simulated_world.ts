@@ -3,7 +3,7 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Object3D } from "three";
 
-import type { Draft } from "../editor/draft";
+import type { Draft } from "./draft";
 import type { Transform } from "../frames/transform";
 import type { ShownParts } from "./overlays/shown_parts";
 

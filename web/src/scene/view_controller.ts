@@ -3,7 +3,7 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Vector3 } from "three";
 
-import type { Property, Triple, YamlMapping } from "../displays/properties";
+import type { Property, Triple, YamlMapping } from "../rviz/properties";
 
 import type { Area } from "./free_area";
 import type { CameraInfo } from "./simulated_world";

@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import type { StatusLevel } from "../displays/display";
+import type { StatusLevel } from "../rviz/status_level";
 
 const NAMES: Readonly<Record<StatusLevel, string>> = { ok: "OK", warn: "Warning", error: "Error", none: "No data" };
 

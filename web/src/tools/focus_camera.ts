@@ -1,7 +1,7 @@
 /** rviz's FocusCamera: the camera looks at the point that is clicked. */
 
 import { BaseTool } from "./base_tool";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 export class FocusCamera extends BaseTool {
   readonly className = "rviz/FocusCamera";

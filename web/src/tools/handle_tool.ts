@@ -5,7 +5,7 @@ import { Matrix4, Quaternion, Vector3, type Ray } from "three";
 
 import { InteractionMode } from "../displays/interactive/control_modes";
 import { Drag } from "../displays/interactive/drag";
-import { EnumProperty } from "../displays/properties";
+import { EnumProperty } from "../rviz/properties";
 import type { Transform } from "../frames/transform";
 import { NOT_PICKED } from "../scene/picking";
 import { BaseTool, type ToolContext } from "./base_tool";
@@ -13,7 +13,7 @@ import { copyOf, targetOf, type Asked, type Drawn, type HandleTarget } from "./h
 import { LatestRequest } from "./handles/latest_request";
 import { SelectionHandles, type Handle } from "./handles/selection_handles";
 import { selectionOf } from "./picked";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 import type { WorldEditor } from "./world_editor";
 
 /** Wall seconds after which the server hears again of a drag that rests; after one it lets go. */

@@ -6,7 +6,7 @@ import { Color, PerspectiveCamera, Vector3 } from "three";
 import { BaseTool } from "./base_tool";
 import type { Insertable } from "./insertable";
 import { InsertionGhost } from "./insertion_ghost";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 /** A point of the ground farther than this is taken for a part of the sky [m]. */
 const FARTHEST = 500;

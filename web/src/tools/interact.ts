@@ -1,11 +1,11 @@
 /** rviz's Interact: presses what has handlers, such as interactive markers; elsewhere a drag is the camera's. */
 
-import { BoolProperty } from "../displays/properties";
+import { BoolProperty } from "../rviz/properties";
 import type { PointerTarget, TargetEvent } from "../scene/scene_view";
 import { BaseTool } from "./base_tool";
 import { PulledPoint } from "./handles/pulled_point";
 import { pointerTargetOf, selectionOf } from "./picked";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 export class Interact extends BaseTool {
   readonly className = "rviz/Interact";

@@ -5,7 +5,7 @@ import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Object3D, Vec
 import { NOT_PICKED } from "../scene/picking";
 import type { Label } from "../scene/scene_view";
 import { BaseTool } from "./base_tool";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 export class Measure extends BaseTool {
   readonly className = "rviz/Measure";

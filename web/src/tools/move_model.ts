@@ -2,12 +2,12 @@
 
 import { Vector3 } from "three";
 
-import { BoolProperty, EnumProperty, NumberProperty } from "../displays/properties";
+import { BoolProperty, EnumProperty, NumberProperty } from "../rviz/properties";
 import type { Transform } from "../frames/transform";
 import { HandleTool } from "./handle_tool";
 import type { Handle } from "./handles/selection_handles";
 import { snapToAngle, snapToGrid } from "./handles/snapping";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 const AXES = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)] as const;
 const LETTERS = [0, 1, 2] as const;

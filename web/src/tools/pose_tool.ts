@@ -2,12 +2,12 @@
 
 import { Vector3 } from "three";
 
-import { Arrow } from "../displays/shapes/arrow";
-import type { Rgb } from "../displays/properties";
+import { Arrow } from "../shapes/arrow";
+import type { Rgb } from "../rviz/properties";
 import type { RosMessage } from "../protocol/ros_types";
 import { NOT_PICKED } from "../scene/picking";
 import { BaseTool } from "./base_tool";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 /** rviz's arrow [m]. */
 const PROPORTIONS = { shaftLength: 2, shaftDiameter: 0.2, headLength: 0.5, headDiameter: 0.35 };

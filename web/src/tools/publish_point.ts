@@ -1,8 +1,8 @@
 /** rviz's PublishPoint: publishes the point that is clicked. */
 
-import { BoolProperty, TopicProperty } from "../displays/properties";
+import { BoolProperty, TopicProperty } from "../rviz/properties";
 import { BaseTool } from "./base_tool";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 const TYPE = "geometry_msgs/PointStamped";
 

@@ -2,7 +2,7 @@
 
 import { BaseTool, type ToolContext } from "./base_tool";
 import { PulledPoint } from "./handles/pulled_point";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 import type { WorldEditor } from "./world_editor";
 
 export class PushModel extends BaseTool {

@@ -2,12 +2,12 @@
 
 import { Vector3 } from "three";
 
-import { BoolProperty, EnumProperty, NumberProperty } from "../displays/properties";
+import { BoolProperty, EnumProperty, NumberProperty } from "../rviz/properties";
 import type { Transform } from "../frames/transform";
 import { HandleTool } from "./handle_tool";
 import type { Handle } from "./handles/selection_handles";
 import { snapToAngle } from "./handles/snapping";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 const DEGREE = Math.PI / 180;
 

@@ -2,7 +2,7 @@
 
 import { BaseTool } from "./base_tool";
 import { selectionOf, selectionOfAll } from "./picked";
-import type { PointerInput } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 /** Smaller boxes are clicks [px]. */
 const CLICK = 4;

@@ -2,7 +2,7 @@
 
 import type { Vector3 } from "three";
 
-import { TopicProperty, type Rgb } from "../displays/properties";
+import { TopicProperty, type Rgb } from "../rviz/properties";
 import { PoseTool } from "./pose_tool";
 
 const TYPE = "geometry_msgs/PoseStamped";

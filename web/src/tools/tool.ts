@@ -2,17 +2,9 @@
 
 import type { ReadonlySignal } from "@preact/signals";
 
-import type { Property, YamlMapping } from "../displays/properties";
+import type { Property, YamlMapping } from "../rviz/properties";
+import type { PointerInput } from "../scene/pointer_input";
 import type { InsertTool } from "./insert_tool";
-
-export interface PointerInput {
-  readonly x: number;
-  readonly y: number;
-  readonly button: number;
-  readonly shift: boolean;
-  readonly control: boolean;
-  readonly kind: "down" | "move" | "up" | "cancel";
-}
 
 export interface Tool {
   /** rviz's class: `rviz/SetGoal`. */

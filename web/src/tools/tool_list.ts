@@ -2,7 +2,7 @@
 
 import { signal, type ReadonlySignal } from "@preact/signals";
 
-import type { YamlMapping } from "../displays/properties";
+import type { YamlMapping } from "../rviz/properties";
 import type { BaseTool, ToolContext } from "./base_tool";
 import { FocusCamera } from "./focus_camera";
 import { InsertTool } from "./insert_tool";
@@ -16,7 +16,8 @@ import { RotateModel } from "./rotate_model";
 import { Select } from "./select";
 import { SetGoal } from "./set_goal";
 import { SetInitialPose } from "./set_initial_pose";
-import type { PointerInput, ToolBox } from "./tool";
+import type { ToolBox } from "./tool";
+import type { PointerInput } from "../scene/pointer_input";
 
 /** In rviz's order. */
 const CLASSES = [Interact, MoveCamera, Select, FocusCamera, Measure, SetInitialPose, SetGoal, PublishPoint];

@@ -6,7 +6,7 @@ import { Display } from "../../src/displays/display";
 import { DisplayStore } from "../../src/displays/display_store";
 import { workOutFixedFrame } from "../../src/displays/fixed_frame";
 import { Group, withMembers } from "../../src/displays/group";
-import { TopicProperty, type YamlMapping } from "../../src/displays/properties";
+import { TopicProperty, type YamlMapping } from "../../src/rviz/properties";
 import { register } from "../../src/displays/registry";
 import { FakeUndo, setup, type Setup } from "./support";
 

@@ -3,7 +3,7 @@ import { Box3, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
 import { Effort, rainbow } from "../../src/displays/effort";
-import { BillboardLines } from "../../src/displays/shapes/billboard_lines";
+import { BillboardLines } from "../../src/shapes/billboard_lines";
 import { setup } from "./support";
 
 const URDF = `<robot name="arm"><link name="base"/><link name="tip"/><link name="slide"/>

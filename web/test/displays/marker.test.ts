@@ -7,9 +7,9 @@ import { describe, expect, it } from "vitest";
 import { MarkerArrayDisplay, MarkerDisplay } from "../../src/displays/marker";
 import { checkMarker } from "../../src/displays/markers/marker_checks";
 import { Type } from "../../src/displays/markers/marker_type";
-import { BillboardLines } from "../../src/displays/shapes/billboard_lines";
-import { BillboardPoints } from "../../src/displays/shapes/billboard_points";
-import { TextBillboard } from "../../src/displays/shapes/text_billboard";
+import { BillboardLines } from "../../src/shapes/billboard_lines";
+import { BillboardPoints } from "../../src/shapes/billboard_points";
+import { TextBillboard } from "../../src/shapes/text_billboard";
 import type { Marker, Point } from "../../src/protocol/messages";
 import { setup, type Setup } from "./support";
 

@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 
 import { RobotModel } from "../../src/displays/robot_model";
 import { readUrdf, UrdfError } from "../../src/displays/robot/urdf";
-import { ShapeMaterial } from "../../src/displays/shapes/shape_material";
+import { ShapeMaterial } from "../../src/shapes/shape_material";
 import { setup, type Setup } from "./support";
 
 const URDF = `<?xml version="1.0"?>

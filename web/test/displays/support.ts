@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { Group, PerspectiveCamera, Quaternion, Vector3, type Object3D } from "three";
 
-import type { UndoStack } from "../../src/app/page";
+import type { UndoStack } from "../../src/displays/undo_stack";
 import type { DisplayContext } from "../../src/displays/display";
 import type { FrameInfo, FrameTree } from "../../src/frames/frame_tree";
 import { NoTransform, type Transform } from "../../src/frames/transform";

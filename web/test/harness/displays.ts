@@ -7,10 +7,10 @@ import { signal } from "@preact/signals";
 import { Quaternion, Vector3 } from "three";
 
 import type { Display, DisplayContext } from "../../src/displays/display";
-import type { YamlMapping } from "../../src/displays/properties";
+import type { YamlMapping } from "../../src/rviz/properties";
 import { drawPicture, type PictureSource } from "../../src/displays/pictures/picture_stream";
 import { displayClass } from "../../src/displays/registry";
-import { Axes } from "../../src/displays/shapes/axes";
+import { Axes } from "../../src/shapes/axes";
 import type { Transform } from "../../src/frames/transform";
 import { ThreeScene } from "../../src/scene/three_scene";
 import { GraphNames } from "../../src/protocol/graph_names";

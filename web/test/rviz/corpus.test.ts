@@ -11,7 +11,7 @@ import type { Display } from "../../src/displays/display";
 import { DisplayStore } from "../../src/displays/display_store";
 import { Group } from "../../src/displays/group";
 import { displayClass } from "../../src/displays/registry";
-import { isMapping, type Yaml, type YamlMapping } from "../../src/displays/properties";
+import { isMapping, type Yaml, type YamlMapping } from "../../src/rviz/properties";
 import { FakeUndo, setup } from "../displays/support";
 
 const CORPUS = join(import.meta.dirname, "../../../../shared/corpus/repos");

@@ -1,7 +1,7 @@
 import { parse } from "yaml";
 import { describe, expect, it } from "vitest";
 
-import { isMapping, type Yaml, type YamlMapping } from "../../src/displays/properties";
+import { isMapping, type Yaml, type YamlMapping } from "../../src/rviz/properties";
 import { DEFAULT_FILE, RvizFile, RvizFileError } from "../../src/rviz/rviz_file";
 
 const FILE = `# made by hand

@@ -6,7 +6,7 @@ import { expect, test } from "vitest";
 import type { Selection } from "../../src/app/page";
 import type { Pick, PictureBox, PointerTarget, SceneView } from "../../src/scene/scene_view";
 import { ToolList } from "../../src/tools/tool_list";
-import type { PointerInput } from "../../src/tools/tool";
+import type { PointerInput } from "../../src/scene/pointer_input";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
 import { FakeScene } from "../fake_page";

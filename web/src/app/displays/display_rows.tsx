@@ -4,7 +4,7 @@ import type { JSX } from "preact";
 
 import type { Display, Status } from "../../displays/display";
 import { Group } from "../../displays/group";
-import { ColorProperty } from "../../displays/properties";
+import { ColorProperty } from "../../rviz/properties";
 import { Checkbox } from "../../theme/checkbox";
 import { fixed } from "../../theme/format";
 import { Icon } from "../../theme/icons";

@@ -5,7 +5,7 @@ import type { JSX } from "preact";
 import {
   BoolProperty, ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty,
   type Property, type Triple, type Yaml,
-} from "../../displays/properties";
+} from "../../rviz/properties";
 import { Checkbox } from "../../theme/checkbox";
 import { Combo, type Choice } from "../../theme/combo";
 import { parseNumber, plain } from "../../theme/format";

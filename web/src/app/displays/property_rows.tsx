@@ -1,6 +1,6 @@
 /** Properties as rows of a tree. */
 
-import type { Property } from "../../displays/properties";
+import type { Property } from "../../rviz/properties";
 import { Icon } from "../../theme/icons";
 import type { TreeRow } from "../../theme/tree";
 import type { Page } from "../page";

@@ -2,7 +2,8 @@
 
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 
-import type { Display, StatusLevel } from "../../displays/display";
+import type { Display } from "../../displays/display";
+import type { StatusLevel } from "../../rviz/status_level";
 import { isEnabled, withMembers } from "../../displays/group";
 import { count } from "../../theme/format";
 import type { Page } from "../page";

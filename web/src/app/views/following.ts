@@ -1,6 +1,6 @@
 /** The view follows what is selected, or the robot. */
 
-import { FIXED_FRAME } from "../../displays/properties";
+import { FIXED_FRAME } from "../../rviz/properties";
 import { findJoint, findModel, simulatedRobot } from "./framing";
 import type { Page, Selection } from "../page";
 

@@ -1,6 +1,6 @@
 /** Links that keep the view: behind the page's address stands from where one looks. */
 
-import { isMapping, type Yaml, type YamlMapping } from "../../displays/properties";
+import { isMapping, type Yaml, type YamlMapping } from "../../rviz/properties";
 import type { Views } from "../../scene/view_controller";
 
 const KEY = "#view=";

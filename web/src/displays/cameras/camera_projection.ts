@@ -4,7 +4,7 @@ import { Matrix4, Quaternion, Vector3 } from "three";
 
 import type { Transform } from "../../frames/transform";
 import type { CameraInfo } from "../../protocol/messages";
-import { areFinite } from "../valid";
+import { areFinite } from "../../frames/valid";
 
 /** rviz's planes [m]. */
 const NEAR = 0.01;

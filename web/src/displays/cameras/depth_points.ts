@@ -3,7 +3,7 @@
 import type { CameraInfo, Image } from "../../protocol/messages";
 import { Cloud, FLOAT32 } from "../clouds/cloud";
 import { readNumbers, type Pixels } from "../pictures/pixels";
-import { areFinite } from "../valid";
+import { areFinite } from "../../frames/valid";
 
 const CHANNELS = ["x", "y", "z", "rgb"].map((name, word) => ({ name, offset: 4 * word, datatype: FLOAT32 }));
 const STRIDE = CHANNELS.length;

@@ -3,7 +3,7 @@
 import type { Object3D } from "three";
 
 import type { Display } from "../display";
-import { BoolProperty, isMapping, type Yaml, type YamlMapping } from "../properties";
+import { BoolProperty, isMapping, type Yaml, type YamlMapping } from "../../rviz/properties";
 
 /** Members of a display that is a group. */
 interface Members {

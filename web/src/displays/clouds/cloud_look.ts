@@ -3,7 +3,7 @@
 import { Matrix4, type Vector3 } from "three";
 
 import type { Transform } from "../../frames/transform";
-import type { Rgb } from "../properties";
+import type { Rgb } from "../../rviz/properties";
 import type { Cloud } from "./cloud";
 import { axisBounds, channelBounds, choose, intensityChannel, packedColor, range, supported, type Bounds } from "./cloud_colors";
 import { ColorMode } from "./cloud_material";

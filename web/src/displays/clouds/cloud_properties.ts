@@ -2,7 +2,7 @@
 
 import { computed, type ReadonlySignal } from "@preact/signals";
 
-import { BoolProperty, ColorProperty, EnumProperty, NumberProperty, type Property } from "../properties";
+import { BoolProperty, ColorProperty, EnumProperty, NumberProperty, type Property } from "../../rviz/properties";
 import { touch } from "../topic_display";
 import { COLOR_TRANSFORMERS } from "./cloud_colors";
 import { STYLES } from "./cloud_material";

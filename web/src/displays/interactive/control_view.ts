@@ -6,7 +6,7 @@ import type { InteractiveMarkerControl, Marker } from "../../protocol/messages";
 import type { PointerTarget, TargetEvent } from "../../scene/scene_view";
 import { poseMatrix } from "../markers/marker_scene";
 import { makeView, type MarkerView, type ViewParts } from "../markers/marker_views";
-import { ShapeMaterial } from "../shapes/shape_material";
+import { ShapeMaterial } from "../../shapes/shape_material";
 import { InteractionMode, OrientationMode } from "./control_modes";
 
 /** Brightening of what the pointer is at, and of what is dragged, as rviz's. */

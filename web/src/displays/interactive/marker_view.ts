@@ -8,7 +8,7 @@ import { nanoseconds } from "../../protocol/ros_types";
 import type { Label, Selectable, TargetEvent } from "../../scene/scene_view";
 import type { DisplayContext } from "../display";
 import type { ViewParts } from "../markers/marker_views";
-import { Axes } from "../shapes/axes";
+import { Axes } from "../../shapes/axes";
 import { FeedbackEvent, InteractionMode } from "./control_modes";
 import { ControlView, type ControlEvents } from "./control_view";
 import { Drag } from "./drag";

@@ -1,7 +1,7 @@
 /** Cells of a map with the updates that came since. */
 
 import type { OccupancyGrid, OccupancyGridUpdate } from "../../protocol/messages";
-import { INVALID_FLOATS, isFinitePose } from "../valid";
+import { INVALID_FLOATS, isFinitePose } from "../../frames/valid";
 
 /** Most cells of a map that is shown: 16384 × 16384. */
 const MOST_CELLS = 2 ** 28;

@@ -1,7 +1,7 @@
 /** What is wrong with a marker, in rviz's words. */
 
 import type { Marker } from "../../protocol/messages";
-import type { StatusLevel } from "../display";
+import type { StatusLevel } from "../../rviz/status_level";
 import { Type } from "./marker_type";
 
 export interface MarkerFault {

@@ -5,10 +5,10 @@ import { BufferAttribute, BufferGeometry, DoubleSide, Group, Matrix4, Mesh, type
 import type { ColorRGBA, Marker, Point } from "../../protocol/messages";
 import type { Connection } from "../../protocol/connection";
 import { meshLibrary } from "../meshes/mesh_library";
-import { BillboardLines } from "../shapes/billboard_lines";
-import { BillboardPoints } from "../shapes/billboard_points";
-import { flatMaterial, ShapeMaterial } from "../shapes/shape_material";
-import { TextBillboard } from "../shapes/text_billboard";
+import { BillboardLines } from "../../shapes/billboard_lines";
+import { BillboardPoints } from "../../shapes/billboard_points";
+import { flatMaterial, ShapeMaterial } from "../../shapes/shape_material";
+import { TextBillboard } from "../../shapes/text_billboard";
 import { SolidBatches } from "./solid_batches";
 import { isSolid } from "./marker_parts";
 import { Type } from "./marker_type";

@@ -4,9 +4,9 @@ import { Group, Matrix4, type BufferGeometry } from "three";
 
 import type { ColorRGBA, Marker } from "../../protocol/messages";
 import type { Selectable } from "../../scene/scene_view";
-import { Instances } from "../shapes/instances";
-import type { ShapeMaterialOptions } from "../shapes/shape_material";
-import { BOX, CLOUD_BOX, CYLINDER, HEAD, SHAFT, SPHERE } from "../shapes/solids";
+import { Instances } from "../../shapes/instances";
+import type { ShapeMaterialOptions } from "../../shapes/shape_material";
+import { BOX, CLOUD_BOX, CYLINDER, HEAD, SHAFT, SPHERE } from "../../shapes/solids";
 import { eachPart, type PartKind } from "./marker_parts";
 
 /** rviz draws lists as clouds of points, whose boxes and spheres are shaded otherwise. */

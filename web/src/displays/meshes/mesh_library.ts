@@ -3,7 +3,7 @@
 import { DoubleSide, Mesh, NoColorSpace, SRGBColorSpace, type Color, type Material, type Object3D, type Texture } from "three";
 
 import type { Connection } from "../../protocol/connection";
-import { ShapeMaterial } from "../shapes/shape_material";
+import { ShapeMaterial } from "../../shapes/shape_material";
 import { loadMesh, type LoadedMesh } from "./mesh_formats";
 
 /** A copy of a mesh to be coloured on its own. */

@@ -3,7 +3,7 @@
 import { computed, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 
 import { Display, type DisplayContext } from "../display";
-import { BoolProperty, EnumProperty, IntProperty, TopicProperty } from "../properties";
+import { BoolProperty, EnumProperty, IntProperty, TopicProperty } from "../../rviz/properties";
 import { PictureStream, type Picture, type PictureSource } from "./picture_stream";
 
 /** Wall seconds between updates of the count of images. */

@@ -4,8 +4,8 @@ import { DoubleSide, Euler, FrontSide, Group, Mesh, NoColorSpace, Quaternion, Te
 
 import { meshLibrary } from "../meshes/mesh_library";
 import type { Connection } from "../../protocol/connection";
-import { ShapeMaterial } from "../shapes/shape_material";
-import { BOX, CYLINDER, SPHERE } from "../shapes/solids";
+import { ShapeMaterial } from "../../shapes/shape_material";
+import { BOX, CYLINDER, SPHERE } from "../../shapes/solids";
 import type { Geometry, RobotMaterial, RobotShape } from "./urdf";
 
 /** rviz's colour of a link that has none. */

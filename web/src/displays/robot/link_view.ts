@@ -6,9 +6,9 @@ import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
 import type { Selectable } from "../../scene/scene_view";
 import type { KeyedProperty } from "../keyed_property";
-import { BoolProperty, GroupProperty, NumberProperty } from "../properties";
-import { Axes } from "../shapes/axes";
-import { Trail } from "../shapes/trail";
+import { BoolProperty, GroupProperty, NumberProperty } from "../../rviz/properties";
+import { Axes } from "../../shapes/axes";
+import { Trail } from "../../shapes/trail";
 import { LinkShapes, type OnMissing } from "./link_shape";
 import type { RobotLink } from "./urdf";
 

@@ -4,7 +4,7 @@ import { Object3D, Vector3 } from "three";
 
 import type { Transform } from "../../frames/transform";
 import type { Label, SceneView } from "../../scene/scene_view";
-import { BoolProperty, GroupProperty, Property, type Yaml } from "../properties";
+import { BoolProperty, GroupProperty, Property, type Yaml } from "../../rviz/properties";
 
 /** A text that is shown and not saved. */
 export class ReadOut extends Property<string> {

@@ -3,8 +3,8 @@
 import { Group, Matrix4, Quaternion, Vector3 } from "three";
 
 import type { Selectable } from "../../scene/scene_view";
-import { Instances } from "../shapes/instances";
-import { SHAFT, HEAD } from "../shapes/solids";
+import { Instances } from "../../shapes/instances";
+import { SHAFT, HEAD } from "../../shapes/solids";
 import type { FrameView } from "./frame_row";
 
 /** rviz's axes of a frame at scale 1 [m]. */

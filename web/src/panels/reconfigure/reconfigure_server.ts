@@ -2,7 +2,7 @@
 
 import { signal } from "@preact/signals";
 
-import type { UndoStack } from "../../app/page";
+import type { UndoStack } from "../../displays/undo_stack";
 import type { Connection, Subscription, TopicInfo } from "../../protocol/connection";
 import { sentence } from "../use";
 import { configValues, describedGroups, setRequest, type Option, type OptionGroup, type OptionValue, type OptionValues } from "./reconfigure_config";

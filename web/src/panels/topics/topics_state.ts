@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 
 import type { Connection, Subscription, TopicInfo, TopicStatistics } from "../../protocol/connection";
-import type { StatusLevel } from "../../displays/display";
+import type { StatusLevel } from "../../rviz/status_level";
 import { perPage } from "../per_page";
 import { Publication } from "./publication";
 

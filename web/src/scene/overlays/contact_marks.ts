@@ -3,7 +3,7 @@
 import { computed, effect, untracked, type ReadonlySignal } from "@preact/signals";
 import { InstancedMesh, Matrix4, Quaternion, Vector3, type BufferGeometry } from "three";
 
-import { HEAD, SHAFT, SPHERE } from "../../displays/shapes/solids";
+import { HEAD, SHAFT, SPHERE } from "../../shapes/solids";
 import type { Connection } from "../../protocol/connection";
 import { NOT_PICKED } from "../picking";
 import type { SceneView } from "../scene_view";

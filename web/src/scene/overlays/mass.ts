@@ -2,8 +2,8 @@
 
 import { BoxGeometry, EdgesGeometry, Euler, Group, Mesh, ShaderMaterial, type Object3D } from "three";
 
-import { principalAxes } from "../../displays/shapes/eigen";
-import { BOX, SPHERE } from "../../displays/shapes/solids";
+import { principalAxes } from "../../shapes/eigen";
+import { BOX, SPHERE } from "../../shapes/solids";
 import type { LinkInfo, SixNumbers } from "../simulated_world";
 import { area, COLOURS, inFront, lines } from "./overlay_shapes";
 

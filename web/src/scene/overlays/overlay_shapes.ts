@@ -2,7 +2,7 @@
 
 import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3, DoubleSide, Group, type Object3D } from "three";
 
-import { HEAD, SHAFT } from "../../displays/shapes/solids";
+import { HEAD, SHAFT } from "../../shapes/solids";
 
 const X = new Vector3(1, 0, 0);
 /** Drawn after the world and its transparent parts: areas first, then lines and solids. */

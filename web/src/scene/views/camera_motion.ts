@@ -3,7 +3,7 @@
 import { Quaternion, Vector3 } from "three";
 
 import type { Transform } from "../../frames/transform";
-import type { Triple } from "../../displays/properties";
+import type { Triple } from "../../rviz/properties";
 import { wrapAngle, type Motion } from "./view";
 
 /** [s] */

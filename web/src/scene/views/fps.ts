@@ -3,7 +3,7 @@
 import { Euler, PerspectiveCamera, Quaternion, Vector3, type OrthographicCamera } from "three";
 
 import type { Transform } from "../../frames/transform";
-import { NumberProperty, VectorProperty } from "../../displays/properties";
+import { NumberProperty, VectorProperty } from "../../rviz/properties";
 import type { SixSides } from "../view_controller";
 import { SIDES, triple, View, wrapAngle, type Motion, type Picture } from "./view";
 

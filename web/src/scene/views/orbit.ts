@@ -3,7 +3,7 @@
 import { OrthographicCamera, Vector3, type PerspectiveCamera } from "three";
 
 import type { Transform } from "../../frames/transform";
-import { NumberProperty, VectorProperty } from "../../displays/properties";
+import { NumberProperty, VectorProperty } from "../../rviz/properties";
 import type { SixSides } from "../view_controller";
 import { ProjectionProperty } from "./projection";
 import { ORIGIN, SIDES, triple, View, wrapAngle, type Motion, type Picture } from "./view";

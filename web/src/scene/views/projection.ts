@@ -1,6 +1,6 @@
 /** Perspective or not; rviz has no such property, so that its files name it only where it differs. */
 
-import { EnumProperty, type Yaml } from "../../displays/properties";
+import { EnumProperty, type Yaml } from "../../rviz/properties";
 
 const PERSPECTIVE = "Perspective";
 const ORTHOGRAPHIC = "Orthographic";

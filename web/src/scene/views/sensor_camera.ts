@@ -2,7 +2,7 @@
 
 import { PerspectiveCamera, type OrthographicCamera } from "three";
 
-import { NumberProperty, type YamlMapping } from "../../displays/properties";
+import { NumberProperty, type YamlMapping } from "../../rviz/properties";
 import type { Transform } from "../../frames/transform";
 import type { Area } from "../free_area";
 import type { CameraInfo } from "../simulated_world";

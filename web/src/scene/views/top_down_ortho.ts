@@ -3,7 +3,7 @@
 import { OrthographicCamera, Vector3, type PerspectiveCamera } from "three";
 
 import type { Transform } from "../../frames/transform";
-import { NumberProperty } from "../../displays/properties";
+import { NumberProperty } from "../../rviz/properties";
 import type { SixSides } from "../view_controller";
 import { View, wrapAngle, type Motion, type Picture } from "./view";
 

@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { Quaternion, Vector3, type OrthographicCamera, type PerspectiveCamera } from "three";
 
 import type { Transform } from "../../frames/transform";
-import { FIXED_FRAME, FrameProperty, NumberProperty, type Property, type Triple, type VectorProperty, type Yaml, type YamlMapping } from "../../displays/properties";
+import { FIXED_FRAME, FrameProperty, NumberProperty, type Property, type Triple, type VectorProperty, type Yaml, type YamlMapping } from "../../rviz/properties";
 import type { Area } from "../free_area";
 import type { SixSides, ViewController } from "../view_controller";
 

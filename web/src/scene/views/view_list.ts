@@ -3,7 +3,7 @@
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 import { Box3, OrthographicCamera, PerspectiveCamera, Sphere, Vector3 } from "three";
 
-import { FIXED_FRAME, isMapping, type Triple, type Yaml, type YamlMapping } from "../../displays/properties";
+import { FIXED_FRAME, isMapping, type Triple, type Yaml, type YamlMapping } from "../../rviz/properties";
 import type { Transform } from "../../frames/transform";
 import { freeArea, type Area } from "../free_area";
 import type { CameraInfo } from "../simulated_world";

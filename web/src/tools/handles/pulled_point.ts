@@ -6,7 +6,7 @@ import { findModel } from "../../app/views/framing";
 import { NOT_PICKED } from "../../scene/picking";
 import type { SceneView } from "../../scene/scene_view";
 import { selectionOf } from "../picked";
-import type { PointerInput } from "../tool";
+import type { PointerInput } from "../../scene/pointer_input";
 import type { WorldEditor } from "../world_editor";
 import { LatestRequest } from "./latest_request";
 

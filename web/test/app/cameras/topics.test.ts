@@ -3,7 +3,7 @@ import { expect, it } from "vitest";
 import { cameraTopics, streamedTopic, tileKey } from "../../../src/app/cameras/topics";
 import "../../../src/displays/all";
 import type { Display } from "../../../src/displays/display";
-import type { YamlMapping } from "../../../src/displays/properties";
+import type { YamlMapping } from "../../../src/rviz/properties";
 import { displayClass } from "../../../src/displays/registry";
 import { fakes } from "../../displays/fakes";
 import { MANIFEST } from "../../harness/manifest";

@@ -2,7 +2,7 @@
 import { expect, it } from "vitest";
 
 import { change, colourOf, hex, vectorOf } from "../../../src/app/displays/property_editor";
-import { ColorProperty, NumberProperty } from "../../../src/displays/properties";
+import { ColorProperty, NumberProperty } from "../../../src/rviz/properties";
 import { fakePage } from "../../fake_page";
 
 it("reads vectors and colours as people write them", () => {

@@ -1,13 +1,13 @@
 import { Box3, Matrix4, Quaternion, Raycaster, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
-import { Arrow } from "../../src/displays/shapes/arrow";
-import { Axes } from "../../src/displays/shapes/axes";
-import { BillboardLines } from "../../src/displays/shapes/billboard_lines";
-import { CovarianceProperty, CovarianceVisual } from "../../src/displays/shapes/covariance";
-import { principalAxes } from "../../src/displays/shapes/eigen";
-import { Instances } from "../../src/displays/shapes/instances";
-import { arrowGeometry, axesGeometry, BOX } from "../../src/displays/shapes/solids";
+import { Arrow } from "../../src/shapes/arrow";
+import { Axes } from "../../src/shapes/axes";
+import { BillboardLines } from "../../src/shapes/billboard_lines";
+import { CovarianceProperty, CovarianceVisual } from "../../src/shapes/covariance";
+import { principalAxes } from "../../src/shapes/eigen";
+import { Instances } from "../../src/shapes/instances";
+import { arrowGeometry, axesGeometry, BOX } from "../../src/shapes/solids";
 
 const ARROW = { shaftLength: 2, shaftDiameter: 0.1, headLength: 0.5, headDiameter: 0.4 };
 

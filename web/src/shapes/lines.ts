@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, Line, LineSegments } from "three";
 
-import type { Rgb } from "../properties";
+import type { Rgb } from "../rviz/properties";
 import { flatMaterial, type ShapeMaterial } from "./shape_material";
 
 /** A line through points, three numbers each [m]. */

@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, DoubleSide, Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 
-import { BoolProperty, ColorProperty, EnumProperty, NumberProperty, type Rgb } from "../properties";
+import { BoolProperty, ColorProperty, EnumProperty, NumberProperty, type Rgb } from "../rviz/properties";
 import { AXIS_RGB } from "./axes";
 import { principalAxes } from "./eigen";
 import { ShapeMaterial } from "./shape_material";

@@ -2,9 +2,9 @@
 
 import { Matrix4, Vector3 } from "three";
 
-import type { Pose } from "../../protocol/messages";
-import type { Rgb } from "../properties";
-import { quaternion, vector } from "../valid";
+import type { Pose } from "../protocol/messages";
+import type { Rgb } from "../rviz/properties";
+import { quaternion, vector } from "../frames/valid";
 import { Instances } from "./instances";
 import { arrowGeometry, axesGeometry, type ArrowProportions } from "./solids";
 

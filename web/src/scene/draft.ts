@@ -1,6 +1,6 @@
 /** The draft as the server describes it: a copy of a model that is edited. */
 
-import type { SixNumbers } from "../scene/simulated_world";
+import type { SixNumbers } from "./simulated_world";
 
 /** Tags and names from the model down: ["link", "base", "sensor", "eye"]; empty: the model itself. */
 export type PartPath = readonly string[];

@@ -7,7 +7,7 @@
 
 import { DoubleSide, FrontSide, ShaderMaterial, Vector4, type Side, type Texture } from "three";
 
-import type { Rgb } from "../properties";
+import type { Rgb } from "../rviz/properties";
 
 const VERTEX = /* glsl */ `
 #include <common>

@@ -2,7 +2,7 @@
 
 import { Group, Mesh } from "three";
 
-import type { Rgb } from "../properties";
+import type { Rgb } from "../rviz/properties";
 import { ShapeMaterial } from "./shape_material";
 import { HEAD, SHAFT, type ArrowProportions } from "./solids";
 

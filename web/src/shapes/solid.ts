@@ -2,7 +2,7 @@
 
 import { Mesh, type BufferGeometry } from "three";
 
-import type { Rgb } from "../properties";
+import type { Rgb } from "../rviz/properties";
 import { ShapeMaterial } from "./shape_material";
 
 export class Solid extends Mesh<BufferGeometry, ShapeMaterial> {
