@@ -12,6 +12,7 @@ BENCHES = (
     "commands",
     "step",
     "sweep",
+    "environments",
     "robots",
     "hooks",
     "contacts",

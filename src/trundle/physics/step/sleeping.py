@@ -21,6 +21,7 @@ to slide.
 _WAKING_SPEED = 1e-200
 """Speed [m/s or rad/s] that wakes a tree without moving it."""
 STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+_NEVER = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
 _SLEEP = int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 _NO_ISLANDS = int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
 
@@ -38,14 +39,13 @@ class SleepPolicy:
         model.opt.sleep_tolerance = TOLERANCE
         # MuJoCo scales angular speeds by the size of the moved shapes, which is zero for a link without any.
         model.dof_length[:] = 1.0
-        allowed, never = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED), int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
-        model.tree_sleep_policy[:] = allowed
+        model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
         # One link that must not sleep keeps its whole tree awake.
         allows = [each.allow_auto_disable for each in compiled.world.models for _ in each.links]
         for body, allow in zip(compiled.link_bodies, allows, strict=True):
             tree = int(model.body_treeid[body])
             if tree >= 0 and not allow:
-                model.tree_sleep_policy[tree] = never
+                model.tree_sleep_policy[tree] = _NEVER
 
     @property
     def is_on(self) -> bool:
@@ -79,8 +79,8 @@ class SleepPolicy:
         return self.is_on and int(self._data.tree_asleep.min()) >= 0
 
     def update(self) -> None:
-        """Enable sleeping if trees wholly at rest have at least half of the degrees of freedom."""
-        moving = np.zeros(self._model.ntree, dtype=bool)
+        """Enable sleeping if trees wholly at rest, that may sleep, have at least half of the degrees of freedom."""
+        moving = self._model.tree_sleep_policy == _NEVER
         moving[self._trees[np.abs(self._data.qvel) >= TOLERANCE]] = True
         still = np.count_nonzero(~moving[self._trees])
         wanted = self._model.nv > 0 and 2 * still >= self._model.nv
