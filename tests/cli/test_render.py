@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-import av
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image, ImageSequence
+from tests.video_file import read_video
 
 from trundle.cli import main
 
@@ -28,7 +28,11 @@ def box(tmp_path: Path) -> Path:
 
 
 def _red(file: Path) -> NDArray[np.bool_]:
-    pixels = np.asarray(Image.open(file).convert("RGB")).astype(int)
+    return _is_red(np.asarray(Image.open(file).convert("RGB")))
+
+
+def _is_red(picture: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    pixels = picture.astype(int)
     return pixels[..., 0] > pixels[..., 1] + 60
 
 
@@ -228,10 +232,34 @@ def test_a_film_goes_around_or_shows_what_happens(box: Path, tmp_path: Path, suf
     assert len(_frames(run)) == 10
 
 
+DROP = """<sdf version="1.6"><world name="w">
+<model name="plate"><pose>4 0 1.5 0 0 0</pose><link name="l"><visual name="v">
+<geometry><box><size>0.01 0.4 0.4</size></box></geometry>
+<material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link></model>
+<model name="post"><static>1</static><link name="l"><sensor name="eye" type="camera"><pose>0 0 0.5 0 0 0</pose>
+<camera><horizontal_fov>1.2</horizontal_fov><image><width>120</width><height>80</height></image>
+<clip><near>0.1</near><far>20</far></clip></camera></sensor></link></model></world></sdf>"""
+
+
+@pytest.mark.slow
+def test_a_film_of_a_camera_is_in_simulated_time(tmp_path: Path) -> None:
+    """What falls 4 m ahead is f g t² / (2 · 4 m) pixels lower after t."""
+    world, out = tmp_path / "drop.world", tmp_path / "eye.mp4"
+    world.write_text(DROP)
+
+    assert main(["render", str(world), "-o", str(out), "--camera", "eye", "--duration", "0.4"]) == 0
+
+    frames = read_video(out)
+    rows = [np.nonzero(_is_red(frame.picture))[0].mean() for frame in frames]
+    assert len(frames) == 10
+    assert frames[0].picture.shape == (80, 120, 3)
+    squares = [frame.time_s**2 for frame in frames]
+    assert np.polyfit(squares, rows, 1)[0] == pytest.approx(FOCAL_PX * 9.8 / 8, rel=0.05)
+
+
 def _frames(film: Path) -> list[NDArray[np.uint8]]:
     if film.suffix == ".mp4":
-        with av.open(str(film)) as container:
-            return [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+        return [frame.picture for frame in read_video(film)]
     with Image.open(film) as moving:
         return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.all_frames(moving)]
 

@@ -10,7 +10,6 @@ import { download, rvizFile, save } from "./displays/rviz_foot";
 import type { Shell } from "./shell";
 import { sidePages } from "./side_pages";
 import { switchTheme } from "./theme";
-import { toggleVideo } from "./views/video_note";
 
 const SIDES = ["front", "back", "left", "right", "top", "bottom"] as const;
 
@@ -30,7 +29,7 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
     command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),
-    command("video", "View", "Record a video of the view, or stop", () => toggleVideo(shell)),
+    command("video", "View", "Record a video of the view, or stop", () => shell.videos.toggleView()),
     command("link", "View", "Link to this view", () => (dialog.value = "link")),
     ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
     ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),

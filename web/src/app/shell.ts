@@ -12,8 +12,8 @@ import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
 import type { Page } from "./page";
-import { ViewVideo } from "./views/view_video";
 import { isBoolean, recall, remember } from "./storage";
+import { Videos } from "./video/videos";
 
 export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | null;
 
@@ -54,8 +54,7 @@ export class Shell {
   readonly openDisplays = signal<ReadonlyMap<string, boolean>>(new Map());
 
   readonly insertion: Insertion;
-  /** The video that is being recorded of the view. */
-  readonly video: ViewVideo;
+  readonly videos: Videos;
   readonly editor: ModelEditor;
 
   constructor(
@@ -70,7 +69,7 @@ export class Shell {
     this.layout = new Layout(page.session.kind);
     this.notices = new Notices(page);
     this.insertion = new Insertion(this);
-    this.video = new ViewVideo(page.scene);
+    this.videos = new Videos(page, this.notices);
     this.editor = new ModelEditor(page, this.notices);
     this.dock = new Dock(page, panels, this.layout);
     effect(() => remember("cameras", this.showsCameras.value));

@@ -8,7 +8,7 @@ import { NoticeLine } from "./notices/line";
 import { SceneNotes } from "./notices/scene_notes";
 import type { Shell } from "./shell";
 import { ToolBar } from "./tool_bar";
-import { VideoNote } from "./views/video_note";
+import { VideoNotes } from "./video/video_note";
 import { ViewMenu } from "./views/view_menu";
 
 export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -19,7 +19,7 @@ export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
         {!phone && <ToolBar shell={shell} />}
         {!phone && <ViewMenu shell={shell} />}
         <NoticeLine shell={shell} />
-        <VideoNote shell={shell} />
+        <VideoNotes shell={shell} />
       </div>
       <SceneNotes shell={shell} />
       <CameraTiles shell={shell} />

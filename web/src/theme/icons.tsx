@@ -8,6 +8,7 @@ const ICONS = {
   play: [{ fill: "M4.5 3v10l8.5-5z" }],
   pause: [{ fill: "M4 3h3v10H4zM9 3h3v10H9z" }],
   step: [{ fill: "M3.5 3.5v9L10 8z" }, "M12 3.5v9"],
+  record: [{ fill: "M8 3.500a4.500 4.500 0 1 0 .01 0z" }],
   reset: ["M3.2 8a4.8 4.8 0 1 0 1.6-3.6M3 2.5v3h3"],
   down: ["M4 6l4 4 4-4"],
   right: ["M6 4l4 4-4 4"],

@@ -75,10 +75,19 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
       <figcaption class="cap">
         <span class="n">{camera.name}</span>
         <span class="r">{hertz === null || hertz < 0.5 ? "" : `${fixed(hertz, 0)} Hz`}</span>
+        <VideoButton shell={shell} topic={topic} name={camera.name} />
         <Button icon={isLarge ? "close" : "enlarge"} label={`${isLarge ? "Make smaller" : "Enlarge"} ${camera.name}`} onClick={onPress} />
       </figcaption>
     </figure>
   );
+}
+
+/** Records the camera's own pictures, in the time of their stamps. */
+function VideoButton({ shell, topic, name }: { readonly shell: Shell; readonly topic: string; readonly name: string }): JSX.Element {
+  const { videos } = shell;
+  const isRecorded = videos.has(topic);
+  const label = isRecorded ? `Stop and save the video of ${name}` : `Record a video of ${name}`;
+  return <Button icon="record" class="rec" label={label} on={isRecorded} onClick={() => videos.toggleCamera(topic, name)} />;
 }
 
 /** The worst of what a display says about its picture. */

@@ -1,4 +1,4 @@
-/** The View menu: what is shown of every model, and of the world itself. */
+/** What is shown of every model, and of the world itself; a video of the view. */
 
 import type { JSX } from "preact";
 
@@ -9,12 +9,13 @@ import type { Command, Page } from "../page";
 import { isWorldPartShown, PART_NAMES, partsOf, WORLD_PART_NAMES } from "./shown_parts";
 import type { Shell } from "../shell";
 
-export function ViewMenu({ shell }: { readonly shell: Shell }): JSX.Element | null {
-  const { page } = shell;
-  if (page.world.manifest.value === null) return null;
+export function ViewMenu({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { page, videos } = shell;
+  const isRecorded = videos.has("");
   return (
     <div class="tools float">
-      <MenuButton icon="eye" label="Show in the view" items={() => shownItems(page)} />
+      {page.world.manifest.value !== null && <MenuButton icon="eye" label="Show in the view" items={() => shownItems(page)} />}
+      <Button icon="camera" label={isRecorded ? "Stop and save the video" : "Record a video of the view"} on={isRecorded} onClick={() => videos.toggleView()} />
     </div>
   );
 }

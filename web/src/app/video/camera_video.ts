@@ -1,0 +1,19 @@
+/** Pictures of a camera, for a video in the time of their stamps: simulated time, whatever the speed. */
+
+import { PictureStream } from "../../displays/pictures/picture_stream";
+import type { Connection } from "../../protocol/connection";
+import type { Recording } from "./recording";
+
+/** Hand the pictures of an image topic to a recording; returns how to stop. */
+export function recordCamera(connection: Connection, topic: string, recording: Recording): () => void {
+  const stream = new PictureStream(connection, topic);
+  const stop = stream.picture.subscribe((picture) => {
+    if (picture === null) return;
+    const { image, width, height, header } = picture;
+    recording.add(image, { left: 0, top: 0, width, height }, header.stamp.sec + header.stamp.nsec / 1e9);
+  });
+  return () => {
+    stop();
+    stream.close();
+  };
+}

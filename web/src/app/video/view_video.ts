@@ -1,0 +1,32 @@
+/** Pictures of the part of the view that no panel covers, for a video in the time of the clock. */
+
+import { freeArea } from "../../scene/free_area";
+import type { SceneView } from "../../scene/scene_view";
+import type { Recording } from "./recording";
+import { RATE } from "./video_file";
+
+/** Hand the pictures to a recording; returns how to stop. */
+export function recordView(scene: SceneView, recording: Recording): () => void {
+  const period = 1000 / RATE;
+  const draw = (): void => scene.invalidate(); // also while nothing moves
+  let next = performance.now();
+  let timer = setTimeout(draw, period);
+  const removeStep = scene.addStep({
+    after: ({ domElement }) => {
+      const now = performance.now();
+      if (now < next) return;
+      next = Math.max(next + period, now);
+      clearTimeout(timer);
+      timer = setTimeout(draw, period); // after this picture: a slow machine keeps time for the rest of the page
+      const { width, height } = scene.size.peek();
+      const area = freeArea(width, height, scene.freeArea.peek());
+      const scale = domElement.width / width;
+      const [left, top] = [area.left * scale, area.top * scale];
+      recording.add(domElement, { left, top, width: area.width * scale, height: area.height * scale }, now / 1000);
+    },
+  });
+  return () => {
+    clearTimeout(timer);
+    removeStep();
+  };
+}
