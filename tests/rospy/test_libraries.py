@@ -17,6 +17,7 @@ _DEBIAN_HAS = {
     "actionlib_goals.py",
     "actionlib_simple.py",
     "tf2_core.py",
+    "tf2_printed.py",
     "tf_buffer.py",
     "tf_graph.py",
     "transformations_composed.py",

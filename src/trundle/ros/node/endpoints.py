@@ -6,14 +6,21 @@ Adding and removing is thread-safe and does not block; everything else runs on t
 import threading
 from collections.abc import Awaitable, Callable
 from contextlib import AbstractContextManager
+from typing import Any
 
-from ..errors import MessageError
+from ..errors import MasterError, MessageError
 from .endpoint_recorder import Endpoint, EndpointRecorder
 from .node_context import NodeContext
 from .publisher import Publisher
 from .registration_queue import RegistrationQueue
 from .service import Service
 from .subscription import Subscription
+
+_CALLS = {
+    f"{prefix}{method}": f"{prefix} {what}"
+    for prefix in ("register", "unregister")
+    for method, what in (("Publisher", "publication"), ("Subscriber", "subscription"), ("Service", "service"))
+}
 
 
 class NodeEndpoints:
@@ -171,13 +178,19 @@ class NodeEndpoints:
             method, name, self._node.service_uri if method == "unregisterService" else self._node.uri
         )
 
-    async def _notify_master(self, method: str, *arguments: object) -> None:
-        await self._node.master.call(method, *arguments)
+    async def _call_master(self, method: str, name: str, *arguments: object) -> Any:
+        try:
+            return await self._node.master.call(method, name, *arguments)
+        except MasterError as error:
+            raise MasterError(f"unable to {_CALLS[method]} [{name}] with master: {error}") from None
+
+    async def _notify_master(self, method: str, name: str, *arguments: object) -> None:
+        await self._call_master(method, name, *arguments)
 
     async def _register_service(self, name: str) -> None:
         await self._notify_master("registerService", name, self._node.service_uri, self._node.uri)
         self._node.loop.local.notify_service_change()
 
     async def _register_subscriber(self, topic: str, type_name: str) -> None:
-        uris = await self._node.master.call("registerSubscriber", topic, type_name, self._node.uri)
+        uris = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
         self.publishers_changed(topic, [str(uri) for uri in uris])

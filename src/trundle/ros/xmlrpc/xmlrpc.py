@@ -27,6 +27,8 @@ class FaultError(Exception):
 
     def __init__(self, code: int, text: str) -> None:
         super().__init__(f"{text} (fault {code})")
+        self.code = code
+        self.text = text
 
 
 def encode_call(method: str, arguments: Sequence[object]) -> bytes:

@@ -91,3 +91,4 @@ for bad in (
         bad()
     except (TypeError, IndexError) as error:
         print(type(error).__name__)
+print(Vector, Frame, Rotation.__module__, Twist.__module__, Wrench.__module__)

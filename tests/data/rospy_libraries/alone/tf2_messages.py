@@ -22,7 +22,7 @@ import tf2_ros
 import tf2_sensor_msgs
 import tf_conversions
 from sensor_msgs import point_cloud2
-from tf_conversions import posemath
+from tf_conversions import posemath, transformations
 
 
 def r(*values):
@@ -75,3 +75,4 @@ tf = posemath.toTf(frame)
 print(r(*tf[0]), r(*tf[1]), tf_conversions.fromTf(tf) == frame)
 print([r(*row) for row in posemath.toMatrix(frame)], posemath.fromMatrix(posemath.toMatrix(frame)) == frame)
 print(np.allclose(posemath.toMatrix(frame)[:3, 3], [1, 2, 3]))
+print(r(*transformations.quaternion_from_euler(0, 0, 1)))

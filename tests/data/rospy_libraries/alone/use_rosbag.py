@@ -77,6 +77,7 @@ try:
     list(bag.read_messages())
 except ValueError as error:
     print(error)
+print(bag.get_message_count(), bag.get_start_time(), bag.get_end_time(), sorted(bag.get_type_and_topic_info().topics))
 (folder / "empty.bag").write_bytes(b"")
 (folder / "text.bag").write_text("no bag at all\n")
 rosbag.Bag(str(folder / "nothing.bag"), "w").close()

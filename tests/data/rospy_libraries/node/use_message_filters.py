@@ -46,6 +46,11 @@ print(
     cache.getElemBeforeTime(rospy.Time(3, 5)).header.stamp.to_sec(),
 )
 print(cache.getElemAfterTime(rospy.Time(30)), cache.getElemBeforeTime(rospy.Time(0)))
+unordered_source = Source()
+unordered = message_filters.Cache(unordered_source, 3)
+for stamp in (1, 3, 2):
+    unordered_source.signalMessage(stamped(PointStamped, stamp))
+print(unordered.getLast().header.stamp.to_sec(), unordered.getLatestTime().to_sec())
 empty = message_filters.Cache(Source())
 print(empty.getLast(), empty.getOldestTime(), empty.getLatestTime())
 headerless = Source()

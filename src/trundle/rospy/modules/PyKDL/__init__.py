@@ -8,6 +8,9 @@ from .vector import Vector
 
 __all__ = ["Equal", "Frame", "Rotation", "SetToZero", "Twist", "Vector", "Wrench", "addDelta", "diff", "dot"]
 
+for _class in (Frame, Rotation, Twist, Vector, Wrench):
+    _class.__module__ = __name__
+
 
 def __getattr__(name):
     if name.startswith("__"):

@@ -63,8 +63,8 @@ class Cache(SimpleFilter):
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self):
-        """The last message, or None."""
-        return self.cache_msgs[-1] if self.cache_msgs else None
+        """First message kept that has the stamp of the last one, or a newer one; None without messages."""
+        return self.getElemAfterTime(self.getLatestTime()) if self.cache_msgs else None
 
     def _pairs(self):
         return zip(list(self.cache_msgs), list(self.cache_times), strict=True)

@@ -80,6 +80,7 @@ class Bag:
         if mode not in ("r", "w", "a"):
             raise ValueError(f'mode "{mode}" is invalid')
         self._mode = mode
+        self._is_closed = False
         self._stream = None
         if isinstance(f, str | Path):
             self._filename = str(f)
@@ -258,15 +259,15 @@ class Bag:
 
     def close(self):
         """Close the file; a written one gets its index."""
-        if self._file is not None:
+        if not self._is_closed:
+            self._is_closed = True
             self._file.close()
-            self._file = None
             if self._stream is not None:
                 self._stream.close()
 
     def get_compression_info(self):
         """Named tuple: prevailing compression, size without it, size with it [bytes]."""
-        chunks = self._opened().chunks
+        chunks = self._file.chunks
         if not chunks:
             return _Compressions(self._compression, 0, 0)
         counts = collections.Counter(chunk.compression for chunk in chunks)
@@ -277,7 +278,7 @@ class Bag:
         """Number of messages: of all topics, a topic, or several."""
         if isinstance(topic_filters, str):
             topic_filters = [topic_filters]
-        counts = self._opened().counts
+        counts = self._file.counts
         return sum(count for each, count in counts.items() if topic_filters is None or each.topic in topic_filters)
 
     def get_start_time(self):
@@ -298,7 +299,7 @@ class Bag:
 
     def _ends(self):
         """First and last stamps of all topics [ns]."""
-        file = self._opened()
+        file = self._file
         if isinstance(file, ReadFile) and file.reader is not None and any(file.counts.values()):
             return [file.reader.start_ns], [file.reader.end_ns]
         stamps = [times for times in file.stamps_ns.values() if times]
@@ -310,7 +311,7 @@ class Bag:
         """Named tuple of `msg_types` (type → MD5) and `topics` (name → type, count, connections, frequency [Hz])."""
         if isinstance(topic_filters, str):
             topic_filters = [topic_filters]
-        counts, stamps = self._opened().counts, self._opened().stamps_ns
+        counts, stamps = self._file.counts, self._file.stamps_ns
         types = {each.type: each.md5sum for each in sorted(counts, key=lambda each: each.type)}
         topics = {}
         for name in sorted({each.topic for each in counts}):
@@ -344,7 +345,7 @@ class Bag:
         return BagSummary(reader, str(self._filename), with_rates=True) if reader is not None else None
 
     def _opened(self):
-        if self._file is None:
+        if self._is_closed:
             raise ValueError("I/O operation on closed bag")
         return self._file
 

@@ -6,6 +6,8 @@ from trundle.ros.errors import WireError
 from trundle.ros.xmlrpc.proxy import blocking_call
 from trundle.ros.xmlrpc.xmlrpc import FaultError
 
+from .binary import unwrap_bytes, wrap_bytes
+
 _TIMEOUT_S = 60.0
 
 
@@ -21,13 +23,14 @@ class ServerProxy:
 
         def call(*arguments: Any) -> Any:
             try:
-                return blocking_call(self._uri, name, *arguments, timeout_s=_TIMEOUT_S)
+                given = [unwrap_bytes(each) for each in arguments]
+                return wrap_bytes(blocking_call(self._uri, name, *given, timeout_s=_TIMEOUT_S))
             except FaultError as error:
                 from xmlrpc.client import Fault
 
-                raise Fault(1, str(error)) from None
+                raise Fault(error.code, error.text) from None
             except ValueError as error:  # as of xmlrpc.client, for None and for long integers
-                raise (OverflowError if "32" in str(error) else TypeError)(str(error)) from None
+                raise (OverflowError if "does not fit" in str(error) else TypeError)(str(error)) from None
             except WireError as error:
                 raise OSError(str(error)) from None
 

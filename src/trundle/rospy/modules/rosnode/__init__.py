@@ -116,3 +116,14 @@ def rosnode_listnodes(namespace: str | None = None, list_uri: bool = False, list
     master = rosgraph.Master(ID)
     for name in get_node_names(namespace):
         print(f"{get_api_uri(master, name)} \t{name}" if list_all else get_api_uri(master, name) if list_uri else name)
+
+
+def rosnodemain(argv: list[str] | None = None) -> None:
+    """Run the command rosnode with its arguments; default: those of this process.
+
+    Raises:
+        SystemExit: always, with the exit code.
+    """
+    from trundle.cli.main import main
+
+    sys.exit(main(["node", *(sys.argv if argv is None else argv)[1:]]))

@@ -9,6 +9,7 @@ from typing import Any
 import yaml
 
 import rosgraph
+from rosgraph.binary import unwrap_bytes
 from rosgraph.names import get_ros_namespace, make_global_ns, ns_join
 
 NAME = "rosparam"
@@ -75,10 +76,10 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
     if verbose:
         print_params(tree, param)
     if not filename:
-        yaml.safe_dump(tree, sys.stdout)
+        yaml.dump(tree, sys.stdout, _Dumper)
         return
     with open(filename, "w", encoding="utf-8") as file:
-        yaml.safe_dump(tree, file)
+        yaml.dump(tree, file, _Dumper)
 
 
 def delete_param(param: str, verbose: bool = False) -> None:
@@ -158,6 +159,13 @@ class _Loader(yaml.SafeLoader):
     """YAML with angles: `deg(90)`, `rad(pi/2)`, `!degrees 90`, `!radians pi`."""
 
 
+class _Dumper(yaml.SafeDumper):
+    """YAML with binary values, as `!!binary`."""
+
+    def represent_data(self, data: Any) -> Any:
+        return super().represent_data(unwrap_bytes(data))
+
+
 _ANGLE = re.compile(r"^(deg|rad)\((.*)\)$")
 
 
@@ -186,3 +194,15 @@ _Loader.add_implicit_resolver("!angle", _ANGLE, list("dr"))
 _Loader.add_constructor("!angle", _construct_angle)
 _Loader.add_constructor("!degrees", _construct_degrees)
 _Loader.add_constructor("!radians", _construct_radians)
+
+
+def yamlmain(argv: list[str] | None = None) -> None:
+    """Run the command rosparam with its arguments; default: those of this process.
+
+    Raises:
+        SystemExit: it failed.
+    """
+    from trundle.cli.main import main
+
+    if (code := main(["param", *(sys.argv if argv is None else argv)[1:]])) != 0:
+        sys.exit(code)

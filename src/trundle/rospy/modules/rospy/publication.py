@@ -43,7 +43,7 @@ class Publication:
         self.resolved_name = self.name = topic
         self.data_class = data_class
         self.type = data_class._type
-        self.queue_size: int | None = None
+        self.queue_size: float | None = None
         self.is_latch = False
         self.latch: Any = None
         self.headers: dict[str, str] = {}
@@ -67,7 +67,12 @@ class Publication:
         self._publisher = made
 
     def configure(
-        self, *, listener: SubscribeListener | None, latch: bool, headers: dict[str, str] | None, queue_size: int | None
+        self,
+        *,
+        listener: SubscribeListener | None,
+        latch: bool,
+        headers: dict[str, str] | None,
+        queue_size: float | None,
     ) -> None:
         """Apply the options of a `rospy.Publisher`."""
         if listener is not None:
@@ -81,6 +86,11 @@ class Publication:
             self.queue_size = queue_size
         if self._publisher is not None:
             self._publisher.configure()
+
+    @property
+    def limit(self) -> int | None:
+        """Number of messages kept for a slow subscriber; None: unlimited, also for a queue_size of 0 or less."""
+        return None if self.queue_size is None or self.queue_size <= 0 else max(int(self.queue_size), 1)
 
     def get_num_connections(self) -> int:
         """Number of subscribers."""
@@ -158,7 +168,7 @@ class FramePublisher(GraphPublisher):
             publication.resolved_name,
             publication.type,
             latch=publication.is_latch,
-            queue_size=publication.queue_size or None,
+            queue_size=publication.limit,
             on_connect=None,
             raw_type=(cls._md5sum, cls._full_text),
             unregister=node.endpoints.remove_publisher,
@@ -171,7 +181,7 @@ class FramePublisher(GraphPublisher):
         from collections import deque
 
         self.latch = self._publication.is_latch
-        self._queue_size = self._publication.queue_size or None
+        self._queue_size = self._publication.limit
         self._outbox = deque(self._outbox, maxlen=self._queue_size)
 
     @property

@@ -61,8 +61,9 @@ def sleep(duration: Any) -> None:
     """
     if rostime.is_wallclock():
         seconds = duration.to_sec() if isinstance(duration, genpy.Duration) else duration
-        if seconds >= 0:
-            rostime.wallsleep(seconds)
+        if seconds < 0:
+            return
+        rostime.wallsleep(seconds)
         return
     if not isinstance(duration, genpy.Duration):
         duration = genpy.Duration.from_sec(duration)

@@ -1,6 +1,7 @@
 """Services of the graph: types, classes, calls."""
 
 import socket
+import sys
 from io import BytesIO
 from typing import Any
 
@@ -134,3 +135,15 @@ def call_service(service_name: str, service_args: list[Any], service_class: Any 
         return request, rospy.ServiceProxy(service_name, made)(request)
     except rospy.ServiceException as error:
         raise ROSServiceException(str(error)) from None
+
+
+def rosservicemain(argv: list[str] | None = None) -> None:
+    """Run the command rosservice with its arguments; default: those of this process.
+
+    Raises:
+        SystemExit: it failed.
+    """
+    from trundle.cli.main import main
+
+    if (code := main(["service", *(sys.argv if argv is None else argv)[1:]])) != 0:
+        sys.exit(code)

@@ -174,3 +174,15 @@ def _is_shutdown() -> bool:
     import rospy
 
     return rospy.is_shutdown()
+
+
+def rostopicmain(argv: list[str] | None = None) -> None:
+    """Run the command rostopic with its arguments; default: those of this process.
+
+    Raises:
+        SystemExit: it failed.
+    """
+    from trundle.cli.main import main
+
+    if (code := main(["topic", *(sys.argv if argv is None else argv)[1:]])) != 0:
+        sys.exit(code)

@@ -19,7 +19,7 @@ class BufferCore:
 
     def __init__(self, cache_time=None):
         """Start empty; `cache_time` is a rospy.Duration, 10 s if None."""
-        self._cache_ns = 10 * 10**9 if cache_time is None else cache_time.to_nsec()
+        self._cache_ns = 10 * 10**9 if cache_time is None else _nanoseconds(cache_time)
         self._tree = FrameTree()
         self._authorities = {}
         self._lock = threading.RLock()
@@ -41,7 +41,7 @@ class BufferCore:
         _check_types(target_frame, source_frame)
         with self._lock:
             self._check(("target_frame", target_frame), ("source_frame", source_frame))
-            stamp, pose = self._tree.transform(target_frame, source_frame, time.to_nsec())
+            stamp, pose = self._tree.transform(target_frame, source_frame, _nanoseconds(time))
         return _message(target_frame, source_frame, stamp, pose)
 
     def lookup_transform_full_core(self, target_frame, target_time, source_frame, source_time, fixed_frame):
@@ -53,8 +53,8 @@ class BufferCore:
         _check_types(target_frame, source_frame, fixed_frame)
         with self._lock:
             self._check(("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame))
-            _, fixed_from_source = self._tree.transform(fixed_frame, source_frame, source_time.to_nsec())
-            stamp, target_from_fixed = self._tree.transform(target_frame, fixed_frame, target_time.to_nsec())
+            _, fixed_from_source = self._tree.transform(fixed_frame, source_frame, _nanoseconds(source_time))
+            stamp, target_from_fixed = self._tree.transform(target_frame, fixed_frame, _nanoseconds(target_time))
         translation, rotation = compose(target_from_fixed, fixed_from_source)
         return _message(target_frame, source_frame, stamp, (translation, with_matrix_sign(rotation)))
 
@@ -63,7 +63,7 @@ class BufferCore:
         _check_types(target_frame, source_frame)
         return self._try(
             (("target_frame", target_frame), ("source_frame", source_frame)),
-            lambda: self._tree.transform(target_frame, source_frame, time.to_nsec()),
+            lambda: self._tree.transform(target_frame, source_frame, _nanoseconds(time)),
         )
 
     def can_transform_full_core(self, target_frame, target_time, source_frame, source_time, fixed_frame):
@@ -71,8 +71,8 @@ class BufferCore:
         _check_types(target_frame, source_frame, fixed_frame)
 
         def look_up():
-            self._tree.transform(target_frame, fixed_frame, target_time.to_nsec())
-            self._tree.transform(fixed_frame, source_frame, source_time.to_nsec())
+            self._tree.transform(target_frame, fixed_frame, _nanoseconds(target_time))
+            self._tree.transform(fixed_frame, source_frame, _nanoseconds(source_time))
 
         return self._try(
             (("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame)), look_up
@@ -144,8 +144,8 @@ class BufferCore:
         """Frames on the way from the source to the target."""
         with self._lock:
             self._check(("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame))
-            to_fixed = self._tree.chain(fixed_frame, source_frame, source_time.to_nsec())
-            return [*to_fixed, *self._tree.chain(target_frame, fixed_frame, target_time.to_nsec())[1:]]
+            to_fixed = self._tree.chain(fixed_frame, source_frame, _nanoseconds(source_time))
+            return [*to_fixed, *self._tree.chain(target_frame, fixed_frame, _nanoseconds(target_time))[1:]]
 
     def _set(self, transform, authority, kind):
         """Check a transform and add it to the frame's history; faults go to stderr."""
@@ -238,6 +238,12 @@ def _check_types(*frames):
     for frame in frames:
         if not isinstance(frame, str):
             raise TypeError(f"a frame's name must be str, not {type(frame).__name__}")
+
+
+def _nanoseconds(time):
+    if not hasattr(time, "to_nsec"):
+        raise TypeError("time must have a to_sec method, e.g. rospy.Time or rospy.Duration")
+    return time.to_nsec()
 
 
 def _message(target, source, stamp, pose):

@@ -38,8 +38,8 @@ def compose(a_from_b, b_from_c):
 def invert(a_from_b):
     """`b_from_a`."""
     (x, y, z), (qx, qy, qz, qw) = a_from_b
-    back = (-qx, -qy, -qz, qw)
-    return rotate(back, (-x, -y, -z)), back
+    back = (0.0 - qx, 0.0 - qy, 0.0 - qz, qw)  # no -0.0, which would be printed
+    return rotate(back, (0.0 - x, 0.0 - y, 0.0 - z)), back
 
 
 def with_matrix_sign(q):

@@ -1,5 +1,11 @@
 """tf2 on the ROS graph: buffer, listener, broadcasters, and the client of a buffer server."""
 
+from actionlib_msgs.msg import GoalStatus
+from geometry_msgs.msg import TransformStamped
+from std_msgs.msg import Header
+from tf2_msgs.msg import LookupTransformAction, LookupTransformGoal, TFMessage
+from tf2_msgs.srv import FrameGraph, FrameGraphResponse
+
 from tf2_py import (
     BufferCore,
     ConnectivityException,
@@ -33,16 +39,24 @@ __all__ = [
     "ConnectivityException",
     "ConvertRegistration",
     "ExtrapolationException",
+    "FrameGraph",
+    "FrameGraphResponse",
+    "GoalStatus",
+    "Header",
     "InvalidArgumentException",
     "LookupException",
+    "LookupTransformAction",
+    "LookupTransformGoal",
     "NotImplementedException",
     "Stamped",
     "StaticTransformBroadcaster",
+    "TFMessage",
     "TimeoutException",
     "TransformBroadcaster",
     "TransformException",
     "TransformListener",
     "TransformRegistration",
+    "TransformStamped",
     "TypeException",
     "convert",
 ]

@@ -4,6 +4,8 @@ import contextlib
 import threading
 from typing import Any
 
+from rosgraph.binary import wrap_bytes
+
 from .. import core, graph
 
 
@@ -70,7 +72,7 @@ def watch(name: str) -> Any:
     node = graph.node
     if node is None:
         raise KeyError(name)
-    value = graph.run(lambda: node.params.watch(name, update))
+    value = wrap_bytes(graph.run(lambda: node.params.watch(name, update)))
     if not core.is_shutdown():
         cache.set(name, value)
     return value
@@ -79,7 +81,7 @@ def watch(name: str) -> Any:
 def update(key: str, value: Any) -> None:
     """Set a parameter, or a part of one, if it is watched."""
     with contextlib.suppress(KeyError):
-        cache.update(key, value)
+        cache.update(key, wrap_bytes(value))
 
 
 def _with_part(tree: Any, path: str, value: Any) -> Any:
