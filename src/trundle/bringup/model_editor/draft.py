@@ -223,7 +223,7 @@ class Draft:
         if not links:
             raise UsageError("a joint joins two links: add them first")
         owner = _link_part(into)
-        joined = {joint.find("child").text for joint in document.model.all("joint") if joint.find("child")}  # pyright: ignore
+        joined = {child.text for joint in document.model.all("joint") if (child := joint.find("child"))}
         free = [name for name in links[1:] if name not in joined]
         child = owner[-1] if len(owner) == 2 else (free or links)[-1]
         return next((name for name in links if name != child), WORLD), child
