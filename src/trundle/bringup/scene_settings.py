@@ -1,11 +1,9 @@
 """Ambient light, background, sky and fog of a world, as the page's client reads them."""
 
-from typing import Any
-
 from trundle.model import World
 
 
-def scene_settings(world: World) -> dict[str, Any]:
+def scene_settings(world: World) -> dict[str, object]:
     """Return the entry `scene` of the manifest: docs/decisions/0020."""
     scene, fog = world.scene, world.scene.fog
     return {

@@ -232,6 +232,6 @@ def _angle(text: str, interpreter: "Interpreter") -> float:
     try:
         if text.startswith("deg("):
             return math.radians(float(inner))
-        return float(interpreter.evaluate(inner, MATH_NAMES))
+        return interpreter.evaluate_number(inner, MATH_NAMES)
     except Exception:  # user code may raise anything
         raise UsageError(f"not an angle: {text!r}") from None

@@ -22,7 +22,7 @@ class Comprehension(NamedTuple):
     cost: int
     """Operations per iteration."""
 
-    def evaluate(self, running: Evaluator, around: Frame) -> Iterator[list[Any]]:
+    def evaluate(self, running: Evaluator, around: Frame) -> Iterator[list[object]]:
         """Evaluate the outermost iterable, and iterate over the elements."""
         running.budget.allocate_generator()
         return self._iterate(running, {None: around}, 0, iter(self.loops[0].items(running, around)))

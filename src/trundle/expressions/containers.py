@@ -37,7 +37,7 @@ def set_of(caller: Caller, items: Iterable[object]) -> set[object]:
     return found
 
 
-def mapping_of(caller: Caller, value: Any) -> dict[str, Any]:
+def mapping_of(caller: Caller, value: object) -> dict[str, object]:
     """Return the arguments of `**value`."""
     if not isinstance(value, dict):
         raise TypeError(f"argument after ** must be a mapping, not {type(value).__name__}")

@@ -105,7 +105,7 @@ class Lambda(Callee):
         self._signature, self._defaults, self._body, self._cost = signature, defaults, body, cost
         self._running, self._around = running, around
 
-    def call(self, _caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
+    def call(self, _caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> object:
         self._running.budget.spend(_STEPS_OF_A_CALL + self._cost + len(values))
         frame: dict[Any, Any] = {None: self._around, **self._defaults}
         arguments = self._signature

@@ -97,7 +97,7 @@ def _set(kind: type) -> Guarded:
     return call
 
 
-def dictionary(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> dict[Any, Any]:
+def dictionary(caller: Caller, values: Sequence[object], named: Mapping[str, object]) -> dict[object, object]:
     """Create a dictionary from another, or from pairs."""
     found: dict[Any, Any] = {}
     pairs: Iterable[Any] = ()
@@ -172,7 +172,7 @@ def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
         yield item
 
 
-def sort(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> list[Any]:
+def sort(caller: Caller, values: Sequence[object], named: Mapping[str, object]) -> list[object]:
     """Sort as sorted() does."""
     (items,) = _only(values, {}, "sorted", 1)
     found = caller.budget.collect(items)

@@ -56,7 +56,7 @@ class Interpreter:
         self.dotted = dotted
         self._compiled: dict[str, _Compiled] = {}
 
-    def evaluate(self, text: str, names: Names) -> Any:
+    def evaluate(self, text: str, names: Names) -> object:
         """Evaluate an expression.
 
         Raises:
@@ -76,6 +76,16 @@ class Interpreter:
             raise ExpressionError("a text with half of a surrogate pair, which no file can hold") from None
         except (RecursionError, MemoryError):
             raise ExpressionError("an expression or a value nested too deeply") from None
+
+    def evaluate_number(self, text: str, names: Names) -> float:
+        """Evaluate an expression whose value is a number, or a text with one.
+
+        Raises:
+            TypeError, ValueError: it is neither.
+            Exception: as `evaluate`.
+        """
+        value: Any = self.evaluate(text, names)
+        return float(value)
 
     def check(self, text: str) -> None:
         """Compile an expression without evaluating it.

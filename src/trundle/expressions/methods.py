@@ -22,7 +22,7 @@ class Method(Callee):
     owner: object
     guard: _Guarded
 
-    def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
+    def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> object:
         return self.guard(caller, self.owner, values, named)
 
     def __repr__(self) -> str:

@@ -8,7 +8,9 @@ from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 
 
-def score(envs: "VectorEnv[Any, Any, Any]", policy: Callable[[Any], Any], *, seed: int = 0) -> NDArray[np.float64]:
+def score(
+    envs: "VectorEnv[Any, Any, Any]", policy: Callable[[object], object], *, seed: int = 0
+) -> NDArray[np.float64]:
     """Return (worlds,) the return of an episode in each world, which begin with the seeds `seed`, `seed` + 1, …"""
     observation, _ = envs.reset(seed=seed)
     returns, running = np.zeros(envs.num_envs), np.ones(envs.num_envs, dtype=np.bool_)

@@ -29,8 +29,8 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
         self._overview = None if render_mode is None else Overview(worlds.states, camera)
 
     def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observed, dict[str, Any]]:
+        self, *, seed: int | None = None, options: dict[str, object] | None = None
+    ) -> tuple[Observed, dict[str, object]]:
         """Begin an episode; the same seed gives the same bytes."""
         super().reset(seed=seed, options=options)
         self.worlds.random[0] = self.np_random

@@ -42,8 +42,8 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
         self._overview = None if render_mode is None else Overview(worlds.states, camera)
 
     def reset(
-        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observed, dict[str, Any]]:
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, object] | None = None
+    ) -> tuple[Observed, dict[str, object]]:
         """Begin an episode of every world.
 
         Args:

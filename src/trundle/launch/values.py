@@ -82,7 +82,7 @@ def _radians(loader: _Loader, node: yaml.ScalarNode) -> float:
     text = str(loader.construct_scalar(node)).strip()
     inner = text[4:-1] if text.startswith("rad(") else text
     try:
-        return float(loader.interpreter.evaluate(inner, MATH_NAMES))
+        return loader.interpreter.evaluate_number(inner, MATH_NAMES)
     except Exception:  # user code may raise anything
         raise ValueError(f"{text!r} is not an angle in radians") from None
 

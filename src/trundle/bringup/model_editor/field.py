@@ -42,7 +42,7 @@ class Section(Struct, frozen=True, kw_only=True):
     fields: tuple[Field, ...]
 
 
-def field_json(element: XmlElement, field: Field) -> dict[str, Any]:
+def field_json(element: XmlElement, field: Field) -> dict[str, object]:
     """Return a field with its value as the client shows it."""
     text = read_text(element, field.name)
     shown: dict[str, Any] = {"name": field.name, "label": field.label, "kind": field.kind, "value": text}

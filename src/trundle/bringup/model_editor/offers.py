@@ -1,7 +1,5 @@
 """Lists of what a draft can be given: plugins, sensors, meshes of the model path."""
 
-from typing import Any
-
 from trundle.packages import Packages
 from trundle.plugins import BUILTIN, SENSOR_PLUGINS, plugin_documentation
 
@@ -12,7 +10,7 @@ _MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf")
 _MAX_MESHES = 500
 
 
-def draft_offers(packages: Packages) -> dict[str, Any]:
+def draft_offers(packages: Packages) -> dict[str, object]:
     """Return the plugins with what they do, types of sensors and joints, and URIs of meshes."""
     plugins = [{"filename": name, "about": _about(name)} for name in sorted({*BUILTIN, *SENSOR_PLUGINS})]
     return {"plugins": plugins, "sensors": SENSOR_TYPES, "joints": JOINT_TYPES, "meshes": _meshes(packages)}

@@ -1,7 +1,6 @@
 """Saving of a draft as a folder with model.sdf and model.config, below the folder where the simulation was started."""
 
 from pathlib import Path
-from typing import Any
 
 from trundle.description import move_uris
 from trundle.diagnostics import UsageError
@@ -13,7 +12,7 @@ from ..model_editor.model_files import model_config, target_files
 from .world_saver import check_inside, is_file_name, write_file
 
 
-def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages) -> dict[str, Any]:
+def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages) -> dict[str, object]:
     """Write a draft; return `folder`, or `exists` where a file is in the way that may not be replaced.
 
     Raises:

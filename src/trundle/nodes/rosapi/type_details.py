@@ -20,7 +20,7 @@ _TIME_FIELDS: dict[str, Any] = {
 }
 
 
-def type_details(messages: Messages, type_name: str) -> list[dict[str, Any]]:
+def type_details(messages: Messages, type_name: str) -> list[dict[str, object]]:
     """Describe a type and all types within, each once, depth first.
 
     Raises:

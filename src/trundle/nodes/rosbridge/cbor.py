@@ -43,7 +43,7 @@ def dump_cbor(value: object) -> bytes:
     return bytes(out)
 
 
-def cbor_values(messages: Messages, message: Message, type_name: str) -> dict[str, Any]:
+def cbor_values(messages: Messages, message: Message, type_name: str) -> dict[str, object]:
     """Fields of a message for `dump_cbor`."""
     return {
         name: _field(messages, getattr(message, f"{name}_" if iskeyword(name) else name), kind)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from .errors import RosbridgeError
 
@@ -18,7 +17,7 @@ class Field:
     required: bool = True
 
 
-def check_fields(message: Mapping[str, Any], fields: tuple[Field, ...]) -> None:
+def check_fields(message: Mapping[str, object], fields: tuple[Field, ...]) -> None:
     """Check that a message has the fields.
 
     Raises:

@@ -39,7 +39,7 @@ class JsonEncoder:
         self._messages = messages
         self._converters: dict[str, _Convert] = {}
 
-    def values(self, message: Message, type_name: str) -> dict[str, Any]:
+    def values(self, message: Message, type_name: str) -> dict[str, object]:
         """Fields of a message."""
         return self._converter(type_name)(message)
 
@@ -93,7 +93,7 @@ class JsonDecoder:
     def __init__(self, messages: Messages) -> None:
         self._messages = messages
 
-    def fields(self, values: object, type_name: str, now_ns: int) -> dict[str, Any]:
+    def fields(self, values: object, type_name: str, now_ns: int) -> dict[str, object]:
         """Fields of a message; a given header is stamped now unless it has a stamp.
 
         Raises:

@@ -13,7 +13,7 @@ from .json_values import JsonDecoder, JsonEncoder
 _MAX_PENDING = 1000
 
 
-async def call_service(node: Node, encoder: JsonEncoder, name: str, arguments: object) -> dict[str, Any]:
+async def call_service(node: Node, encoder: JsonEncoder, name: str, arguments: object) -> dict[str, object]:
     """Call a service, and return the fields of its response.
 
     Args:
@@ -38,7 +38,7 @@ async def call_service(node: Node, encoder: JsonEncoder, name: str, arguments: o
     return encoder.values(response, kind.response)
 
 
-def request_fields(node: Node, type_name: str, arguments: object) -> dict[str, Any]:
+def request_fields(node: Node, type_name: str, arguments: object) -> dict[str, object]:
     """Fields of a request.
 
     Raises:
@@ -56,7 +56,7 @@ class ClientService:
     _numbers = itertools.count(1)
 
     def __init__(
-        self, node: Node, name: str, type_name: str, encoder: JsonEncoder, send: Callable[[dict[str, Any]], None]
+        self, node: Node, name: str, type_name: str, encoder: JsonEncoder, send: Callable[[dict[str, object]], None]
     ) -> None:
         self._node = node
         self._name = name

@@ -1,7 +1,7 @@
 """Status messages to one client, and what the log says of it."""
 
 from collections.abc import Callable
-from typing import Any, Literal, Protocol
+from typing import Literal, Protocol
 
 _LEVELS = {"none": 0, "error": 1, "warning": 2, "info": 3}
 _MAX_LOGGED = 200
@@ -23,7 +23,7 @@ class Log(Protocol):
 class Status:
     """Reports up to a level, which the client sets."""
 
-    def __init__(self, number: int, log: Log, send: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(self, number: int, log: Log, send: Callable[[dict[str, object]], None]) -> None:
         self._number = number
         self._log = log
         self._send = send
@@ -41,7 +41,7 @@ class Status:
             level, f"[Client {self._number}] {text}" if key is None else f"[Client {self._number}] [id: {key}] {text}"
         )
         if _LEVELS[level] <= self._level:
-            message = {"op": "status", "level": level, "msg": text}
+            message: dict[str, object] = {"op": "status", "level": level, "msg": text}
             self._send(message if key is None else {**message, "id": key})
 
     def _write(self, level: Level, text: str) -> None:

@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -38,7 +38,13 @@ class Subscription:
     """One topic of one client."""
 
     def __init__(
-        self, node: Node, topic: str, encoder: JsonEncoder, send: Send, wait_idle: Callable[[], Any], kind: str
+        self,
+        node: Node,
+        topic: str,
+        encoder: JsonEncoder,
+        send: Send,
+        wait_idle: Callable[[], Awaitable[object]],
+        kind: str,
     ) -> None:
         """Call `subscribe` next.
 
@@ -173,7 +179,7 @@ async def make_subscription(
     *,
     encoder: JsonEncoder,
     send: Send,
-    wait_idle: Callable[[], Any],
+    wait_idle: Callable[[], Awaitable[object]],
     is_raw: bool,
 ) -> Subscription:
     """Make a subscription with the given or the established type.

@@ -172,7 +172,7 @@ _ANGLE = re.compile(r"^(deg|rad)\((.*)\)$")
 def _angle(text: str, *, is_degrees: bool) -> float:
     from trundle.expressions import MATH_NAMES, Interpreter
 
-    value = float(Interpreter().evaluate(text, MATH_NAMES))  # pyright: ignore[reportArgumentType]
+    value = Interpreter().evaluate_number(text, MATH_NAMES)
     return math.radians(value) if is_degrees else value
 
 
