@@ -16,7 +16,7 @@ def wrap_bytes(value: Any) -> Any:
 def unwrap_bytes(value: Any) -> Any:
     """Copy of a value with each Binary as bytes."""
     client = sys.modules.get("xmlrpc.client")
-    if client is None:  # without it nobody can have made one
+    if client is None:  # a Binary is made of that module
         return value
     return value.data if isinstance(value, client.Binary) else _rebuilt(value, unwrap_bytes)
 
