@@ -65,8 +65,10 @@ class Motors:
         self._motor_dofs = find_table(compiled.model, "motors")[:, 3].astype(np.intp)
         self._sleeping_efforts: tuple[bytes, NDArray[np.float64]] = (b"", np.empty(0))
         """Degrees of freedom and positions of sleeping motors, and the efforts (nv,) of all."""
+        self._active: tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.int32]]
+        """Degrees of freedom of active motors, their trees, and where their positions are in qpos."""
         self._always_enabled = False
-        self._update_actuation_flag()
+        self._update_active()
 
     def command_effort(self, axis: int, effort: float) -> None:
         """Apply an effort [N·m or N] to an axis within its limits, and switch its motor off.
@@ -124,7 +126,7 @@ class Motors:
         self._rates[actuator] = rate
         self._data.ctrl[actuator] = command
         if last is None or (last[1] > 0.0) != (most > 0.0):
-            self._update_actuation_flag()
+            self._update_active()
         self._wake(dof)
 
     def write_efforts(self) -> None:
@@ -138,11 +140,13 @@ class Motors:
         Args:
             evaluate: returns the efforts (nv,) of the current state with all trees awake.
         """
-        dofs = self._motor_dofs[self._model.tendon_frictionloss > 0.0]
-        dofs = dofs[self._data.tree_asleep[self._model.dof_treeid[dofs]] >= 0]
+        dofs, trees, positions = self._active
+        asleep = self._data.tree_asleep[trees] >= 0
+        if not asleep.all():
+            dofs, positions = dofs[asleep], positions[asleep]
         if not dofs.size:
             return
-        key = dofs.tobytes() + self._data.qpos[self._model.jnt_qposadr[self._model.dof_jntid[dofs]]].tobytes()
+        key = dofs.tobytes() + self._data.qpos[positions].tobytes()
         if key != self._sleeping_efforts[0]:
             self._sleeping_efforts = key, evaluate()
         self._data.qfrc_actuator[dofs] = self._sleeping_efforts[1][dofs]
@@ -156,12 +160,12 @@ class Motors:
     def always_enabled(self, value: bool) -> None:
         if value != self._always_enabled:
             self._always_enabled = value
-            self._update_actuation_flag()
+            self._update_active()
 
     def invalidate(self) -> None:
         """Forget the last commands after another writer changed the arrays."""
         self._commands.clear()
-        self._update_actuation_flag()
+        self._update_active()
 
     def save(self) -> MotorCommands:
         """Save the commands."""
@@ -172,16 +176,18 @@ class Motors:
         self._model.tendon_frictionloss[:] = saved.max_efforts
         self._rates[:] = saved.rates
         self._commands = dict(saved.last)
-        self._update_actuation_flag()
+        self._update_active()
 
     def switch_off(self) -> None:
         """Switch every motor off."""
         self._model.tendon_frictionloss[:] = 0
         self.invalidate()
 
-    def _update_actuation_flag(self) -> None:
+    def _update_active(self) -> None:
         """Disable actuation while all motors are inactive, which saves a seventh of a step at rest."""
         model = self._model
-        is_on = self._always_enabled or bool(model.tendon_frictionloss.any())
+        dofs = self._motor_dofs[model.tendon_frictionloss > 0.0]
+        self._active = dofs, model.dof_treeid[dofs], model.jnt_qposadr[model.dof_jntid[dofs]]
+        is_on = self._always_enabled or dofs.size > 0
         flags = model.opt.disableflags
         model.opt.disableflags = flags & ~_NO_MOTORS if is_on else flags | _NO_MOTORS

@@ -68,10 +68,9 @@ class SleepPolicy:
             mujoco.mj_step(model, data)  # trees with new commands wake
             count -= 1
             if self._all_sleep():
-                time_s, h = data.time, model.opt.timestep
-                for _ in range(count):  # one by one, as MuJoCo: equal to the bit
-                    time_s += h
-                data.time = time_s
+                times = np.empty(count + 1)
+                times[0], times[1:] = data.time, model.opt.timestep
+                data.time = np.add.accumulate(times)[-1]  # one by one, as MuJoCo: equal to the bit
                 return
         mujoco.mj_step(model, data, nstep=count)
 
@@ -80,6 +79,8 @@ class SleepPolicy:
 
     def update(self) -> None:
         """Enable sleeping if trees wholly at rest, that may sleep, have at least half of the degrees of freedom."""
+        if self._all_sleep():
+            return
         moving = self._model.tree_sleep_policy == _NEVER
         moving[self._trees[np.abs(self._data.qvel) >= TOLERANCE]] = True
         still = np.count_nonzero(~moving[self._trees])
