@@ -1,12 +1,13 @@
 """Reader of datasets' plans."""
 
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal, get_args
 
 from trundle.diagnostics import DescriptionError, UsageError
-from trundle.trials import YamlNode, read_yaml
+from trundle.trials import YamlNode, description_path, read_source, read_yaml
 
 from .object_reader import read_distractors, read_objects, read_paint
 from .plan import CameraPlan, DatasetPlan, Format, LidarPlan, LightPlan, Numbers, Orbit
@@ -25,29 +26,26 @@ _MAX_COUNT, _MAX_SIDE_PX, _MAX_SAMPLES, _MAX_PX = 100_000_000, 8192, 4, 1 << 25
 _MAX_RAYS = 1 << 20
 
 
-def load_dataset_plan(file: Path, *, count: int | None = None) -> DatasetPlan:
-    """Read a plan's file.
+def load_dataset_plan(
+    plan: "str | os.PathLike[str] | Mapping[str, object]", *, count: int | None = None
+) -> DatasetPlan:
+    """Read a plan's file, or a dictionary.
 
     Args:
-        file: YAML.
+        plan: path of YAML, or the dictionary.
         count: number of pictures; None: the plan's.
 
     Raises:
-        UsageError: it cannot be read.
+        UsageError: the file cannot be read.
         DescriptionError: it is not a plan; with its line.
     """
-    try:
-        text = file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"{file}: {error.strerror}; give the YAML file of a plan") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{file}: not a text; give the YAML file of a plan") from None
-    plan = read_dataset_plan(text, file=str(file), folder=file.resolve().parent)
+    source = read_source(plan)
+    read = read_dataset_plan(source.text, file=source.file, folder=source.folder)
     if count is None:
-        return plan
+        return read
     if not 1 <= count <= _MAX_COUNT:
         raise UsageError(f"{count} pictures; give 1 to {_MAX_COUNT}")
-    return replace(plan, count=count)
+    return replace(read, count=count)
 
 
 def read_dataset_plan(text: str, *, file: str, folder: Path) -> DatasetPlan:
@@ -82,7 +80,7 @@ def read_dataset_plan(text: str, *, file: str, folder: Path) -> DatasetPlan:
         file=file,
         folder=folder,
         text=text,
-        world=world_path(found["world"], folder),
+        world=description_path(found["world"], folder, "a world or model"),
         world_at=found["world"].at,
         count=count,
         seed=found["seed"].whole("seed", at_least=0) if "seed" in found else 0,
@@ -101,23 +99,9 @@ def read_dataset_plan(text: str, *, file: str, folder: Path) -> DatasetPlan:
         ambient=read_quantity(found["ambient"], "ambient", at_least=0, at_most=1) if "ambient" in found else None,
         background=read_colour(found["background"], "background") if "background" in found else None,
         lidar=lidar,
-        apart=_flag(found, "apart", default=True),
+        apart="apart" not in found or found["apart"].flag("apart"),
         settle_s=_seconds(found["settle"]) if "settle" in found else 0.0,
     )
-
-
-def world_path(node: YamlNode, folder: Path) -> str:
-    """Return a description's name; a path is relative to the plan."""
-    name = node.text("a world or model")
-    beside = folder / name
-    return str(beside) if "://" not in name and beside.exists() else name
-
-
-def _flag(found: Mapping[str, YamlNode], name: str, *, default: bool) -> bool:
-    if name not in found:
-        return default
-    value = found[name].value
-    return value if isinstance(value, bool) else found[name].fail(f"{name} must be true or false")
 
 
 def _seconds(node: YamlNode) -> float:
@@ -212,7 +196,7 @@ def _light(name: str, node: YamlNode) -> LightPlan:
         if "elevation" in found
         else (constant(1.0) if kind == "directional" else None),
         position=read_numbers(found["position"], "position") if "position" in found else None,
-        shadows=_flag(found, "shadows", default=True),
+        shadows="shadows" not in found or found["shadows"].flag("shadows"),
     )
 
 

@@ -10,6 +10,8 @@ from .plan import Plan as Plan
 from .plan import Value as Value
 from .plan_reader import load_plan as load_plan
 from .plan_reader import read_plan as read_plan
+from .plan_source import description_path as description_path
+from .plan_source import read_source as read_source
 from .property_path import ARGUMENTS as ARGUMENTS
 from .property_path import PARAMETERS as PARAMETERS
 from .property_path import with_property as with_property

@@ -92,6 +92,8 @@ class Plan:
     """Resident memory of one run."""
     bag_s: float | None = None
     """Last seconds of a run that is not ok, kept as a bag [s]; None: none."""
+    bag_without: frozenset[str] = frozenset()
+    """Message types that the bag leaves out."""
     seed: int = 0
     seeds: tuple[int, ...] = ()
     """Seed of each repetition; empty: drawn from the plan's seed and the row's number."""

@@ -1,13 +1,15 @@
 """Reader of plans."""
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Literal, TypeVar
 
-from trundle.diagnostics import DescriptionError, Source, UsageError
+from trundle.diagnostics import DescriptionError, Source
 from trundle.expressions import Interpreter
 
 from .plan import Design, Event, Formula, Measure, Over, Plan
+from .plan_source import description_path, read_source
 from .variation_reader import read_variation
 from .yaml_node import YamlNode, read_yaml
 
@@ -18,24 +20,30 @@ _KEYS = (
 _DESIGNS: dict[str, Design] = {"random": "random", "latin_hypercube": "latin_hypercube", "sobol": "sobol"}
 _OVER: dict[str, Over] = {each: each for each in ("end", "start", "min", "max", "mean", "time")}
 _COMMANDS = ("position", "velocity", "effort")
+PICTURES = frozenset(
+    {
+        "sensor_msgs/CompressedImage",
+        "sensor_msgs/Image",
+        "sensor_msgs/PointCloud",
+        "sensor_msgs/PointCloud2",
+        "stereo_msgs/DisparityImage",
+        "theora_image_transport/Packet",
+    }
+)
+"""Message types of pictures and point clouds."""
 RESERVED = ("row", "status", "reason", "seed", "time", "t", "models", "topics")
 """Columns of every table, and names of every expression."""
 
 
-def load_plan(file: Path) -> Plan:
-    """Read a plan's file.
+def load_plan(plan: "str | os.PathLike[str] | Mapping[str, object]") -> Plan:
+    """Read a plan's file, or a dictionary.
 
     Raises:
-        UsageError: it cannot be read.
+        UsageError: the file cannot be read.
         DescriptionError: it is not a plan; with its line.
     """
-    try:
-        text = file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"{file}: {error.strerror}; give the YAML file of a plan") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{file}: not a text; give the YAML file of a plan") from None
-    return read_plan(text, file=str(file), folder=file.resolve().parent)
+    source = read_source(plan)
+    return read_plan(source.text, file=source.file, folder=source.folder)
 
 
 def read_plan(text: str, *, file: str, folder: Path) -> Plan:
@@ -80,27 +88,26 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
     for measure in measures:
         if any(each.name == measure.name for each in vary):
             raise DescriptionError(measure.at, f"{measure.name!r} varies already; name the measure otherwise")
-    plugins = found["plugins"].value if "plugins" in found else False
-    if not isinstance(plugins, bool):
-        found["plugins"].fail("plugins must be true or false")
+    bag_s, bag_without = _bag(found["bag"]) if "bag" in found else (None, frozenset[str]())
     return Plan(
         file=file,
         folder=folder,
         text=text,
-        world=_world(world, folder),
+        world=description_path(world, folder, "world"),
         world_at=world.at,
         is_launch="launch" in found,
         duration_s=found["duration"].number("duration", above=0),
         every_s=found["every"].number("every", above=0) if "every" in found else 0.1,
         time_limit_s=found["time_limit"].number("time_limit", above=0) if "time_limit" in found else None,
-        bag_s=found["bag"].number("bag", above=0) if "bag" in found else None,
+        bag_s=bag_s,
+        bag_without=bag_without,
         memory_limit_bytes=_bytes(found["memory_limit"]) if "memory_limit" in found else None,
         seed=found["seed"].whole("seed", at_least=0) if "seed" in found else 0,
         seeds=seeds,
         repetitions=len(seeds) or (found["repeat"].whole("repeat", at_least=1) if "repeat" in found else 1),
         samples=found["samples"].whole("samples", at_least=1) if "samples" in found else 1,
         design=_choice(found["design"], "design", _DESIGNS) if "design" in found else "random",
-        plugins=plugins,
+        plugins="plugins" in found and found["plugins"].flag("plugins"),
         vary=vary,
         assignments={
             name: _formula(node, f"set {name}")
@@ -113,16 +120,20 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
     )
 
 
+def _bag(node: YamlNode) -> tuple[float, frozenset[str]]:
+    """Read a bag's seconds, and the types that it leaves out."""
+    if not isinstance(node.value, dict):
+        return node.number("bag", above=0), PICTURES
+    found = node.check_keys("bag", "last", "pictures")
+    if "last" not in found:
+        node.fail("a bag needs `last: …`, its seconds")
+    has_pictures = "pictures" in found and found["pictures"].flag("pictures")
+    return found["last"].number("last", above=0), frozenset() if has_pictures else PICTURES
+
+
 def _bytes(node: YamlNode) -> int:
     """Read a limit in megabytes."""
     return round(node.number("memory_limit", above=0) * 1e6)
-
-
-def _world(node: YamlNode, folder: Path) -> str:
-    """Return the world; a path is relative to the plan."""
-    world = node.text("world")
-    beside = folder / world
-    return str(beside) if "://" not in world and beside.exists() else world
 
 
 def _check_name(name: str, at: Source, *, path_allowed: bool = False) -> None:

@@ -89,6 +89,14 @@ class YamlNode:
             self.fail(f"{what} must be a whole number of at least {at_least}, not {self.plain()!r}")
         return self.value
 
+    def flag(self, what: str) -> bool:
+        """Return true or false.
+
+        Raises:
+            DescriptionError: it is neither.
+        """
+        return self.value if isinstance(self.value, bool) else self.fail(f"{what} must be true or false")
+
     def text(self, what: str) -> str:
         """Return a text; a number is one, as it is written.
 

@@ -2,8 +2,57 @@
 
 from collections.abc import Callable, Iterator
 
+from trundle.diagnostics import UsageError
+
 from .job import Job, JobResult, T
 from .local_engine import run_here
+from .progress import Progress
+
+
+def run_job(
+    job: Job[T],
+    rows: Iterator[int],
+    take: Callable[[JobResult[T]], bool],
+    *,
+    count: int,
+    progress: Progress,
+    workers: int | None,
+    address: str | None,
+    is_ending: Callable[[], bool],
+) -> None:
+    """Run rows, show their progress, and hand each outcome on.
+
+    Args:
+        job: what to do with each row.
+        rows: numbers of the rows.
+        take: takes an outcome, and returns True if it is ok.
+        count: number of the rows; 0: nothing is started.
+        progress: of the whole; it is closed at the end.
+        workers: see `run_rows`.
+        address: see `run_rows`.
+        is_ending: see `run_rows`.
+
+    Raises:
+        TrundleError: see `run_rows`.
+    """
+    try:
+        if count:
+            for outcome in run_rows(job, rows, count=count, workers=workers, address=address, is_ending=is_ending):
+                if outcome is not None:
+                    progress.add(is_ok=take(outcome))
+                progress.show()
+    finally:
+        progress.close()
+
+
+def check_workers(workers: int | None) -> None:
+    """Refuse a number of processes below one.
+
+    Raises:
+        UsageError: it is.
+    """
+    if workers is not None and workers < 1:
+        raise UsageError(f"{workers} workers; give at least 1")
 
 
 def run_rows(

@@ -1,5 +1,6 @@
 """Rows of worlds with topics in their measures, and bags of the runs that are not ok."""
 
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,8 @@ from trundle.trials import Rows, load_plan
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 WORLD = """<sdf version="1.6"><world name="w">
 <model name="box"><pose>0 0 10 0 0 0</pose><link name="link"><inertial><mass>1</mass></inertial>
+<sensor name="eye" type="camera"><update_rate>20</update_rate><always_on>1</always_on><topic>eye</topic>
+<camera><image><width>8</width><height>6</height></image></camera></sensor>
 <sensor name="imu" type="imu"><update_rate>50</update_rate><always_on>1</always_on><topic>imu</topic></sensor></link>
 </model></world></sdf>"""
 PLAN = """\
@@ -85,3 +88,20 @@ def test_a_world_has_no_parameters(plan: Path) -> None:
     plan.write_text(PLAN.replace("gravity/z", "parameters/gain"))
     with pytest.raises(TrundleError, match="a world has no ROS parameters; a plan with `launch:` has"):
         trundle.sweep(plan)
+
+
+@pytest.mark.parametrize(("bag", "has_pictures"), [("0.25", False), ("{last: 0.25, pictures: true}", True)])
+def test_a_bag_has_pictures_only_where_they_are_asked_for(plan: Path, bag: str, has_pictures: bool) -> None:
+    plan.write_text(PLAN.replace("bag: 0.25", f"bag: {bag}"))
+    read = load_plan(plan)
+    row, runner = Rows(read).row(0), TrialRunner(read)
+
+    content = runner.bag(row, runner.run(row))
+
+    assert content is not None
+    plan.with_name("last.bag").write_bytes(content)
+    with open_bag(plan.with_name("last.bag")) as opened:
+        counts = Counter(message.connection.type for message in opened.messages())
+    assert counts["sensor_msgs/Imu"] == 13
+    assert "sensor_msgs/CameraInfo" in counts
+    assert ("sensor_msgs/Image" in counts) == has_pictures

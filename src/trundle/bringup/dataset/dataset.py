@@ -6,22 +6,19 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-import yaml
-
 from trundle.datasets import (
     DatasetFolder,
     DatasetPlan,
     format_of,
     load_dataset_plan,
-    read_dataset_plan,
     shown_pictures,
     write_contact_sheet,
 )
-from trundle.diagnostics import TrundleError, UsageError
+from trundle.diagnostics import TrundleError
 from trundle.trials import lock_folder
-from trundle.workers import Job, Progress, run_rows
+from trundle.workers import Job, JobResult, Progress, check_workers, run_job
 
-from ..signals import StopFlag, stop_flag
+from ..signals import stop_flag
 from .dataset_world import picture_maker
 
 
@@ -59,8 +56,7 @@ def make_dataset(
     Raises:
         TrundleError: the plan cannot be drawn, or its pictures not be written.
     """
-    if workers is not None and workers < 1:
-        raise UsageError(f"{workers} workers; give at least 1")
+    check_workers(workers)
     picture_maker(plan)  # a plan with errors is refused here, once, not by each process
     path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
     job = Job(make=partial(_picture_writer, plan, path))
@@ -69,7 +65,24 @@ def make_dataset(
         folder.open(plan)
         missing = sorted(set(range(plan.count)) - folder.done())
         progress = Progress(plan.count, plan.count - len(missing), what="pictures")
-        failed = _run(job, missing, progress, workers=workers, address=address, stop=stop)
+        failed: dict[int, str] = {}
+
+        def take(outcome: JobResult[str]) -> bool:
+            reason = outcome.reason if outcome.failure is not None else outcome.value
+            if reason:
+                failed[outcome.row] = reason
+            return not reason
+
+        run_job(
+            job,
+            iter(missing),
+            take,
+            count=len(missing),
+            progress=progress,
+            workers=workers,
+            address=address,
+            is_ending=stop.is_set,
+        )
         left = set(range(plan.count)) - folder.done()
         if not left:
             for name in plan.formats:
@@ -83,33 +96,6 @@ def make_dataset(
             failed=failed,
             interrupted=stop.is_set(),
         )
-
-
-def _run(
-    job: "Job[str]",
-    missing: list[int],
-    progress: Progress,
-    *,
-    workers: int | None,
-    address: str | None,
-    stop: StopFlag,
-) -> dict[int, str]:
-    """Make pictures; return why some could not be made."""
-    failed: dict[int, str] = {}
-    try:
-        if missing:
-            for result in run_rows(
-                job, iter(missing), count=len(missing), workers=workers, address=address, is_ending=stop.is_set
-            ):
-                if result is not None:
-                    reason = result.reason if result.failure is not None else result.value
-                    if reason:
-                        failed[result.row] = reason
-                    progress.add(is_ok=not reason)
-                progress.show()
-    finally:
-        progress.close()
-    return failed
 
 
 def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
@@ -141,12 +127,7 @@ def make_planned(
     address: str | None,
 ) -> DatasetResult:
     """See `trundle.dataset`."""
-    if isinstance(plan, str | os.PathLike):
-        read = load_dataset_plan(Path(plan))
-    else:
-        text = yaml.safe_dump(dict(plan), sort_keys=False)
-        read = read_dataset_plan(text, file="plan", folder=Path.cwd())
-    result = make_dataset(read, output=output, workers=workers, address=address)
+    result = make_dataset(load_dataset_plan(plan), output=output, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

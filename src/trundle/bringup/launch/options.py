@@ -49,6 +49,8 @@ class LaunchOptions:
     """Bag of every topic."""
     record_from_s: float = 0.0
     """Time at which a bag in lockstep begins [s]."""
+    record_without: frozenset[str] = frozenset()
+    """Message types that the bag leaves out."""
     only: Literal["nodes", "files", "find-node", "args", "arguments", "params", "translation"] | None = None
     """Part of the launch to print instead of starting it."""
     node: str = ""

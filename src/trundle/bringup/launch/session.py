@@ -167,8 +167,13 @@ class LaunchSession:
         """Record every topic into a bag; return the recorder if it writes in lockstep with the nodes."""
         graph = self.graph
         if in_step and not programs:
-            from_ns = round(self._options.record_from_s * NS_PER_S)
-            steps = StepRecorder(graph.loop, file, complain=self._complain, from_ns=from_ns)
+            steps = StepRecorder(
+                graph.loop,
+                file,
+                complain=self._complain,
+                from_ns=round(self._options.record_from_s * NS_PER_S),
+                without_types=self._options.record_without,
+            )
             self._open_things.callback(steps.close)
             self._read.show.line(
                 f"{file} will be the same whenever this is run; /rosout and other programs are left out"
@@ -184,7 +189,7 @@ class LaunchSession:
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
         graph.loop.run(follow_time(node))
-        options = RecorderOptions(all_topics=True, path=file)
+        options = RecorderOptions(all_topics=True, path=file, without_types=self._options.record_without)
         recorder = Recorder(node, options, say=node.log.debug, complain=self._complain)
         recorder.start()
         self._open_things.callback(recorder.stop)

@@ -51,8 +51,13 @@ class LaunchTrialRunner:
             return None
         with TemporaryDirectory() as folder:
             file = Path(folder) / "last.bag"
-            from_s = result.time - self._plan.bag_s
-            self._run(row, LaunchOptions(duration_s=self._plan.duration_s, record=file, record_from_s=from_s))
+            options = LaunchOptions(
+                duration_s=self._plan.duration_s,
+                record=file,
+                record_from_s=result.time - self._plan.bag_s,
+                record_without=self._plan.bag_without,
+            )
+            self._run(row, options)
             return file.read_bytes() if file.exists() else None
 
     def check(self, row: Row) -> None:

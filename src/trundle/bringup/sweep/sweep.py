@@ -2,17 +2,15 @@
 
 import os
 from collections.abc import Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from trundle.atomic_write import write_atomically
-from trundle.diagnostics import UsageError
-from trundle.trials import Plan, Results, RowResult, Rows, Table, load_plan, lock_folder, read_plan
-from trundle.workers import Job, JobResult, Progress, run_rows
+from trundle.trials import Plan, Results, RowResult, Rows, Table, load_plan, lock_folder
+from trundle.workers import Job, JobResult, Progress, check_workers, run_job
 
 from ..signals import stop_flag
 from .digest import plan_digest
@@ -81,8 +79,7 @@ def sweep(
     Raises:
         TrundleError: the plan cannot be run, or its results not be written.
     """
-    if workers is not None and workers < 1:
-        raise UsageError(f"{workers} workers; give at least 1")
+    check_workers(workers)
     rows, runner = Rows(plan), runner_of(plan)
     runner.check(rows.row(0))
     folder = results_folder(plan, output)
@@ -91,20 +88,23 @@ def sweep(
         results = open_results(plan, rows, folder, runner)
         left = len(rows) - results.done
         progress = Progress(len(rows), results.done)
-        try:
-            if left:
-                missing = results.missing()
-                for outcome in run_rows(
-                    job, missing, count=left, workers=workers, address=address, is_ending=stop.is_set
-                ):
-                    if outcome is not None:
-                        result = _kept(outcome, folder)
-                        results.add(result)
-                        progress.add(is_ok=result.status == "ok")
-                    progress.show()
-        finally:
-            progress.close()
-            results.close()
+
+        def take(outcome: JobResult[Trial]) -> bool:
+            result = _kept(outcome, folder)
+            results.add(result)
+            return result.status == "ok"
+
+        with closing(results):
+            run_job(
+                job,
+                results.missing(),
+                take,
+                count=left,
+                progress=progress,
+                workers=workers,
+                address=address,
+                is_ending=stop.is_set,
+            )
         return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
 
 
@@ -133,12 +133,7 @@ def sweep_plan(
     address: str | None,
 ) -> SweepResult:
     """See `trundle.sweep`."""
-    if isinstance(plan, str | os.PathLike):
-        read = load_plan(Path(plan))
-    else:
-        text = yaml.safe_dump(dict(plan), sort_keys=False)
-        read = read_plan(text, file="plan", folder=Path.cwd())
-    result = sweep(read, output=output, workers=workers, address=address)
+    result = sweep(load_plan(plan), output=output, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

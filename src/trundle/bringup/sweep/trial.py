@@ -44,10 +44,10 @@ class TrialSimulation(LoadedSimulation):
     script: RunScript
     recorder: StepRecorder | None = None
 
-    def record(self, loop: GraphLoop, file: Path | None, *, from_ns: int) -> None:
-        """Record the nodes of a loop from a time on [ns]; None: do not."""
+    def record(self, loop: GraphLoop, file: Path | None, *, from_ns: int, without_types: frozenset[str]) -> None:
+        """Record the nodes of a loop from a time on [ns], without some types; None: do not."""
         if file is not None:
-            self.recorder = StepRecorder(loop, file, complain=_leave_out, from_ns=from_ns)
+            self.recorder = StepRecorder(loop, file, complain=_leave_out, from_ns=from_ns, without_types=without_types)
 
     def advance(self, until_ns: int) -> None:
         """See `Simulation.advance`; the simulation ends where a stop condition is true."""
@@ -147,7 +147,10 @@ class TrialRunner:
             environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
             if self._topics or record is not None:
                 simulation.open_graph(
-                    environment, on_open=lambda loop: simulation.record(loop, record, from_ns=from_ns)
+                    environment,
+                    on_open=lambda loop: simulation.record(
+                        loop, record, from_ns=from_ns, without_types=self._plan.bag_without
+                    ),
                 )
             reader = TopicReader(simulation.make_node("/sweep"), self._topics) if self._topics else None
             simulation.script = RunScript(self._plan, row, simulation, self._expressions, reader)

@@ -40,6 +40,8 @@ class RecorderOptions:
     all_topics: bool = False
     exclude: str = ""
     """Regular expression of topics to leave out."""
+    without_types: frozenset[str] = frozenset()
+    """Message types to leave out of topics that are not named one by one."""
     of_node: str | None = None
     """Record all topics this node subscribes to."""
     path: Path | None = None
@@ -163,8 +165,10 @@ class Recorder:
         node = self._options.of_node
         if node is not None:
             uri = await self._node.master.call("lookupNode", self._node.resolve(node))
-            return [topic for topic, _ in await call_value(uri, "getSubscriptions", self._node.name)]
-        return [topic for topic, _ in await self._node.master.call("getPublishedTopics", "")]
+            found = await call_value(uri, "getSubscriptions", self._node.name)
+        else:
+            found = await self._node.master.call("getPublishedTopics", "")
+        return [topic for topic, kind in found if kind not in self._options.without_types]
 
     def _is_selected(self, topic: str) -> bool:
         if topic in self._subscriptions or (self._excluded is not None and self._excluded.fullmatch(topic)):

@@ -21,7 +21,15 @@ class StepRecorder:
     needs_every_message = False
     """Attaching does not make publishers publish more often."""
 
-    def __init__(self, loop: GraphLoop, path: Path, *, complain: Callable[[str], None], from_ns: int = 0) -> None:
+    def __init__(
+        self,
+        loop: GraphLoop,
+        path: Path,
+        *,
+        complain: Callable[[str], None],
+        from_ns: int = 0,
+        without_types: frozenset[str] = frozenset(),
+    ) -> None:
         """Create the file and attach.
 
         Args:
@@ -29,6 +37,7 @@ class StepRecorder:
             path: bag to write.
             complain: called with the reason if recording fails.
             from_ns: time of the first step in the bag [ns]; of those before, only latched messages are there.
+            without_types: message types to leave out; what publishes them is not made to.
 
         Raises:
             BagError: the file cannot be written.
@@ -39,6 +48,7 @@ class StepRecorder:
         self._writer = create_bag(self._active)
         self._received: list[tuple[LocalPublisher, bytes]] = []
         self._complain = complain
+        self._without_types = without_types
         self._from_ns = from_ns
         self._latched: dict[tuple[str, str], tuple[LocalPublisher, bytes]] = {}
         """Last message before the bag begins of each (topic, caller)."""
@@ -95,7 +105,7 @@ class StepRecorder:
         self._complain(f"recording failed: {why}")
 
     def _follow(self, publisher: LocalPublisher) -> None:
-        if publisher.topic not in _BY_THE_WALL:
+        if publisher.topic not in _BY_THE_WALL and publisher.type not in self._without_types:
             publisher.attach(self, _NAME)
 
 
