@@ -135,10 +135,10 @@ class Engine:
         """Step in C, up to each update of the sleep policy."""
         while count > 0 and not self._is_unstable():
             some = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
-            self._sleep_policy.step(some, stepper)
-            self.motors.write_efforts()
-            if self._sleep_policy.is_on:
-                self.motors.write_sleeping_efforts(lambda: self._scratch.efforts(self._state()))
+            if not self._sleep_policy.step(some, stepper):
+                self.motors.write_efforts()
+                if self._sleep_policy.is_on:
+                    self.motors.write_sleeping_efforts(lambda: self._scratch.efforts(self._state()))
             self._steps += some
             count -= some
             if self._steps % DECISION_PERIOD == 0 and not self._laws.prevents_sleep and not self._is_unstable():

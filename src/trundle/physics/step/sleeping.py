@@ -57,22 +57,29 @@ class SleepPolicy:
         """Number of sleeping trees."""
         return int(np.count_nonzero(self._data.tree_asleep >= 0)) if self.is_on else 0
 
-    def step(self, count: int, stepper: RecordingStepper | None) -> None:
-        """Step `count` times, by the stepper if there is one; while all trees sleep only the clock advances."""
+    def step(self, count: int, stepper: RecordingStepper | None) -> bool:
+        """Step `count` times, by the stepper if there is one; while all trees sleep only the clock advances.
+
+        Returns:
+            True if all trees slept on; their motors' efforts stay.
+        """
         model, data = self._model, self._data
         self.has_state_only = False
         if stepper is not None:
             stepper.step(count)
-            return
+            return False
         if count > 1 and self._all_sleep():
+            efforts = data.qfrc_actuator.copy()
             mujoco.mj_step(model, data)  # trees with new commands wake
             count -= 1
             if self._all_sleep():
                 times = np.empty(count + 1)
                 times[0], times[1:] = data.time, model.opt.timestep
                 data.time = np.add.accumulate(times)[-1]  # one by one, as MuJoCo: equal to the bit
-                return
+                data.qfrc_actuator[:] = efforts
+                return True
         mujoco.mj_step(model, data, nstep=count)
+        return False
 
     def _all_sleep(self) -> bool:
         return self.is_on and int(self._data.tree_asleep.min()) >= 0
