@@ -77,6 +77,28 @@ for bad in (
     assert "pip install opencv-python-headless" in said[-1]
 
 
+def test_images_in_a_named_encoding_can_be_drawn_on(tmp_path: Path) -> None:
+    code = """
+from io import BytesIO
+from cv_bridge import CvBridge
+from sensor_msgs.msg import Image
+def received(encoding, pixel):
+    buffer = BytesIO()
+    Image(height=1, width=2, encoding=encoding, step=2 * pixel, data=bytes(2 * pixel)).serialize(buffer)
+    return Image().deserialize(buffer.getvalue())
+for source, pixel, target in (("bgr8", 3, "bgr8"), ("rgb8", 3, "bgr8"), ("mono8", 1, "mono8"), ("16UC1", 2, "mono16"),
+                              ("32FC1", 4, "32FC1"), ("8UC3", 3, "bgr8"), ("mono8", 1, "mono16")):
+    message = received(source, pixel)
+    image = CvBridge().imgmsg_to_cv2(message, target)
+    image[0, 0] = 7
+    print(source, image.dtype, image.max(), sum(message.data))
+"""
+    assert _run(code, tmp_path).splitlines() == [
+        "bgr8 uint8 7 0", "rgb8 uint8 7 0", "mono8 uint8 7 0", "16UC1 uint16 7 0", "32FC1 float32 7.0 0",
+        "8UC3 uint8 7 0", "mono8 uint16 7 0",
+    ]  # fmt: skip
+
+
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """Package with a .cfg file."""

@@ -17,7 +17,7 @@ class ConversionError(Exception):
 
 
 def convert_color(image, source, target):
-    """Image in another encoding.
+    """New image in another encoding, or a copy in the same; programs draw on it.
 
     Args:
         image: (height, width) or (height, width, channels).
@@ -28,7 +28,7 @@ def convert_color(image, source, target):
         ConversionError: there is no way.
     """
     if source == target:
-        return image
+        return image.copy()
     for encoding in (source, target):
         if element_type(encoding) is None:
             raise ConversionError(f"Unrecognized image encoding [{encoding}]")
@@ -42,8 +42,9 @@ def convert_color(image, source, target):
     if _family(target) in ("yuv", "bayer"):
         raise ConversionError(f"Conversion from [{source}] to [{target}] is not possible")
     if _family(source) in ("yuv", "bayer"):
-        image = _with_opencv(image, source)
-        source = f"bgr{_bits(source)}"
+        is_gray = _family(source) == "bayer" and _family(target) == "mono"
+        image = _with_opencv(image, source, is_gray=is_gray)
+        source = f"{'mono' if is_gray else 'bgr'}{_bits(source)}"
     if _family(source) != "mono" or _family(target) != "mono":
         image = _reorder(image, source, target)
     return _change_depth(image, source, target, is_plain=False)
@@ -83,7 +84,7 @@ def _change_depth(image, source, target, *, is_plain):
     """Elements in another type; colours are scaled to its range."""
     depth = element_type(target)[0]
     if image.dtype == depth:
-        return image
+        return image if image.flags.writeable else image.copy()
     scale = 1.0
     if not is_plain:
         scale = 255.0 / 65535.0 if depth == "uint8" else 65535.0 / 255.0
@@ -94,19 +95,14 @@ def _change_depth(image, source, target, *, is_plain):
     return scaled.astype(depth)
 
 
-def _with_opencv(image, source):
-    """BGR of a Bayer or YUV image."""
+def _with_opencv(image, source, *, is_gray):
+    """BGR of a Bayer or YUV image, or the brightness of a Bayer image."""
     try:
         import cv2
     except ImportError:
         raise ConversionError(f"images in {source} need OpenCV: pip install opencv-python-headless") from None
-    codes = {
-        "yuv422": cv2.COLOR_YUV2BGR_UYVY,
-        "yuv422_yuy2": cv2.COLOR_YUV2BGR_YUY2,
-        "bayer_rggb": cv2.COLOR_BAYER_BG2BGR,
-        "bayer_bggr": cv2.COLOR_BAYER_RG2BGR,
-        "bayer_gbrg": cv2.COLOR_BAYER_GR2BGR,
-        "bayer_grbg": cv2.COLOR_BAYER_GB2BGR,
-    }
-    code = codes[source] if source in codes else codes[re.sub(r"\d+$", "", source)]
-    return cv2.cvtColor(image, code)
+    codes = {"yuv422": "YUV2BGR_UYVY", "yuv422_yuy2": "YUV2BGR_YUY2"}
+    first_pixels = {"bayer_rggb": "BG", "bayer_bggr": "RG", "bayer_gbrg": "GR", "bayer_grbg": "GB"}
+    if (code := codes.get(source)) is None:
+        code = f"BAYER_{first_pixels[re.sub(r'[0-9]+$', '', source)]}2{'GRAY' if is_gray else 'BGR'}"
+    return cv2.cvtColor(image, getattr(cv2, f"COLOR_{code}"))
