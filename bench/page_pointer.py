@@ -19,6 +19,7 @@ _PATIENCE_MS = 120_000
 _FRAME_US = 1e6 / 60
 _ROWS, _COLUMNS, _GAP_M = 10, 20, 1.0
 _EVENTS = 60
+_IDLE_MS = 2000
 _POINTER = re.compile(r"pointer|mouse|click")
 
 
@@ -83,34 +84,53 @@ def _by_gesture(browser: Any, page: Any) -> dict[str, float]:
         for i in range(_EVENTS):
             page.mouse.move(left + i % 2, y)
 
-    shares = {
-        "hover": _share(browser, page, over_one, is_drawn=False),
-        "select": _share(browser, page, select, is_drawn=True),
-    }
+    idle_us = _idle_frame_us(browser, page)
+    shares = {"hover": _share(browser, page, over_one, idle_us=idle_us), "select": _share(browser, page, select)}
     page.get_by_role("toolbar", name="Tools").get_by_role("button", name="Move", exact=True).click()
     page.mouse.move(left, y)
-    shares["drag"] = _share(browser, page, drag, is_drawn=True)
+    shares["drag"] = _share(browser, page, drag)
     return shares
 
 
-def _share(browser: Any, page: Any, act: Callable[[], None], *, is_drawn: bool) -> float:
+def _share(browser: Any, page: Any, act: Callable[[], None], *, idle_us: float | None = None) -> float:
     """Script time of the thread per pointer event, in percent of a frame.
 
     Args:
         browser: Chromium.
         page: with the world.
         act: moves or presses the pointer.
-        is_drawn: True if frames draw pictures, which do not count; False: they search for what is under the pointer.
+        idle_us: script time of a frame in which nothing happens [µs]; where frames draw no picture but search for what
+            is under the pointer, what they take longer counts. None: frames draw pictures, which do not count.
     """
-    browser.start_tracing(page=page, categories=["devtools.timeline"])
-    act()
-    events = json.loads(browser.stop_tracing())["traceEvents"]
+    events = _trace(browser, page, act)
     dispatched = [each for each in events if each.get("name") == "EventDispatch" and _POINTER.search(_type(each))]
     count = sum(_type(each) in ("pointermove", "pointerdown", "pointerup") for each in dispatched)
     assert count >= _EVENTS // 4, "the page heard of no pointer"
-    frames = [] if is_drawn else [each for each in events if each.get("name") == "FireAnimationFrame"]
-    spent_us = sum(each.get("tdur", each.get("dur", 0)) for each in (*dispatched, *frames))
+    spent_us = sum(map(_duration_us, dispatched))
+    if idle_us is not None:
+        frames = list(map(_duration_us, _frames(events)))
+        spent_us += max(0.0, sum(frames) - len(frames) * idle_us)
     return 100 * spent_us / count / _FRAME_US
+
+
+def _idle_frame_us(browser: Any, page: Any) -> float:
+    frames = _frames(_trace(browser, page, lambda: page.wait_for_timeout(_IDLE_MS)))
+    return sum(map(_duration_us, frames)) / len(frames)
+
+
+def _trace(browser: Any, page: Any, act: Callable[[], None]) -> list[Any]:
+    browser.start_tracing(page=page, categories=["devtools.timeline"])
+    act()
+    return list(json.loads(browser.stop_tracing())["traceEvents"])
+
+
+def _frames(events: list[Any]) -> list[Any]:
+    return [each for each in events if each.get("name") == "FireAnimationFrame"]
+
+
+def _duration_us(event: Any) -> float:
+    """Time of the thread in an event [µs]; of the wall where the browser has no other."""
+    return float(event.get("tdur", event.get("dur", 0)))
 
 
 def _type(event: Any) -> str:

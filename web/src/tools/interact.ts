@@ -1,7 +1,7 @@
 /** rviz's Interact: presses what has handlers, such as interactive markers; elsewhere a drag is the camera's. */
 
 import { BoolProperty } from "../rviz/properties";
-import type { PointerTarget, TargetEvent } from "../scene/scene_view";
+import type { Pick, PointerTarget, TargetEvent } from "../scene/scene_view";
 import { BaseTool } from "./base_tool";
 import { PulledPoint } from "./handles/pulled_point";
 import { pointerTargetOf, selectionOf } from "./picked";
@@ -17,6 +17,8 @@ export class Interact extends BaseTool {
   private hoveredTarget: PointerTarget | null = null;
   private dragged: PointerTarget | null = null;
   private waiting: PointerInput | null = null;
+  /** What a click selects: what was pressed. */
+  private pressed: Pick | null = null;
   private stop: (() => void) | null = null;
   /** What a drag with Ctrl pulls, as in MuJoCo's viewer. */
   private readonly pulled = this.context.editor === null ? null : new PulledPoint(this.context.scene, this.context.editor);
@@ -39,13 +41,14 @@ export class Interact extends BaseTool {
     if (this.dragged !== null) return this.drag(this.dragged, input);
     if (input.kind === "move") this.waiting = input;
     else if (input.kind === "down") return this.press(input);
-    else if (input.kind === "up" && input.button === 0) this.context.selection.value = selectionOf(this.context.scene.pick(input.x, input.y));
+    else if (input.kind === "up" && input.button === 0) this.context.selection.value = selectionOf(this.pressed);
     return false;
   }
 
   private press(input: PointerInput): boolean {
     if (input.control && input.button !== 1 && this.pulled?.begin(input) === true) return true;
     const event = this.eventOf(input);
+    this.pressed = event.pick;
     const target = event.pick === null ? null : pointerTargetOf(event.pick.object);
     if (target?.down(event) !== true) return false;
     this.dragged = target;
