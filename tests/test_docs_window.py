@@ -15,7 +15,7 @@ ENTRIES = {
         Selection|Translation|Rotation|Scale|Undo, Redo with histories|Box, Sphere, Cylinder|
         Point, Spot, Directional Light|Copy, Paste|Align|Snap|View angle|Screenshot|Log|Record video|
         X, Y, Z while moving|Ctrl while moving|Shift while moving""",
-    "Gazebo's right click": "Move To|Follow|Edit model|Apply Force/Torque|View of one model|Delete",
+    "Gazebo's right click": "Move To|Follow|Edit model|Apply Force/Torque|View of one model|Copy, Paste|Delete",
     "Gazebo's panels": """
         World: GUI|World: Scene|World: Spherical Coordinates|World: Physics|World: Atmosphere|World: Wind|World: Models|
         World: Lights|Insert|Layers|Joint Control|Pause, Play|Step|Real Time Factor, Sim Time|

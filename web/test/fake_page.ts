@@ -13,7 +13,8 @@ import type { FrameTree } from "../src/frames/frame_tree";
 import { NoTransform } from "../src/frames/transform";
 import type { SceneView } from "../src/scene/scene_view";
 import type { JointState, Manifest, SimulatedWorld, WorldState } from "../src/scene/simulated_world";
-import type { ViewController, Views } from "../src/scene/view_controller";
+import type { PaneLayout } from "../src/scene/panes/pane_layout";
+import type { ViewController, ViewPane, Views } from "../src/scene/view_controller";
 import type { Tool, ToolBox } from "../src/tools/tool";
 import { GraphNames } from "../src/protocol/graph_names";
 import { FakeConnection } from "./fake_connection";
@@ -68,7 +69,9 @@ export class FakeScene implements SceneView {
   readonly camera = signal(new PerspectiveCamera());
   readonly element = document.createElement("canvas");
   readonly size = signal({ width: 1, height: 1 });
+  readonly paneSize = this.size;
   readonly freeArea = signal({ left: 0, right: 0, top: 0, bottom: 0 });
+  readonly freePart = signal({ left: 0, top: 0, width: 1, height: 1 });
   readonly background = signal("#16191c");
   readonly grid = signal(true);
   invalidate(): void {
@@ -111,6 +114,15 @@ export class FakeViews implements Views {
   readonly classes = ["rviz/Orbit", "rviz/XYOrbit", "rviz/TopDownOrtho", "rviz/FPS", "rviz/ThirdPersonFollower"];
   readonly saved = signal<readonly ViewController[]>([]);
   readonly framed: Box3[] = [];
+  readonly layout = signal<PaneLayout>("one");
+  readonly active = signal<ViewPane>(fakePane(this.current));
+  readonly panes = signal<readonly ViewPane[]>([this.active.value]);
+  activate(pane: ViewPane): void {
+    this.active.value = pane;
+  }
+  stepPane(): void {
+    // there is one
+  }
   use(className: string): void {
     this.current.value = fakeView(className);
   }
@@ -123,13 +135,15 @@ export class FakeViews implements Views {
   frame(box: Box3): void {
     this.framed.push(box);
   }
+  frameInAll(box: Box3): void {
+    this.framed.push(box);
+  }
   focus(): void {
     // nothing is drawn
   }
   lookFrom(): void {
     // nothing is drawn
   }
-  readonly cameraFrame = signal(null);
   toggleProjection(): void {
     // nothing is drawn
   }
@@ -148,6 +162,12 @@ export class FakeViews implements Views {
   load(): string[] {
     return [];
   }
+}
+
+/** A pane with a view. */
+export function fakePane(current: ViewPane["current"]): ViewPane {
+  const place = { area: { left: 0, top: 0, width: 1, height: 1 }, insets: { left: 0, right: 0, top: 0, bottom: 0 } };
+  return { current, place: signal(place), cameraFrame: signal(null), load: (yaml) => current.peek().load(yaml) };
 }
 
 function fakeView(className: string): ViewController {

@@ -6,8 +6,9 @@ import { useEffect, useRef } from "preact/hooks";
 
 import { Tooltips } from "../theme/tooltips";
 import { Bar } from "./bar";
-import { CameraFrame } from "./cameras/frame";
 import { Dialogs } from "./dialogs/dialogs";
+import { ObjectMenu } from "./object_menu/object_menu";
+import { PaneFrames } from "./panes/pane_frames";
 import type { Shell } from "./shell";
 import { Sheet } from "./sheet";
 import { SidePanel } from "./side_panel";
@@ -25,6 +26,7 @@ export function App({ shell }: { readonly shell: Shell }): JSX.Element {
       {!phone && <DockPanel shell={shell} />}
       {phone && <Sheet shell={shell} />}
       <Dialogs shell={shell} />
+      <ObjectMenu shell={shell} />
       <Tooltips />
     </>
   );
@@ -42,7 +44,7 @@ function Scene({ shell }: { readonly shell: Shell }): JSX.Element {
   return (
     <>
       <main ref={host} class={`scene${lost ? " lost" : ""}${isDrawn ? "" : " none"}`} aria-label="3D scene" />
-      <CameraFrame shell={shell} />
+      {isDrawn && <PaneFrames shell={shell} />}
     </>
   );
 }

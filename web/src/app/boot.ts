@@ -25,6 +25,7 @@ import { Drive } from "./drive/drive";
 import { freezable } from "./freeze";
 import { outlinedBodies, targetPose } from "./views/framing";
 import { mount } from "./mount";
+import { openSceneMenu, openSelectedMenu } from "./object_menu/object_menu";
 import type { Page } from "./page";
 import { followPeople } from "./people/people";
 import { labelOthers, othersOutlines } from "./people/marks";
@@ -85,8 +86,7 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   effect(() => {
     fixedFrame.value = displays.fixedFrame.value;
   });
-  new SceneInput(scene, views, (input) => tools.pointer(input));
-  scene.onSide = (side) => views.lookFrom(side);
+  new SceneInput(scene, views, (input) => tools.pointer(input), (at) => (at === null ? openSelectedMenu(shell) : openSceneMenu(shell, at.x, at.y)));
   effect(() => {
     scene.element.style.cursor = tools.current.value.cursor;
   });

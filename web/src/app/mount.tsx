@@ -26,6 +26,7 @@ import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedRviz } from "./dialogs/open_rviz";
 import type { Page } from "./page";
 import { pageCommands } from "./page_commands";
+import { splitCommands } from "./panes/split";
 import { Shell } from "./shell";
 import { saveCommands } from "./dialogs/save_world";
 import { simulationCommands } from "./simulation_commands";
@@ -46,7 +47,7 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, panels, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
+  commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...splitCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
   rememberShown(page);
   let removeCameras = (): void => undefined;
   effect(() => {

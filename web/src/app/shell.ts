@@ -5,13 +5,16 @@ import { computed, effect, signal, type Signal } from "@preact/signals";
 import type { Display } from "../displays/display";
 import { ModelEditor } from "../editor/model_editor";
 import type { Panel } from "../panels/panel";
+import type { PaneLayout } from "../scene/panes/pane_layout";
 import { cameraTopics } from "./cameras/topics";
 import { CommandList } from "./commands";
 import { Dock } from "./dock";
 import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
+import type { OpenMenu } from "./object_menu/object_menu";
 import type { Page } from "./page";
+import { rememberSplit } from "./panes/split";
 import { isBoolean, recall, remember } from "./storage";
 import { Videos } from "./video/videos";
 
@@ -29,6 +32,12 @@ export class Shell {
   readonly notices: Notices;
   readonly dock: Dock;
   readonly dialog = signal<Dialog>(null);
+  /** How the scene is split where there is room. */
+  readonly split: Signal<PaneLayout>;
+  /** The menu of a thing in scene or tree; null: none is open. */
+  readonly menu = signal<OpenMenu | null>(null);
+  /** Name of the model that Paste puts into the world once more. */
+  readonly copied = signal<string | null>(null);
   /** The display that is selected in its panel. */
   readonly display = signal<Display | null>(null);
   /** The .rviz file that took the place of the session's: opened or saved by the person; null: none did. */
@@ -67,6 +76,7 @@ export class Shell {
     readonly frozen: Signal<boolean>,
   ) {
     this.layout = new Layout(page.session.kind);
+    this.split = rememberSplit(page, this.layout);
     this.notices = new Notices(page);
     this.insertion = new Insertion(this);
     this.videos = new Videos(page, this.notices);

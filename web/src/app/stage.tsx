@@ -6,6 +6,7 @@ import { CameraTiles } from "./cameras/tiles";
 import { DriveView } from "./drive/view";
 import { NoticeLine } from "./notices/line";
 import { SceneNotes } from "./notices/scene_notes";
+import { SplitMenu } from "./panes/split";
 import type { Shell } from "./shell";
 import { ToolBar } from "./tool_bar";
 import { VideoNotes } from "./video/video_note";
@@ -18,6 +19,7 @@ export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
       <div class="top">
         {!phone && <ToolBar shell={shell} />}
         {!phone && <ViewMenu shell={shell} />}
+        {!phone && <SplitMenu shell={shell} />}
         <NoticeLine shell={shell} />
         <VideoNotes shell={shell} />
       </div>

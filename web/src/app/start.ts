@@ -6,7 +6,7 @@ import { Box3, Sphere } from "three";
 import type { Rgb, Yaml } from "../rviz/properties";
 import { differs, robotBox, simulatedRobot } from "./views/framing";
 import type { Shell } from "./shell";
-import { linkedView } from "./views/view_link";
+import { linkedView, showLinkedView } from "./views/view_link";
 import { bodiesOf } from "./world/nodes";
 
 /** Wall seconds in which more of a robot may appear. */
@@ -100,11 +100,11 @@ function showRobot({ page }: Shell): void {
 }
 
 /** Show the view of the page's address, now and whenever another is opened; true: there is one. */
-function showLinked({ page }: Shell): boolean {
+function showLinked(shell: Shell): boolean {
   const show = (): boolean => {
-    const view = linkedView(location.hash);
-    if (view !== null) page.views.load({ ...page.views.save(), Current: view });
-    return view !== null;
+    const linked = linkedView(location.hash);
+    if (linked !== null) showLinkedView(shell.page.views, shell.split, linked);
+    return linked !== null;
   };
   addEventListener("hashchange", show);
   return show();
@@ -126,7 +126,7 @@ export function startView(shell: Shell): void {
     const box = isLoading() ? new Box3() : robotBox(page);
     if (box.isEmpty()) return;
     if (differs(box, framed)) {
-      views.frame(framed.copy(box));
+      views.frameInAll(framed.copy(box));
       loadTf(shell, "Marker Scale", Number((AXES_SHARE * box.getBoundingSphere(new Sphere()).radius).toPrecision(1)));
     }
     settling += elapsed;

@@ -6,7 +6,8 @@ import { useRef } from "preact/hooks";
 
 import type { Page } from "../app/page";
 import { forEachNew } from "../app/session";
-import { MenuButton, type MenuItem } from "../theme/menu";
+import { MenuButton } from "../theme/menu";
+import type { MenuItem } from "../theme/menu_list";
 import { ImageTile } from "./images/image_tile";
 import type { Panel, PanelProps } from "./panel";
 import { perPage } from "./per_page";

@@ -3,7 +3,8 @@
 import type { JSX } from "preact";
 
 import { Button } from "../theme/button";
-import { MenuButton, type MenuItem } from "../theme/menu";
+import { MenuButton } from "../theme/menu";
+import type { MenuItem } from "../theme/menu_list";
 import { Select } from "../theme/select";
 import type { Panel, PanelProps } from "./panel";
 import { timeText } from "./messages/format";

@@ -1,4 +1,4 @@
-/** Draws labels on a canvas over the picture. */
+/** Labels of the scene, which each pane draws on a canvas over its picture. */
 
 import { Vector3, type Camera, type Object3D } from "three";
 
@@ -12,14 +12,13 @@ const SIZE = 12;
 const PADDING = 8;
 
 class SceneLabel implements Label {
-  corner = -1;
   detail = "";
   private shown: string;
 
   constructor(
     readonly anchor: Object3D,
     text: string,
-    private readonly layer: LabelLayer,
+    private readonly set: LabelSet,
     readonly colour?: string,
   ) {
     this.shown = text;
@@ -32,11 +31,11 @@ class SceneLabel implements Label {
   set text(text: string) {
     if (text === this.shown) return;
     this.shown = text;
-    this.layer.onChange();
+    this.set.onChange();
   }
 
   remove(): void {
-    this.layer.remove(this);
+    this.set.remove(this);
   }
 }
 
@@ -45,18 +44,11 @@ interface Seen {
   readonly request: LabelRequest;
 }
 
-export class LabelLayer {
-  readonly canvas = document.createElement("canvas");
-  private readonly labels = new Set<SceneLabel>();
-  private readonly point = new Vector3();
-  private pointer: { readonly x: number; readonly y: number } | null = null;
-  private hovered: SceneLabel | null = null;
-  private boxes = new Map<SceneLabel, LabelBox>();
+export class LabelSet {
+  readonly labels = new Set<SceneLabel>();
 
   /** `onChange`: the picture is to be drawn again. */
-  constructor(readonly onChange: () => void) {
-    Object.assign(this.canvas.style, { position: "absolute", inset: "0", width: "100%", height: "100%", pointerEvents: "none" });
-  }
+  constructor(readonly onChange: () => void) {}
 
   add(anchor: Object3D, text: string, colour?: string): Label {
     const label = new SceneLabel(anchor, text, this, colour);
@@ -67,7 +59,19 @@ export class LabelLayer {
 
   remove(label: SceneLabel): void {
     if (this.labels.delete(label)) this.onChange();
-    if (this.hovered === label) this.hovered = null;
+  }
+}
+
+export class LabelLayer {
+  readonly canvas = document.createElement("canvas");
+  private readonly corners = new WeakMap<SceneLabel, number>();
+  private readonly point = new Vector3();
+  private pointer: { readonly x: number; readonly y: number } | null = null;
+  private hovered: SceneLabel | null = null;
+  private boxes = new Map<SceneLabel, LabelBox>();
+
+  constructor(private readonly set: LabelSet) {
+    Object.assign(this.canvas.style, { position: "absolute", pointerEvents: "none" });
   }
 
   /** The pointer is at a point of the picture [px], or has left it. */
@@ -76,7 +80,7 @@ export class LabelLayer {
     const hovered = this.findHovered(camera, size);
     if (hovered === this.hovered) return;
     this.hovered = hovered;
-    this.onChange();
+    this.set.onChange();
   }
 
   draw(camera: Camera, size: PictureSize, pixelRatio: number): void {
@@ -86,13 +90,13 @@ export class LabelLayer {
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     context.clearRect(0, 0, size.width, size.height);
-    if (this.labels.size === 0) return;
+    if (this.set.labels.size === 0) return;
     const style = getComputedStyle(this.canvas);
     const font = style.getPropertyValue("--font") || "sans-serif";
     context.font = `${SIZE}px ${font}`;
     const seen = this.findSeen(camera, size, context, font);
     const placed = layoutLabels(seen.map(({ request }) => request), size.width, size.height);
-    for (const { label } of seen) label.corner = -1;
+    for (const { label } of seen) this.corners.delete(label);
     this.boxes = new Map();
     for (const place of placed) this.drawLabel(context, style, font, seen, place);
   }
@@ -103,7 +107,7 @@ export class LabelLayer {
     const entry = seen[index];
     if (entry === undefined) return;
     const { label, request } = entry;
-    label.corner = corner;
+    this.corners.set(label, corner);
     this.boxes.set(label, box);
     const colour = (token: string): string => style.getPropertyValue(token).trim() || "#888";
     drawLeader(context, request, box, colour(label.colour ?? (request.hovered ? "--accent" : "--text-3")));
@@ -146,7 +150,7 @@ export class LabelLayer {
 
   private findSeen(camera: Camera, size: PictureSize, context: CanvasRenderingContext2D, font: string): Seen[] {
     const seen: Seen[] = [];
-    for (const label of this.labels) {
+    for (const label of this.set.labels) {
       if (!isShown(label.anchor)) continue;
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
       if (at === null || at.x < 0 || at.y < 0 || at.x > size.width || at.y > size.height) continue;
@@ -157,7 +161,7 @@ export class LabelLayer {
       context.font = `${SIZE}px ${font}`;
       if (isBoxed) width += 2 * PADDING - 4;
       if (hovered) width += 4 + (label.detail === "" ? 0 : context.measureText(label.detail).width + PADDING);
-      seen.push({ label, request: { x: at.x, y: at.y, width, distance: at.z, hovered: isBoxed, corner: label.corner } });
+      seen.push({ label, request: { x: at.x, y: at.y, width, distance: at.z, hovered: isBoxed, corner: this.corners.get(label) ?? -1 } });
     }
     return seen;
   }
@@ -167,7 +171,7 @@ export class LabelLayer {
     const { x, y } = this.pointer;
     let best: SceneLabel | null = null;
     let nearest = NEAR;
-    for (const label of this.labels) {
+    for (const label of this.set.labels) {
       const box = this.boxes.get(label);
       if (box !== undefined && x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + BAND) return label;
       if (!isShown(label.anchor)) continue;

@@ -1,5 +1,6 @@
 /** What mouse, touch and keys do in the scene: rviz's bindings. */
 
+import { LongPress } from "../theme/long_press";
 import type { ThreeScene } from "./three_scene";
 import type { ViewList } from "./views/view_list";
 
@@ -30,6 +31,11 @@ export interface PointerInput {
   readonly kind: "down" | "move" | "up" | "cancel";
 }
 
+interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
 interface Finger {
   x: number;
   y: number;
@@ -42,14 +48,19 @@ export class SceneInput {
   private way = 0;
   /** Middle of two fingers and their distance at the last frame [px]. */
   private hand: { readonly x: number; readonly y: number; readonly spread: number } | null = null;
+  private readonly longPress = new LongPress();
   private readonly stop: () => void;
   private readonly aborts = new AbortController();
 
-  /** `tool`: offers an event to the current tool; true: it was the tool's. */
+  /**
+   * `tool`: offers an event to the current tool; true: it was the tool's. `menu`: opens the menu of what is under a point
+   * of the scene [px], or of what is selected.
+   */
   constructor(
     private readonly scene: ThreeScene,
     private readonly views: ViewList,
     private readonly tool: (input: PointerInput) => boolean,
+    private readonly menu: (at: Point | null) => void = () => undefined,
   ) {
     const { element } = scene;
     this.stop = scene.onTick(() => this.pinch());
@@ -59,7 +70,7 @@ export class SceneInput {
     element.addEventListener("pointerup", (event) => this.up(event, "up"), options);
     element.addEventListener("pointercancel", (event) => this.up(event, "cancel"), options);
     element.addEventListener("mousedown", (event) => event.preventDefault(), options); // a menu that opened keeps the focus
-    element.addEventListener("contextmenu", (event) => event.preventDefault(), options);
+    element.addEventListener("contextmenu", (event) => this.contextMenu(event), options);
     element.addEventListener("wheel", (event) => this.wheel(event), { ...options, passive: false });
     element.addEventListener("keydown", (event) => this.key(event), options);
   }
@@ -77,12 +88,16 @@ export class SceneInput {
     this.scene.element.focus({ preventScroll: true });
     this.scene.element.setPointerCapture(event.pointerId);
     const isFirst = this.fingers.size === 0;
+    this.longPress.end();
     this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
-    this.views.interrupt(); // before the tool, which may move the camera itself
+    if (isFirst) this.scene.panes.press(event.offsetX, event.offsetY);
+    this.views.active.peek().interrupt(); // before the tool, which may move the camera itself
     if (isFirst) {
       this.button = event.button;
       this.way = 0;
       this.toolHasDrag = this.offer(event, "down", event.button);
+      const at = { x: event.offsetX, y: event.offsetY };
+      if (!this.toolHasDrag) this.longPress.begin(event, () => this.rest(at));
     } else if (this.toolHasDrag) {
       this.offer(event, "cancel", this.button);
       this.toolHasDrag = false;
@@ -97,6 +112,7 @@ export class SceneInput {
     }
     const [dx, dy] = [event.offsetX - finger.x, event.offsetY - finger.y];
     this.way += Math.hypot(dx, dy);
+    this.longPress.move(event);
     if (this.fingers.size === 1 && this.toolHasDrag) this.offer(event, "move", this.button);
     else if (this.fingers.size === 1) this.drag(dx, dy, event.shiftKey);
     finger.x = event.offsetX;
@@ -104,15 +120,37 @@ export class SceneInput {
   }
 
   private up(event: PointerEvent, kind: "up" | "cancel"): void {
+    this.longPress.end();
     if (!this.fingers.delete(event.pointerId) || this.fingers.size > 0) return;
+    this.leave(event, kind);
+    this.scene.panes.release();
+  }
+
+  /** The last finger leaves. */
+  private leave(event: PointerEvent, kind: "up" | "cancel"): void {
     // the tool also hears of a click whose press it left to the camera
-    if (this.toolHasDrag || (kind === "up" && this.way < CLICK)) this.offer(event, kind, this.button);
+    const isClick = kind === "up" && this.way < CLICK;
+    if (this.toolHasDrag || isClick) this.offer(event, kind, this.button);
+    if (isClick && this.button === 2 && !this.toolHasDrag) this.menu({ x: event.offsetX, y: event.offsetY });
     this.toolHasDrag = false;
   }
 
+  /** A finger has rested: what follows is no click. */
+  private rest(at: Point): void {
+    this.way = CLICK;
+    this.menu(at);
+  }
+
+  /** The keyboard's menu key; a button's or finger's own menu opens as it leaves or rests. */
+  private contextMenu(event: MouseEvent): void {
+    event.preventDefault();
+    if (event.button !== 2 && this.fingers.size === 0) this.menu(null);
+  }
+
   private drag(dx: number, dy: number, shift: boolean): void {
-    const view = this.views.current.peek();
-    if (this.button === 1 || (this.button === 0 && shift)) view.pan(dx, dy, this.views.picture);
+    const { picture, current } = this.views.active.peek();
+    const view = current.peek();
+    if (this.button === 1 || (this.button === 0 && shift)) view.pan(dx, dy, picture);
     else if (this.button === 0) view.rotate(dx, dy);
     else if (shift) view.raise(dy);
     else view.zoom(Math.exp(DRAG_ZOOM * dy));
@@ -126,30 +164,33 @@ export class SceneInput {
     if (a === undefined || b === undefined || this.fingers.size > 2) return;
     this.hand = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, spread: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)) };
     if (hand === null || (hand.x === this.hand.x && hand.y === this.hand.y && hand.spread === this.hand.spread)) return;
-    const view = this.views.current.peek();
-    view.pan(this.hand.x - hand.x, this.hand.y - hand.y, this.views.picture);
+    const { picture, current } = this.views.active.peek();
+    const view = current.peek();
+    view.pan(this.hand.x - hand.x, this.hand.y - hand.y, picture);
     view.zoom(hand.spread / this.hand.spread);
   }
 
   private wheel(event: WheelEvent): void {
     event.preventDefault();
-    this.views.interrupt();
+    const { pointed } = this.views;
+    pointed.interrupt();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1);
-    this.views.current.peek().zoom(Math.exp(WHEEL_ZOOM * Math.max(-300, Math.min(300, pixels))));
+    pointed.view.peek().zoom(Math.exp(WHEEL_ZOOM * Math.max(-300, Math.min(300, pixels))));
   }
 
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const view = this.views.current.peek();
+    const active = this.views.active.peek();
+    const view = active.view.peek();
     const arrow = ARROWS[event.key];
     if (arrow !== undefined) {
       const [x, y] = arrow;
-      if (event.shiftKey) view.pan(x * KEY_PAN, y * KEY_PAN, this.views.picture);
+      if (event.shiftKey) view.pan(x * KEY_PAN, y * KEY_PAN, active.picture);
       else view.rotate(x * KEY_TURN, y * KEY_TURN);
     } else if (event.key === "+" || event.key === "=") view.zoom(KEY_ZOOM);
     else if (event.key === "-") view.zoom(1 / KEY_ZOOM);
     else return;
-    this.views.interrupt();
+    active.interrupt();
     event.preventDefault();
   }
 }

@@ -1,7 +1,9 @@
 /** Interface of the 3D view, for displays and tools. */
 
 import type { ReadonlySignal, Signal } from "@preact/signals";
-import type { Camera, Group, Object3D, Ray, Vector3, WebGLRenderer } from "three";
+import type { Camera, Group, Object3D, OrthographicCamera, PerspectiveCamera, Ray, Vector3, WebGLRenderer } from "three";
+
+import type { Area } from "./free_area";
 
 /** What a pointer met. */
 export interface Pick {
@@ -79,8 +81,13 @@ export type SceneStatus =
 
 /** Steps of a picture other than the scene itself: shadow maps before it, outlines after it. */
 export interface DrawStep {
-  before?(renderer: WebGLRenderer, camera: Camera): void;
-  after?(renderer: WebGLRenderer, camera: Camera): void;
+  /** Before the picture, once for all panes. */
+  before?(renderer: WebGLRenderer): void;
+  /** Before a pane of this height [px], which its camera sees. */
+  beforePane?(camera: PerspectiveCamera | OrthographicCamera, height: number): void;
+  /** After a pane, over it: the renderer's viewport is the pane. */
+  afterPane?(renderer: WebGLRenderer, camera: Camera): void;
+  after?(renderer: WebGLRenderer): void;
 }
 
 export interface SceneView {
@@ -89,13 +96,18 @@ export interface SceneView {
   readonly displays: Group;
   /** Root of the simulated world, placed at its frame in the fixed frame. */
   readonly world: Group;
-  readonly camera: ReadonlySignal<Camera>;
+  /** The camera of the pane that the pointer is in. */
+  readonly camera: ReadonlySignal<PerspectiveCamera | OrthographicCamera>;
   /** Element that has the pointer's events. */
   readonly element: HTMLElement;
   /** Size of the element [px]. */
   readonly size: ReadonlySignal<{ readonly width: number; readonly height: number }>;
   /** Parts of the element under panels; the camera's target stays in the middle of the rest. */
   readonly freeArea: Signal<Insets>;
+  /** Size of the pane that the pointer is in [px]. */
+  readonly paneSize: ReadonlySignal<{ readonly width: number; readonly height: number }>;
+  /** The part of the active pane that no panel covers, in the element [px]. */
+  readonly freePart: ReadonlySignal<Area>;
   /** CSS colour behind everything, as "#16191c" or "rgb(22, 25, 28)". */
   readonly background: Signal<string>;
   /** The ground's grid. */

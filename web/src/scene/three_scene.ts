@@ -1,29 +1,28 @@
-/** The 3D view by three.js: a canvas that is drawn when something changed. */
+/** The 3D view by three.js: a canvas of one or more panes, drawn when something changed. */
 
 import "./conventions";
 
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import {
-  AmbientLight, Color, DirectionalLight, Group, PerspectiveCamera, Scene, WebGLRenderer, type Object3D, type OrthographicCamera, type Ray,
-  type Vector3,
+  AmbientLight, Color, DirectionalLight, Group, Scene, WebGLRenderer, type Object3D, type Ray, type Vector3,
 } from "three";
 
 import { drawsOnCpu } from "./draws_on_cpu";
-import { centreOn, freeArea, NO_INSETS } from "./free_area";
+import { NO_INSETS, type Area } from "./free_area";
 import { GroundGrid } from "./ground_grid";
-import { LabelLayer } from "./label_layer";
+import { LabelSet } from "./label_layer";
 import { pickBox } from "./box_picking";
+import type { Pane } from "./panes/pane";
+import { panePlaces, type PanePlace } from "./panes/pane_layout";
+import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
-import { ViewAxes } from "./view_axes";
-import type { SixSides } from "./view_controller";
 
 /** Most device pixels per pixel, and in the whole picture. */
 const MAX_PIXEL_RATIO = 2;
 const MAX_PIXELS = 5e6;
 /** Most device pixels where the CPU draws. */
 const MAX_SLOW_PIXELS = 1e6;
-const AXES_GAP = 8;
 
 const NO_WEBGL = "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
 
@@ -31,22 +30,26 @@ export class ThreeScene implements SceneView {
   readonly status = signal<SceneStatus>({ kind: "drawing" });
   readonly displays = new Group();
   readonly world = new Group();
-  readonly camera = signal<PerspectiveCamera | OrthographicCamera>(new PerspectiveCamera());
   readonly element = document.createElement("canvas");
   readonly size = signal({ width: 1, height: 1 });
   readonly freeArea = signal<Insets>(NO_INSETS);
   readonly background = signal("#16191c");
   readonly grid = signal(false);
-  /** A side of the view axes was pressed. */
-  onSide: (side: SixSides) => void = () => undefined;
 
   readonly scene = new Scene();
   private readonly renderer: WebGLRenderer | null;
   private readonly ground = new GroundGrid();
   private readonly headlight = new DirectionalLight(0xffffff, 0.65 * Math.PI);
   private readonly picker = new Picker();
-  private readonly labels = new LabelLayer(() => this.invalidate());
-  private readonly axes = new ViewAxes((side) => this.onSide(side));
+  private readonly labels = new LabelSet(() => this.invalidate());
+  readonly panes: ScenePanes;
+  readonly camera = computed(() => this.panes.pointed.value.camera.value);
+  readonly paneSize = computed(() => this.panes.pointed.value.place.value.area);
+  readonly freePart = computed<Area>(() => {
+    const { free, place } = this.panes.active.value;
+    const { left, top } = place.value.area;
+    return { ...free.value, left: left + free.value.left, top: top + free.value.top };
+  });
   private readonly ticks = new Set<(elapsed: number) => void>();
   private readonly steps = new Set<DrawStep>();
   private readonly stops: (() => void)[] = [];
@@ -65,7 +68,8 @@ export class ThreeScene implements SceneView {
     this.element.tabIndex = 0;
     this.element.setAttribute("aria-label", "3D view");
     Object.assign(this.element.style, { position: "absolute", inset: "0", width: "100%", height: "100%", touchAction: "none", outline: "none" });
-    host.append(this.element, this.labels.canvas, this.axes.element);
+    host.append(this.element);
+    this.panes = new ScenePanes(host, this.labels, this.size, this.freeArea);
     this.scene.add(this.world, this.displays, this.ground, new AmbientLight(0xffffff, 0.35 * Math.PI), this.headlight, this.headlight.target);
     this.listen();
     this.frame = requestAnimationFrame((now) => this.tick(now));
@@ -90,19 +94,31 @@ export class ThreeScene implements SceneView {
   }
 
   pick(x: number, y: number): Pick | null {
-    return this.picker.pick([this.displays, this.world], this.camera.peek(), this.size.peek(), x, y);
+    const { pane, left, top } = this.from(x, y);
+    return this.picker.pick([this.displays, this.world], pane.camera.peek(), pane.size, x - left, y - top);
   }
 
   pickBox(box: PictureBox, limit: number): readonly Pick[] {
-    return pickBox([this.displays, this.world], this.camera.peek(), this.size.peek(), box, limit);
+    const { pane, left, top } = this.from(box.left, box.top);
+    const inPane = { left: box.left - left, right: box.right - left, top: box.top - top, bottom: box.bottom - top };
+    return pickBox([this.displays, this.world], pane.camera.peek(), pane.size, inPane, limit);
   }
 
   ray(x: number, y: number): Ray {
-    return this.picker.ray(this.camera.peek(), this.size.peek(), x, y);
+    const { pane, left, top } = this.from(x, y);
+    return this.picker.ray(pane.camera.peek(), pane.size, x - left, y - top);
   }
 
   pickGround(x: number, y: number): Vector3 | null {
-    return this.picker.pickGround(this.camera.peek(), this.size.peek(), x, y);
+    const { pane, left, top } = this.from(x, y);
+    return this.picker.pickGround(pane.camera.peek(), pane.size, x - left, y - top);
+  }
+
+  /** The pane at a point [px], and its corner. */
+  private from(x: number, y: number): { readonly pane: Pane; readonly left: number; readonly top: number } {
+    const pane = this.panes.at(x, y);
+    const { left, top } = pane.place.peek().area;
+    return { pane, left, top };
   }
 
   addLabel(anchor: Object3D, text: string, colour?: `--${string}`): Label {
@@ -114,9 +130,15 @@ export class ThreeScene implements SceneView {
     const context = picture.getContext("2d");
     if (this.renderer === null || this.status.peek().kind !== "drawing" || context === null) throw new Error("Nothing can be drawn now.");
     const ratio = height / this.size.peek().height;
-    this.draw({ width: width / ratio, height: height / ratio }, ratio, NO_INSETS);
+    const size = { width: width / ratio, height: height / ratio };
+    const places = panePlaces(this.panes.layout.peek(), size, NO_INSETS, 0);
+    this.draw(size, ratio, places);
     const { drawingBufferWidth, drawingBufferHeight } = this.renderer.getContext();
-    for (const canvas of [this.element, this.labels.canvas]) context.drawImage(canvas, 0, 0, width, height);
+    context.drawImage(this.element, 0, 0, width, height);
+    this.panes.shown.peek().forEach(({ labels }, index) => {
+      const area = places[index]?.area;
+      if (area !== undefined) context.drawImage(labels.canvas, area.left * ratio, area.top * ratio, area.width * ratio, area.height * ratio);
+    });
     this.invalidate();
     if (drawingBufferWidth < width - 1 || drawingBufferHeight < height - 1) {
       throw new Error(`This browser draws at most ${drawingBufferWidth} × ${drawingBufferHeight} pixels of it.`);
@@ -128,7 +150,8 @@ export class ThreeScene implements SceneView {
     cancelAnimationFrame(this.frame);
     for (const stop of this.stops) stop();
     this.renderer?.dispose();
-    for (const element of [this.element, this.labels.canvas, this.axes.element]) element.remove();
+    this.panes.dispose();
+    this.element.remove();
   }
 
   private createRenderer(): WebGLRenderer | null {
@@ -159,24 +182,30 @@ export class ThreeScene implements SceneView {
     });
     on("pointermove", (event) => {
       if (!(event instanceof PointerEvent)) return;
-      const at = event.buttons === 0 ? { x: event.offsetX, y: event.offsetY } : null;
-      this.labels.hover(at, this.camera.peek(), this.size.peek());
+      this.hoverLabels(event.buttons === 0 ? this.panes.point(event.offsetX, event.offsetY) : null, event);
     });
-    on("pointerleave", () => this.labels.hover(null, this.camera.peek(), this.size.peek()));
+    on("pointerleave", () => this.hoverLabels(null));
     this.stops.push(
       () => observer.disconnect(),
       effect(() => {
-        const { right, top } = this.freeArea.value;
-        Object.assign(this.axes.element.style, { right: `${right + AXES_GAP}px`, top: `${top + AXES_GAP}px` });
+        this.panes.shown.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- other panes are another picture
+        this.panes.places.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- and other places
         this.ground.visible = this.grid.value;
         const background = new Color(this.background.value);
         this.ground.setBackground(background);
         this.renderer?.setClearColor(background);
         this.invalidate();
       }),
-      this.camera.subscribe(() => this.invalidate()),
     );
     this.resize();
+  }
+
+  /** The pointer is over a pane, or over none. */
+  private hoverLabels(over: Pane | null, at?: PointerEvent): void {
+    for (const pane of this.panes.shown.peek()) {
+      const { left, top } = pane.place.peek().area;
+      pane.labels.hover(pane === over && at !== undefined ? { x: at.offsetX - left, y: at.offsetY - top } : null, pane.camera.peek(), pane.size);
+    }
   }
 
   private resize(): void {
@@ -194,7 +223,7 @@ export class ThreeScene implements SceneView {
     for (const callback of this.ticks) callback(elapsed);
     if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
     this.isChanged = false;
-    this.draw(this.size.peek(), this.ratio, this.freeArea.peek());
+    this.draw(this.size.peek(), this.ratio, this.panes.places.peek());
   }
 
   /** Device pixels per pixel of the element. */
@@ -204,33 +233,53 @@ export class ThreeScene implements SceneView {
     return Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO, Math.sqrt(most / (width * height)));
   }
 
-  /** Fit canvas and camera to a size [px]. */
-  private fit({ width, height }: PictureSize, ratio: number, insets: Insets): void {
+  /** Fit the canvas to a size [px]. */
+  private fit({ width, height }: PictureSize, ratio: number): void {
     const isSame = ratio === this.pixelRatio && this.element.width === Math.floor(width * ratio) && this.element.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
       this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
     }
     this.pixelRatio = ratio;
-    const camera = this.camera.peek();
-    if ("aspect" in camera) camera.aspect = width / height;
-    else Object.assign(camera, { left: (camera.bottom * width) / height, right: (camera.top * width) / height });
-    centreOn(freeArea(width, height, insets), camera, width, height);
-    camera.updateProjectionMatrix();
-    camera.updateMatrixWorld();
   }
 
-  private draw(size: PictureSize, ratio: number, insets: Insets): void {
-    this.fit(size, ratio, insets);
-    const camera = this.camera.peek();
+  private draw(size: PictureSize, ratio: number, places: readonly PanePlace[]): void {
+    this.fit(size, ratio);
+    const { renderer } = this;
+    const shown = this.panes.shown.peek();
+    if (renderer !== null) for (const step of this.steps) step.before?.(renderer);
+    for (let i = 0; i < shown.length; i += 1) {
+      const pane = shown[i];
+      const place = places[i];
+      if (pane !== undefined && place !== undefined) this.drawPane(pane, place, ratio, shown.length > 1 ? size : null);
+    }
+    if (renderer === null) return;
+    if (shown.length > 1) {
+      renderer.setScissorTest(false);
+      renderer.setViewport(0, 0, size.width, size.height);
+    }
+    for (const step of this.steps) step.after?.(renderer);
+  }
+
+  /** Draw a pane, which is a part of a picture of this size; null: it is the whole picture. */
+  private drawPane(pane: Pane, place: PanePlace, ratio: number, whole: PictureSize | null): void {
+    const { renderer } = this;
+    const { area } = place;
+    pane.fit(place);
+    const camera = pane.camera.peek();
     this.ground.follow(camera);
     this.headlight.position.copy(camera.position);
     camera.getWorldDirection(this.headlight.target.position).add(camera.position);
-    if (this.renderer !== null) {
-      for (const step of this.steps) step.before?.(this.renderer, camera);
-      this.renderer.render(this.scene, camera);
-      for (const step of this.steps) step.after?.(this.renderer, camera);
+    if (renderer !== null) {
+      if (whole !== null) {
+        const bottom = whole.height - area.top - area.height;
+        renderer.setViewport(area.left, bottom, area.width, area.height);
+        renderer.setScissor(area.left, bottom, area.width, area.height);
+        renderer.setScissorTest(true);
+      }
+      for (const step of this.steps) step.beforePane?.(camera, area.height);
+      renderer.render(this.scene, camera);
+      for (const step of this.steps) step.afterPane?.(renderer, camera);
     }
-    this.labels.draw(camera, size, ratio);
-    this.axes.draw(camera);
+    pane.drawOver(area, ratio);
   }
 }

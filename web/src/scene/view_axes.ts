@@ -26,7 +26,9 @@ const ENDS = [
 ] as const;
 
 export class ViewAxes {
-  readonly element = make("svg", { width: "62", height: "62", viewBox: "-31 -31 62 62", role: "group", "aria-label": "View axes" });
+  /** Width and height [px]. */
+  static readonly size = 62;
+  readonly element = make("svg", { width: `${ViewAxes.size}`, height: `${ViewAxes.size}`, viewBox: "-31 -31 62 62", role: "group", "aria-label": "View axes" });
   private readonly tips: Tip[];
   private readonly turned = new Vector3();
   private order = "";

@@ -6,6 +6,7 @@ import type { Box3, Vector3 } from "three";
 import type { Property, Triple, YamlMapping } from "../rviz/properties";
 
 import type { Area } from "./free_area";
+import type { PaneLayout, PanePlace } from "./panes/pane_layout";
 import type { CameraInfo } from "./simulated_world";
 
 export type SixSides = "front" | "back" | "left" | "right" | "top" | "bottom";
@@ -19,10 +20,26 @@ export interface ViewController {
   load(yaml: YamlMapping): string[];
 }
 
-export interface Views {
+/** A part of the scene that has a view of its own. */
+export interface ViewPane {
   readonly current: ReadonlySignal<ViewController>;
-  /** Where the picture of the camera is that is looked through [px]; null: none is. */
+  readonly place: ReadonlySignal<PanePlace>;
+  /** Where in the pane the picture of the camera is that is looked through [px]; null: none is. */
   readonly cameraFrame: ReadonlySignal<Area | null>;
+  /** Take the view of a file. */
+  load(yaml: YamlMapping): string[];
+}
+
+export interface Views {
+  readonly layout: Signal<PaneLayout>;
+  /** Panes that are shown. */
+  readonly panes: ReadonlySignal<readonly ViewPane[]>;
+  /** The pane whose view all else here is about. */
+  readonly active: ReadonlySignal<ViewPane>;
+  activate(pane: ViewPane): void;
+  /** Make the pane some places on the active one. */
+  stepPane(by: number): void;
+  readonly current: ReadonlySignal<ViewController>;
   readonly classes: readonly string[];
   readonly saved: Signal<readonly ViewController[]>;
   use(className: string): void;
@@ -31,6 +48,8 @@ export interface Views {
   copyCurrent(name: string): ViewController;
   /** Move smoothly so that a box of the fixed frame fills the free part of the scene. */
   frame(box: Box3): void;
+  /** The same in every pane that is shown. */
+  frameInAll(box: Box3): void;
   focus(point: Vector3): void;
   lookFrom(side: SixSides): void;
   /** Switch between perspective and none, around the same point. */

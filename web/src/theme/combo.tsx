@@ -3,7 +3,7 @@
 import type { JSX, TargetedKeyboardEvent } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
 
-import { place } from "./menu";
+import { placeBelow } from "./menu_list";
 
 export interface Choice {
   readonly value: string;
@@ -91,7 +91,7 @@ export function Combo({ label, value, choices, onCommit }: ComboProps): JSX.Elem
 }
 
 function put(list: HTMLElement | null, anchor: HTMLElement | null): void {
-  if (list !== null && anchor !== null && list.classList.contains("menu")) place(list, anchor);
+  if (list !== null && anchor !== null && list.classList.contains("menu")) placeBelow(list, anchor);
 }
 
 /** Choices that contain a text, those that begin with it first. */

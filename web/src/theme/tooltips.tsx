@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 
-import { place } from "./menu";
+import { placeBelow } from "./menu_list";
 
 const DELAY = 400; // ms of rest before it shows
 
@@ -34,7 +34,7 @@ export function Tooltips(): JSX.Element | null {
     };
   }, []);
   useLayoutEffect(() => {
-    if (tip.current !== null && owner !== null) place(tip.current, owner);
+    if (tip.current !== null && owner !== null) placeBelow(tip.current, owner);
   }, [owner]);
   const text = owner?.isConnected === true ? owner.dataset["tip"] : undefined;
   if (text === undefined) return null;

@@ -4,6 +4,7 @@ import type { ComponentChildren, JSX } from "preact";
 import { useRef, useState } from "preact/hooks";
 
 import { Icon } from "./icons";
+import { LongPress } from "./long_press";
 
 export interface TreeRow {
   readonly key: string;
@@ -25,6 +26,8 @@ export interface TreeProps {
   readonly onSelect: (key: string) => void;
   readonly onHover?: (key: string | null) => void;
   readonly onActivate?: (key: string) => void;
+  /** A row's menu is asked for, at a point of the page [px]. */
+  readonly onMenu?: (key: string, x: number, y: number) => void;
   /** Keys that are not the tree's own. */
   readonly onKey?: (key: string, event: KeyboardEvent) => void;
 }
@@ -74,6 +77,18 @@ export function Tree(props: TreeProps): JSX.Element {
   );
 }
 
+const longPress = new LongPress();
+
+function isTouch(event: MouseEvent): boolean {
+  return event instanceof PointerEvent && event.pointerType === "touch";
+}
+
+/** Where a row's menu opens [px]. */
+function below(row: HTMLElement): [number, number] {
+  const { left, bottom } = row.getBoundingClientRect();
+  return [left + 24, bottom];
+}
+
 /** Draw a row; what it does is what the tree is asked for at that time. */
 function drawRow(row: TreeRow, isInOrder: boolean, setFocused: (key: string) => void, latest: { readonly current: TreeProps }): JSX.Element {
   return (
@@ -92,6 +107,20 @@ function drawRow(row: TreeRow, isInOrder: boolean, setFocused: (key: string) => 
       onClick={() => latest.current.onSelect(row.key)}
       onDblClick={() => latest.current.onActivate?.(row.key)}
       onPointerEnter={() => latest.current.onHover?.(row.key)}
+      onContextMenu={(event) => {
+        const { onMenu } = latest.current;
+        if (onMenu === undefined) return;
+        event.preventDefault();
+        if (event.button === 2) onMenu(row.key, event.clientX, event.clientY);
+        else if (!isTouch(event)) onMenu(row.key, ...below(event.currentTarget)); // by the keyboard
+      }}
+      onPointerDown={(event) => {
+        const { currentTarget } = event;
+        longPress.begin(event, () => latest.current.onMenu?.(row.key, ...below(currentTarget)));
+      }}
+      onPointerMove={(event) => longPress.move(event)}
+      onPointerUp={() => longPress.end()}
+      onPointerCancel={() => longPress.end()}
     >
       {row.class === undefined && <Twist row={row} onToggle={(key, open) => latest.current.onToggle(key, open)} />}
       {row.content}

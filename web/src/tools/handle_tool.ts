@@ -1,7 +1,7 @@
 /** Base of the tools with handles at what is selected: a drag of one moves a model, a light or a joint. */
 
 import { computed, effect, type ReadonlySignal } from "@preact/signals";
-import { Matrix4, Quaternion, Vector3, type Ray } from "three";
+import { Matrix4, Quaternion, Vector3, type Camera, type Ray } from "three";
 
 import { InteractionMode } from "../displays/interactive/control_modes";
 import { Drag } from "../displays/interactive/drag";
@@ -70,7 +70,7 @@ export abstract class HandleTool extends BaseTool {
     scene.world.add(this.handles);
     this.stops = [
       () => this.handles.removeFromParent(),
-      scene.addStep({ before: () => this.place() }),
+      scene.addStep({ beforePane: (camera, height) => this.place(camera, height) }),
       scene.onTick((elapsed) => this.tick(elapsed)),
       effect(() => {
         const target = this.target.value;
@@ -110,7 +110,7 @@ export abstract class HandleTool extends BaseTool {
     const target = this.target.peek();
     const from = target?.pose() ?? null;
     if (target === null || from === null) return false;
-    this.place();
+    this.placeForPointer();
     const ray = scene.ray(input.x, input.y);
     const hit = this.handles.hit(ray) ?? this.hitBody(target, input);
     if (hit === null) return false;
@@ -200,18 +200,23 @@ export abstract class HandleTool extends BaseTool {
     if (dragged !== null && dragged.drawn.release !== null && this.sinceAsked > RENEWAL) this.ask(dragged);
     this.pointed = null;
     if (dragged !== null || pointed === null || pointed.button >= 0) return;
+    this.placeForPointer();
     if (this.handles.light(this.handles.hit(this.context.scene.ray(pointed.x, pointed.y))?.handle ?? null)) this.context.scene.invalidate();
   }
 
-  /** Put the handles where their target is, or is dragged to. */
-  private place(): void {
+  private placeForPointer(): void {
     const { scene } = this.context;
+    this.place(scene.camera.peek(), scene.paneSize.peek().height);
+  }
+
+  /** Put the handles where their target is, or is dragged to, in a size for a camera of a picture of this height [px]. */
+  private place(camera: Camera, height: number): void {
     const target = this.target.peek();
     const pose = this.dragged?.to ?? target?.pose() ?? null;
     this.handles.visible = pose !== null && target !== null;
     if (pose === null || target === null) return;
     const isTurned = target.axis !== null || this.axes.value.peek() === "Model";
-    this.handles.place({ position: pose.position, orientation: isTurned ? pose.orientation : new Quaternion() }, scene.camera.peek(), scene.size.peek().height);
+    this.handles.place({ position: pose.position, orientation: isTurned ? pose.orientation : new Quaternion() }, camera, height);
   }
 
   private inputOf({ x, y, shift, control }: PointerInput, ray: Ray): { ray: Ray; x: number; y: number; shift: boolean; control: boolean } {

@@ -84,11 +84,9 @@ export class InsertTool extends BaseTool {
 
   /** Insert what is chosen in the middle of what is seen, or below it where the sky is there. */
   placeInMiddle(): void {
-    const { size, freeArea } = this.context.scene;
-    const { width, height } = size.peek();
-    const { left, right, top, bottom } = freeArea.peek();
-    const x = (left + width - right) / 2;
-    const y = DOWN.map((share) => top + share * (height - top - bottom)).find((each) => this.meet(x, each) !== null);
+    const { left, top, width, height } = this.context.scene.freePart.peek();
+    const x = left + width / 2;
+    const y = DOWN.map((share) => top + share * height).find((each) => this.meet(x, each) !== null);
     if (y !== undefined) this.place(x, y);
     else this.hint.value = "Nothing but sky is seen: turn the view down.";
   }

@@ -6,19 +6,19 @@ import { Box3, OrthographicCamera, PerspectiveCamera, Quaternion, Vector3 } from
 import { expect, test } from "vitest";
 
 import type { Transform } from "../../src/frames/transform";
+import { LabelSet } from "../../src/scene/label_layer";
+import { ScenePanes } from "../../src/scene/panes/scene_panes";
 import type { Insets } from "../../src/scene/scene_view";
-import type { SixSides } from "../../src/scene/view_controller";
 import { ViewList, type ViewScene } from "../../src/scene/views/view_list";
 
 function setUp(isReduced = false) {
   const ticks: ((elapsed: number) => void)[] = [];
   let drawn = 0;
   window.matchMedia = () => ({ matches: isReduced }) as MediaQueryList;
+  const insets = signal<Insets>({ left: 0, right: 0, top: 0, bottom: 0 });
+  const panes = new ScenePanes(document.createElement("div"), new LabelSet(() => undefined), signal({ width: 800, height: 600 }), insets);
   const scene: ViewScene = {
-    camera: signal<PerspectiveCamera | OrthographicCamera>(new PerspectiveCamera()),
-    size: signal({ width: 800, height: 600 }),
-    freeArea: signal<Insets>({ left: 0, right: 0, top: 0, bottom: 0 }),
-    onSide: (_side: SixSides) => undefined,
+    panes,
     onTick: (tick) => {
       ticks.push(tick);
       return () => undefined;
@@ -32,7 +32,8 @@ function setUp(isReduced = false) {
   const wait = (seconds: number): void => {
     for (let i = 0; i < seconds * 60; i += 1) for (const tick of ticks) tick(1 / 60);
   };
-  return { scene, views, targets, wait, drawn: () => drawn };
+  const pane = panes.active.value;
+  return { panes, pane, views, targets, wait, drawn: () => drawn };
 }
 
 function at(x: number, y: number): Transform {
@@ -40,29 +41,29 @@ function at(x: number, y: number): Transform {
 }
 
 test("the camera follows a body, stops where it is, and costs no picture while nothing moves", () => {
-  const { scene, views, targets, wait, drawn } = setUp();
+  const { pane, views, targets, wait, drawn } = setUp();
   targets.set("robot::base", at(5, 0));
   wait(0.1);
   views.follow("robot::base");
   wait(2);
-  const offset = scene.camera.value.position.clone().sub(new Vector3(5, 0, 0));
+  const offset = pane.camera.value.position.clone().sub(new Vector3(5, 0, 0));
   targets.set("robot::base", at(6, 1));
   wait(2);
-  expect(scene.camera.value.position.clone().sub(offset).x).toBeCloseTo(6, 3);
+  expect(pane.camera.value.position.clone().sub(offset).x).toBeCloseTo(6, 3);
   const before = drawn();
   wait(1);
   expect(drawn()).toBe(before);
 
-  const place = scene.camera.value.position.clone();
+  const place = pane.camera.value.position.clone();
   views.follow(null);
   targets.set("robot::base", at(9, 9));
   wait(1);
-  expect(scene.camera.value.position.distanceTo(place)).toBeLessThan(1e-6);
+  expect(pane.camera.value.position.distanceTo(place)).toBeLessThan(1e-6);
 });
 
 test("framing takes some time, and none where reduced motion is asked for", () => {
   const box = new Box3(new Vector3(9, 9, 0), new Vector3(11, 11, 2));
-  const looksAt = ({ views }: ReturnType<typeof setUp>): Vector3 => views.current.value.focus(views.target);
+  const looksAt = ({ views }: ReturnType<typeof setUp>): Vector3 => views.current.value.focus(views.active.value.target);
   const smooth = setUp();
   smooth.views.frame(box);
   smooth.wait(0.1);
@@ -77,21 +78,21 @@ test("framing takes some time, and none where reduced motion is asked for", () =
 });
 
 test("another class shows the same place; a side that it cannot show brings Orbit back", () => {
-  const { scene, views, wait } = setUp(true);
+  const { pane, views, wait } = setUp(true);
   views.load({ Current: { Class: "rviz/Orbit", Distance: 4, "Focal Point": { X: 3, Y: 2, Z: 0 }, Yaw: 1, Pitch: 0.6 } });
   wait(0.1);
-  const place = scene.camera.value.position.clone();
+  const place = pane.camera.value.position.clone();
   views.use("rviz/FPS");
   wait(0.1);
-  expect(scene.camera.value.position.distanceTo(place)).toBeLessThan(1e-6);
+  expect(pane.camera.value.position.distanceTo(place)).toBeLessThan(1e-6);
   views.use("rviz/TopDownOrtho");
   wait(0.1);
-  expect(scene.camera.value).toBeInstanceOf(OrthographicCamera);
-  expect(scene.camera.value.position.x).toBeCloseTo(3, 0);
-  scene.onSide("left");
+  expect(pane.camera.value).toBeInstanceOf(OrthographicCamera);
+  expect(pane.camera.value.position.x).toBeCloseTo(3, 0);
+  pane.onSide("left");
   wait(0.1);
   expect(views.current.value.className).toBe("rviz/Orbit");
-  expect(scene.camera.value).toBeInstanceOf(PerspectiveCamera);
+  expect(pane.camera.value).toBeInstanceOf(PerspectiveCamera);
 });
 
 test("views of a file: saved ones, those of old files and of ROS 2; unknown ones are named", () => {
@@ -118,4 +119,27 @@ test("views of a file: saved ones, those of old files and of ROS 2; unknown ones
       { Class: "rviz_animated_view_controller/Animated", Name: "odd" },
     ],
   });
+});
+
+test("further panes look at the same place from top, front and right; what is asked is done by the active one", () => {
+  const { panes, pane, views, wait } = setUp(true);
+  views.load({ Current: { Class: "rviz/Orbit", Distance: 4, "Focal Point": { X: 3, Y: 2, Z: 1 }, Yaw: 1, Pitch: 0.6, "Target Frame": "map" } });
+  panes.layout.value = "four";
+  wait(0.1);
+  const eyes = views.panes.value.slice(1).map(({ pane: { camera } }) => camera.value.position.clone().sub(new Vector3(3, 2, 1)).normalize());
+  expect(eyes.map(({ x, y, z }) => [x, y, z].map((part) => Math.round(part) + 0))).toEqual([[0, 0, 1], [1, 0, 0], [0, -1, 0]]);
+  expect(views.panes.value.slice(1).every(({ pane: { camera } }) => camera.value instanceof OrthographicCamera)).toBe(true);
+
+  const front = views.panes.value[2];
+  if (front !== undefined) views.activate(front);
+  views.use("rviz/FPS");
+  panes.layout.value = "one";
+  wait(0.1);
+  expect(views.panes.value).toEqual([front]); // the active one stays
+  expect(views.current.value.className).toBe("rviz/FPS");
+  panes.layout.value = "four";
+  expect(views.panes.value.map(({ view }) => view.value.className)).toEqual(["rviz/Orbit", "rviz/Orbit", "rviz/FPS", "rviz/Orbit"]);
+  views.stepPane(1);
+  views.stepPane(1);
+  expect(panes.active.value).toBe(pane);
 });

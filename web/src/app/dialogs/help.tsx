@@ -14,6 +14,7 @@ const FIXED: readonly (readonly [string, readonly (readonly [string, string])[]]
       ["Left drag", "Turn"],
       ["Middle drag, Shift left drag", "Move sideways"],
       ["Wheel, right drag", "Nearer and farther"],
+      ["Right click, a finger that rests, Shift F10", "Menu of a model, in a simulation"],
       ["Ctrl drag on a part", "Pull it by a spring, in a simulation"],
       ["Arrows, + −", "Turn and zoom, when the scene has the focus"],
     ],

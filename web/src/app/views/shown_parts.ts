@@ -37,6 +37,14 @@ export function isWorldPartShown({ world }: Pick<Page, "world">, part: WorldPart
   return world.shown.world.value.get(part) ?? (part === "grid" && world.manifest.value?.scene.grid === true);
 }
 
+/** Hide or show a model, or a link (`model::link`). */
+export function toggleHidden({ world, scene }: Pick<Page, "world" | "scene">, name: string): void {
+  const names = new Set(world.hidden.peek());
+  if (!names.delete(name)) names.add(name);
+  world.hidden.value = names;
+  scene.invalidate();
+}
+
 const isPart = isOneOf(...PARTS);
 const isWorldPart = isOneOf(...WORLD_PARTS);
 

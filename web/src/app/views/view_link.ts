@@ -1,19 +1,25 @@
 /** Links that keep the view: behind the page's address stands from where one looks. */
 
+import type { Signal } from "@preact/signals";
+
+import { PANE_LAYOUTS, type PaneLayout } from "../../scene/panes/pane_layout";
 import { isMapping, type Yaml, type YamlMapping } from "../../rviz/properties";
 import type { Views } from "../../scene/view_controller";
+import { isOneOf } from "../storage";
 
 const KEY = "#view=";
 /** Longest text of a view [characters]. */
-const LONGEST = 4000;
+const LONGEST = 8000;
 
-/** The page's address with the current view; with a token, another address of the page. */
-export function linkTo(views: Pick<Views, "current">, address: string, token: string | null = null): string {
+const isLayout = isOneOf(...PANE_LAYOUTS);
+
+/** The page's address with the current view, or those of all panes; with a token, another address of the page. */
+export function linkTo(views: Pick<Views, "current" | "layout" | "panes" | "active">, address: string, token: string | null = null): string {
   const short = (_: string, value: unknown): unknown => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
   const url = new URL(address);
   url.hash = "";
   if (token !== null) url.searchParams.set("token", token);
-  return `${url.href}${KEY}${encodeURIComponent(JSON.stringify(views.current.peek().save(), short))}`;
+  return `${url.href}${KEY}${encodeURIComponent(JSON.stringify(shownViews(views), short))}`;
 }
 
 /** The view that a link's end holds, as an .rviz file would; null: none that can be read. */
@@ -25,4 +31,28 @@ export function linkedView(hash: string): YamlMapping | null {
   } catch {
     return null;
   }
+}
+
+/** The current view, or the views of several panes. */
+function shownViews({ current, layout, panes, active }: Pick<Views, "current" | "layout" | "panes" | "active">): YamlMapping {
+  if (layout.peek() === "one") return current.peek().save();
+  const shown = panes.peek();
+  return { Layout: layout.peek(), Active: shown.indexOf(active.peek()), Panes: shown.map((pane) => pane.current.peek().save()) };
+}
+
+/** Show what a link holds: a view in the active pane, or several panes. */
+export function showLinkedView(views: Views, split: Signal<PaneLayout>, linked: YamlMapping): void {
+  const layout = linked["Layout"];
+  if (!isLayout(layout) || !Array.isArray(linked["Panes"])) {
+    split.value = "one";
+    views.load({ ...views.save(), Current: linked });
+    return;
+  }
+  split.value = layout;
+  views.panes.peek().forEach((pane, index) => {
+    const view: Yaml | undefined = (linked["Panes"] as readonly Yaml[])[index];
+    if (isMapping(view)) pane.load(view);
+  });
+  const active = views.panes.peek()[Number(linked["Active"])];
+  if (active !== undefined) views.activate(active);
 }

@@ -4,7 +4,8 @@ import type { JSX } from "preact";
 
 import { WORLD_PARTS } from "../../scene/overlays/shown_parts";
 import { Button } from "../../theme/button";
-import { MenuButton, type MenuItem } from "../../theme/menu";
+import { MenuButton } from "../../theme/menu";
+import type { MenuItem } from "../../theme/menu_list";
 import type { Command, Page } from "../page";
 import { isWorldPartShown, PART_NAMES, partsOf, WORLD_PART_NAMES } from "./shown_parts";
 import type { Shell } from "../shell";

@@ -2,7 +2,8 @@
 
 import type { JSX } from "preact";
 
-import { MenuButton, type MenuItem } from "../../theme/menu";
+import { MenuButton } from "../../theme/menu";
+import type { MenuItem } from "../../theme/menu_list";
 import type { Shell } from "../shell";
 
 const COMMANDS = ["side.insert", "new_model", "save_world", "reload"];

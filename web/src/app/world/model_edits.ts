@@ -1,6 +1,6 @@
 /** Edits of whole models: held in the air, copied, deleted. */
 
-import { Vector3 } from "three";
+import { Vector3, type Box3 } from "three";
 
 import { findModel } from "../views/framing";
 import { selectOnceThere } from "../insert/insertion";
@@ -18,19 +18,27 @@ export function holdModel(shell: Shell, model: string, on: boolean): void {
   void editWorld(shell, `${on ? "Hold" : "Release"} of ${model}`, "hold", { model, on }, { model, on: !on });
 }
 
-/** Put a copy beside a model, and select it. */
-export function copyModel(shell: Shell, model: string): void {
+/** Put a copy beside a model, or onto a point of the world [m], and select it. */
+export function copyModel(shell: Shell, model: string, at: Vector3 | null = null): void {
   const { page } = shell;
   const outer = outermost(page, model);
   if (outer === null) return;
   const name = freeName(page, outer.name);
-  const offset = [page.world.bounds(bodiesOf(outer)).getSize(new Vector3()).x + GAP, 0, 0];
+  const worldFromFixed = page.scene.world.matrixWorld.clone().invert();
+  const offset = copyOffset(page.world.bounds(bodiesOf(outer)).applyMatrix4(worldFromFixed), at).toArray();
   const copy = { request: "copy", fields: { model: outer.name, name, offset } };
   const remove = { request: "delete", fields: { model: name } };
   const restore = { request: "restore", fields: { model: name } }; // the copy, with what became of it
   void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
     if (isDone) selectOnceThere(shell, { kind: "model", model: name });
   });
+}
+
+/** From a model within bounds to its copy, which stands beside it, or on a point. */
+function copyOffset(bounds: Box3, at: Vector3 | null): Vector3 {
+  if (at === null) return new Vector3(bounds.max.x - bounds.min.x + GAP, 0, 0);
+  const foot = bounds.getCenter(new Vector3()).setZ(bounds.min.z);
+  return at.clone().sub(foot);
 }
 
 /** Delete a model, with its sensors and plugins. */

@@ -10,7 +10,9 @@ import { Icon } from "../../theme/icons";
 import { Tree, type TreeRow } from "../../theme/tree";
 import { frameSelection } from "../views/framing";
 import { jointValue } from "../inspector/joint_values";
+import { openMenu } from "../object_menu/object_menu";
 import type { Shell } from "../shell";
+import { toggleHidden } from "../views/shown_parts";
 import { canEdit } from "./edits";
 import { WorldMenu } from "./menu";
 import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type WorldNode } from "./nodes";
@@ -21,7 +23,8 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const search = useSignal("");
   const rows = useRef(new WorldRows());
   const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
-  const isOpen = (node: WorldNode): boolean => toggled.value.get(node.key) ?? opensAtFirst(node, world.manifest.value);
+  const opened = useComputed(() => openedAtFirst(world.manifest.value));
+  const isOpen = (node: WorldNode): boolean => toggled.value.get(node.key) ?? (node.selection?.kind !== "model" || opened.value.has(node.hides ?? ""));
   if (root.value === null) {
     const said = session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
     return <p class="empty">{said}</p>;
@@ -53,11 +56,12 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
             selection.value = chosen ?? selection.value;
             frameSelection(shell.page, chosen);
           }}
+          onMenu={(key, x, y) => openMenu(shell, byKey.get(key)?.selection ?? null, x, y)}
           onKey={(key, event) => {
             const hides = byKey.get(key)?.hides ?? null;
             if (event.key !== " " || hides === null) return;
             event.preventDefault();
-            toggleHidden(shell, hides);
+            toggleHidden(shell.page, hides);
           }}
         />
       </div>
@@ -65,13 +69,12 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-/** The world, its groups and the robot are open at first; without a robot, a model that moves alone. */
-function opensAtFirst(node: WorldNode, manifest: Manifest | null): boolean {
-  if (node.selection?.kind !== "model") return true;
+/** Names of the models that are open at first: the robot, or without one a model that moves alone. */
+function openedAtFirst(manifest: Manifest | null): ReadonlySet<string> {
   const models = allModels(manifest?.models ?? []);
   const robot = manifest?.robot ?? null;
   const shown = robot === null ? models.filter(({ model }) => !model.static) : models.filter(({ model }) => bodiesOf(model).includes(robot));
-  return shown.length === 1 || robot !== null ? shown.some(({ name }) => node.hides === name) : false;
+  return new Set(shown.length === 1 || robot !== null ? shown.map(({ name }) => name) : []);
 }
 
 /** Rows of the tree; one that shows what it did before is the same object. */
@@ -122,20 +125,12 @@ function Eye({ shell, name, hidden }: { readonly shell: Shell; readonly name: st
       aria-label={hidden ? `Show ${name}` : `Hide ${name}`}
       onClick={(event) => {
         event.stopPropagation();
-        toggleHidden(shell, name);
+        toggleHidden(shell.page, name);
       }}
     >
       <Icon name={hidden ? "eye_off" : "eye"} />
     </button>
   );
-}
-
-function toggleHidden(shell: Shell, name: string): void {
-  const { hidden } = shell.page.world;
-  const names = new Set(hidden.peek());
-  if (!names.delete(name)) names.add(name);
-  hidden.value = names;
-  shell.page.scene.invalidate();
 }
 
 function Search({ shell, onInput }: { readonly shell: Shell; readonly onInput: (text: string) => void }): JSX.Element {

@@ -2,7 +2,8 @@
 
 import type { JSX } from "preact";
 
-import { MenuButton, type MenuItem } from "../../theme/menu";
+import { MenuButton } from "../../theme/menu";
+import type { MenuItem } from "../../theme/menu_list";
 import { fixed } from "../../theme/format";
 import { significant } from "../messages/format";
 import { useTick } from "../use";

@@ -70,7 +70,9 @@ export class SelectionOutline {
   private readonly quad = new Scene();
   private readonly quadCamera = new OrthographicCamera();
   private readonly material: ShaderMaterial;
-  private readonly size = new Vector2();
+  /** Where the picture is drawn now: x, y from below, width, height [device px]. */
+  private readonly viewport = new Vector4();
+  private readonly scissor = new Vector4();
   private marked: readonly Marked[] = [];
   private readonly stops: (() => void)[];
 
@@ -89,7 +91,7 @@ export class SelectionOutline {
     triangle.frustumCulled = false;
     this.quad.add(triangle);
     this.stops = [
-      scene.addStep({ after: (renderer, camera) => this.draw(renderer, camera) }),
+      scene.addStep({ afterPane: (renderer, camera) => this.draw(renderer, camera) }),
       effect(() => {
         world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- models that come are outlined, too
         this.mark(world, outlined());
@@ -133,8 +135,10 @@ export class SelectionOutline {
 
   private draw(renderer: WebGLRenderer, camera: Camera): void {
     if (this.marked.every(({ objects }) => objects.length === 0)) return;
-    renderer.getDrawingBufferSize(this.size);
-    if (this.target.width !== this.size.x || this.target.height !== this.size.y) this.target.setSize(this.size.x, this.size.y);
+    const { z: width, w: height } = renderer.getCurrentViewport(this.viewport);
+    if (this.target.width !== width || this.target.height !== height) this.target.setSize(width, height);
+    renderer.getScissor(this.scissor);
+    const isScissored = renderer.getScissorTest();
     const { mask: layers } = camera.layers;
     const [clear, alpha] = [renderer.getClearColor(new Color()), renderer.getClearAlpha()];
     this.target.scissorTest = true;
@@ -146,6 +150,8 @@ export class SelectionOutline {
       camera.layers.mask = layers;
       renderer.setClearColor(clear, alpha);
       this.drawEdges(renderer, bounds, marked.colour);
+      renderer.setScissor(this.scissor);
+      renderer.setScissorTest(isScissored);
     }
   }
 
@@ -169,18 +175,19 @@ export class SelectionOutline {
   private drawEdges(renderer: WebGLRenderer, bounds: Vector4, token: string): void {
     const ratio = renderer.getPixelRatio();
     this.setUniforms(ratio, token);
+    bounds.x += this.viewport.x;
+    bounds.y += this.viewport.y;
     renderer.setScissor(bounds.divideScalar(ratio));
     renderer.setScissorTest(true);
     renderer.render(this.quad, this.quadCamera);
-    renderer.setScissorTest(false);
     renderer.autoClear = true;
   }
 
-  /** Rectangle of the picture that holds the outlines: x, y from below, width, height [device px]. */
+  /** Rectangle of the viewport that holds the outlines: x, y from below, width, height [device px]. */
   private findBounds(camera: Camera, objects: readonly Object3D[]): Vector4 {
     const all = new Box3();
     for (const object of objects) all.expandByObject(object);
-    const { x: width, y: height } = this.size;
+    const { z: width, w: height } = this.viewport;
     const rectangle = new Box2();
     for (let i = 0; i < 8 && !all.isEmpty(); i += 1) {
       const corner = new Vector3(i & 1 ? all.max.x : all.min.x, i & 2 ? all.max.y : all.min.y, i & 4 ? all.max.z : all.min.z);
@@ -196,7 +203,7 @@ export class SelectionOutline {
 
   private setUniforms(ratio: number, token: string): void {
     const { pixel, widths, colour } = this.material.uniforms;
-    (pixel?.value as Vector2).set(1 / this.size.x, 1 / this.size.y);
+    (pixel?.value as Vector2).set(1 / this.viewport.z, 1 / this.viewport.w);
     (widths?.value as Vector2).fromArray(WIDTHS).multiplyScalar(ratio);
     const shown = getComputedStyle(this.scene.element).getPropertyValue(token).trim() || "#3fbed0";
     (colour?.value as Color).set(shown).convertLinearToSRGB();

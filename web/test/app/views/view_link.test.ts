@@ -1,13 +1,15 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 
-import { linkedView, linkTo } from "../../../src/app/views/view_link";
+import { linkedView, linkTo, showLinkedView } from "../../../src/app/views/view_link";
+import type { PaneLayout } from "../../../src/scene/panes/pane_layout";
 import { Orbit } from "../../../src/scene/views/orbit";
+import { fakePane, FakeViews } from "../../fake_page";
 
 test("a link shows the view from which it was made", () => {
   const view = new Orbit();
   view.load({ Distance: 3.25, "Focal Point": { X: 1, Y: -2, Z: 0.5 }, Yaw: 1.2345678, Pitch: 0.4, "Target Frame": "cart::chassis" });
-  const link = linkTo({ current: signal(view) }, "http://127.0.0.1:8080/?token=abc#view=old");
+  const link = linkTo(Object.assign(new FakeViews(), { current: signal(view) }), "http://127.0.0.1:8080/?token=abc#view=old");
   const found = linkedView(new URL(link).hash);
 
   expect(link).toMatch(/^http:\/\/127\.0\.0\.1:8080\/\?token=abc#view=[^#]*$/);
@@ -21,5 +23,24 @@ test.each(["", "#elsewhere", "#view=", "#view=%7B", "#view=%", "#view=3", "#view
 });
 
 test("a link that is too long is not read", () => {
-  expect(linkedView(`#view={"Yaw":1${" ".repeat(5000)}}`)).toBeNull();
+  expect(linkedView(`#view={"Yaw":1${" ".repeat(9000)}}`)).toBeNull();
+});
+
+test("a link of several panes shows each one's view again", () => {
+  const [first, second] = [new Orbit(), new Orbit()];
+  second.distance.value.value = 7;
+  const from = new FakeViews();
+  from.layout.value = "beside";
+  from.panes.value = [fakePane(signal(first)), fakePane(signal(second))];
+  const [, pane] = from.panes.value;
+  if (pane !== undefined) from.activate(pane);
+  const linked = linkedView(new URL(linkTo(from, "http://127.0.0.1/")).hash);
+
+  const shown = [new Orbit(), new Orbit()];
+  const split = signal<PaneLayout>("one");
+  const views = Object.assign(new FakeViews(), { panes: signal(shown.map((view) => fakePane(signal(view)))) });
+  showLinkedView(views, split, linked ?? {});
+  expect(split.value).toBe("beside");
+  expect(shown.map((view) => view.distance.value.value)).toEqual([10, 7]);
+  expect(views.active.value).toBe(views.panes.value[1]);
 });

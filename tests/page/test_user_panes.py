@@ -1,0 +1,204 @@
+"""A person splits the view into panes, turns, selects and moves in each; pictures and the simulation are checked."""
+
+import io
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from tests.page.scene_user import VIEW_CANVAS
+from tests.page.test_user_views import BLUE, GREEN, RED, WIDTH_M, WORLD, Looker
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+Box = dict[str, float]
+
+
+class PaneUser(Looker):
+    """Looks at single panes by the names over them."""
+
+    def names(self) -> list[str]:
+        return [str(name) for name in self.page.locator(".panename").all_inner_texts()]
+
+    def active(self) -> str:
+        return str(self.page.locator(".panename.on").inner_text())
+
+    def frame(self, name: str) -> Box:
+        """Return the part of a pane that no panel covers, below its name [px]."""
+        pane = self.page.locator(".pane").filter(has=self.page.get_by_role("button", name=name, exact=True))
+        box, title = pane.bounding_box(), pane.locator(".panename").bounding_box()
+        below = self.page.locator(".dock").bounding_box()["y"]
+        right = min(box["x"] + box["width"], self.page.locator(".right").bounding_box()["x"])
+        left, top = title["x"], title["y"] + title["height"] + 40
+        return {"x": left, "y": top, "width": right - left - 80, "height": min(box["y"] + box["height"], below) - top}
+
+    def shot(self, name: str) -> NDArray[np.uint8]:
+        """Return what a pane shows (height, width, 3)."""
+        return np.asarray(Image.open(io.BytesIO(self.page.screenshot(clip=self.frame(name)))).convert("RGB"))
+
+    def centre(self, name: str, colour: tuple[int, int, int]) -> tuple[float, float, float]:
+        """Where in the page the middle of what has a colour is in a pane, and its width [px]."""
+        mask = (np.abs(self.shot(name).astype(int) - colour) < 12).all(axis=-1)
+        rows, columns = np.nonzero(mask)
+        assert rows.size, f"nothing in {name} is {colour}"
+        frame = self.frame(name)
+        return frame["x"] + columns.mean(), frame["y"] + rows.mean(), float(columns.max() - columns.min() + 1)
+
+    def still(self) -> None:
+        self.until_still(self.page.screenshot)
+
+    def open_menu(self, name: str, entry: str) -> None:
+        self.page.locator(".panename").get_by_role("button", name=name, exact=True).click()
+        self.page.get_by_role("menuitem", name=entry, exact=True).click()
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("yard")
+    (folder / "yard.sdf").write_text(WORLD)
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
+    with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
+        yield url
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, url: str) -> Iterator[PaneUser]:
+    user = PaneUser(chromium, url)
+    user.page.keyboard.press("Escape")
+    user.page.set_viewport_size({"width": 1440, "height": 1000})
+    user.side("Views")
+    user.set("Distance [m]", "9")
+    user.side("Inspector")
+    yield user
+    user.close()
+
+
+def test_four_panes_show_the_world_from_four_sides(user: PaneUser) -> None:
+    """The first keeps its view; the others are named after their sides, and show what is seen from there."""
+    user.run("Four views")
+    user.page.locator(".panename").nth(3).wait_for()
+    assert user.names() == ["Perspective", "Top", "Front", "Right"]
+    user.still()
+    for name, colour in zip(user.names(), (GREEN, GREEN, BLUE, GREEN), strict=True):
+        user.centre(name, colour)
+
+
+def test_a_drag_turns_the_pane_where_it_begins(user: PaneUser) -> None:
+    """It goes on over the next pane, and leaves the others as they are."""
+    frame = user.frame("Perspective")
+    x, y = frame["x"] + frame["width"] - 10, frame["y"] + frame["height"] - 10
+    user.page.mouse.move(x, y)
+    user.still()
+    before = {name: user.shot(name) for name in user.names()}
+    user.page.mouse.down()
+    user.page.mouse.move(x - 500, y, steps=4)
+    user.page.mouse.up()
+    user.still()
+    assert user.active() == "Perspective"
+    changed = [name for name, picture in before.items() if not np.array_equal(picture, user.shot(name))]
+    assert changed == ["Perspective"]
+
+
+def test_the_wheel_zooms_the_pane_under_the_pointer(user: PaneUser) -> None:
+    x, y, width = user.centre("Top", RED)
+    user.page.mouse.move(x, y)
+    user.page.mouse.wheel(0, -200)
+    user.still()
+    assert user.centre("Top", RED)[2] > 1.1 * width
+    assert user.active() == "Perspective"
+    user.page.mouse.wheel(0, 200)
+    user.still()
+
+
+@pytest.mark.parametrize(
+    ("pane", "colour", "model"), [("Top", BLUE, "blue"), ("Right", RED, "red"), ("Top", GREEN, "cart")]
+)
+def test_a_click_selects_what_the_pane_shows_there(
+    user: PaneUser, pane: str, colour: tuple[int, int, int], model: str
+) -> None:
+    x, y, _ = user.centre(pane, colour)
+    user.page.mouse.click(x, y)
+    user.page.get_by_text(f"link of {model}").wait_for()
+    assert user.active() == pane
+
+
+def test_an_arrow_moves_a_model_as_far_as_the_pane_shows(user: PaneUser) -> None:
+    """Along x, by 60 px from above; seen from above, red is 0.4 m wide."""
+    user.pick("red")
+    user.tool("Move")
+    user.still()
+    x, y, width = user.centre("Top", RED)
+    user.page.mouse.move(x + 80, y)
+    user.page.mouse.down()
+    user.page.mouse.move(x + 140, y, steps=3)
+    user.page.mouse.up()
+    moved = 60 * WIDTH_M / width
+    user.until(lambda: user.place("red")[0] == pytest.approx(moved, rel=0.15), what=f"{user.place('red')}, not {moved}")
+    assert user.place("red")[1:] == pytest.approx((0, 0.2), abs=1e-3)
+    user.button("Undo: Pose of red").click()
+    user.until(lambda: abs(user.place("red")[0]) < 1e-3)
+    user.tool("Interact")
+    user.page.keyboard.press("Escape")
+
+
+def test_the_keyboard_goes_from_pane_to_pane(user: PaneUser) -> None:
+    """V makes the next pane the active one, which the arrows turn."""
+    user.page.locator(VIEW_CANVAS).focus()
+    names = user.names()
+    at = names.index(user.active())
+    user.page.keyboard.press("v")
+    assert user.active() == names[(at + 1) % 4]
+    user.page.keyboard.press("Shift+V")
+    assert user.active() == names[at]
+    user.still()
+    before = {name: user.shot(name) for name in names}
+    user.page.keyboard.press("ArrowLeft")
+    user.still()
+    changed = [name for name in names if name not in user.names() or not np.array_equal(before[name], user.shot(name))]
+    assert changed in ([names[at]], [])  # from straight above, it turns about itself
+
+
+def test_a_pane_looks_through_a_camera(user: PaneUser) -> None:
+    """Chosen in the menu over it; the camera's edge lies in that pane, and red fills it as it does the camera's."""
+    user.open_menu("Right", "Through eye")
+    user.page.locator(".pane .cameraframe").wait_for()
+    assert user.active().startswith("Camera")
+    user.still()
+    frame = user.page.locator(".cameraframe").bounding_box()
+    pane = user.page.locator(".pane.on").bounding_box()
+    assert pane["x"] <= frame["x"]
+    assert frame["x"] + frame["width"] <= pane["x"] + pane["width"] + 1
+
+
+def test_a_link_shows_all_panes_again(chromium: Any, url: str, user: PaneUser) -> None:
+    user.run("Link to this view")
+    link = user.field("Link").input_value()
+    user.page.keyboard.press("Escape")
+    other = PaneUser(chromium, link)
+    other.page.locator(".panename").nth(3).wait_for()
+    other.until(lambda: other.page.locator(".panename").nth(1).inner_text().startswith("Top"))
+    assert len(other.names()) == 4
+    other.close()
+
+
+def test_only_one_pane_is_left_and_what_is_chosen_is_remembered(user: PaneUser) -> None:
+    user.open_menu("Front", "Only this one")
+    user.page.locator(".panename").first.wait_for(state="detached")
+    user.run("Two views, stacked")
+    user.page.locator(".panename").nth(1).wait_for()
+    user.page.reload()
+    user.page.locator(".panename").nth(1).wait_for()
+    first, second = user.page.locator(".pane").all()
+    assert first.bounding_box()["width"] == second.bounding_box()["width"] == 1440
+    user.page.set_viewport_size({"width": 390, "height": 844})
+    user.page.locator(".panename").first.wait_for(state="detached")  # a phone has one
+    user.page.set_viewport_size({"width": 1440, "height": 1000})
+    user.run("One view")
+    user.page.locator(".panename").first.wait_for(state="detached")

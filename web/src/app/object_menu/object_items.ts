@@ -1,0 +1,80 @@
+/** Entries of the menu of a thing in the world, in the order of Gazebo's right click. */
+
+import { Vector3 } from "three";
+
+import type { MenuItem } from "../../theme/menu_list";
+import { toggleFirstPerson } from "../views/first_person";
+import { isFollowing, targetOf, toggleFollowing } from "../views/following";
+import { findModel, frameSelection } from "../views/framing";
+import { copyModel, deleteLight, deleteModel, holdModel } from "../world/model_edits";
+import type { Selection } from "../page";
+import type { Shell } from "../shell";
+import { PART_NAMES, partsOf, toggleHidden } from "../views/shown_parts";
+import { canEdit } from "../world/edits";
+import { openWrench } from "./open_wrench";
+
+type InModel = Extract<Selection, { kind: "model" | "link" }>;
+
+/** What can be done with a selection; `at`: where the menu was asked for, in the world [m]. */
+export function objectItems(shell: Shell, selection: Selection | null, at: Vector3 | null): readonly MenuItem[] {
+  const inModel = selection?.kind === "model" || selection?.kind === "link" ? selection : null;
+  const items = [
+    ...(selection === null ? [] : viewItems(shell, selection)),
+    ...(inModel === null ? [] : shownItems(shell, inModel)),
+    ...(canEdit(shell) ? editItems(shell, selection, inModel, at) : []),
+  ];
+  return items.some(({ disabled }) => disabled !== true) ? items : [];
+}
+
+function viewItems({ page }: Shell, selection: Selection): MenuItem[] {
+  if (targetOf(page, selection) === null) return [];
+  return [
+    { title: "Move to", keys: "F", run: () => frameSelection(page, selection) },
+    { title: isFollowing(page) ? "Stop following" : "Follow", keys: "Shift F", run: () => toggleFollowing(page) },
+    { title: "First person", run: () => toggleFirstPerson(page) },
+  ];
+}
+
+function shownItems({ page }: Shell, selection: InModel): MenuItem[] {
+  const { world } = page;
+  const { model } = selection;
+  const name = selection.kind === "model" ? model : `${model}::${selection.link}`;
+  const parts = (): MenuItem[] =>
+    partsOf(page).map((part) => {
+      const isShown = world.shown.of(part, model);
+      return { title: PART_NAMES[part], checked: isShown, stays: true, run: () => world.shown.set(part, model, !isShown) };
+    });
+  return [
+    { title: "View", starts: true, items: parts },
+    { title: world.hidden.value.has(name) ? "Show again" : "Hide", run: () => toggleHidden(page, name) },
+  ];
+}
+
+function editItems(shell: Shell, selection: Selection | null, inModel: InModel | null, at: Vector3 | null): MenuItem[] {
+  if (selection?.kind === "light") return [{ title: "Delete", keys: "Delete", run: () => deleteLight(shell, selection.light) }];
+  const copied = shell.copied.value;
+  const paste: MenuItem = {
+    title: "Paste",
+    disabled: copied === null || findModel(shell.page, copied) === null,
+    ...(copied === null ? {} : { detail: copied }),
+    run: () => copied !== null && copyModel(shell, copied, at),
+  };
+  if (inModel === null) return [paste];
+  return [...handlingItems(shell, inModel), { title: "Copy", starts: true, run: () => (shell.copied.value = inModel.model) }, paste, deleteItem(shell, inModel)];
+}
+
+function handlingItems(shell: Shell, selection: InModel): MenuItem[] {
+  const { model } = selection;
+  const found = findModel(shell.page, model);
+  const edit: MenuItem = { title: "Edit model…", starts: true, run: () => void shell.editor.begin(model) };
+  if (found === null || found.static) return [edit];
+  return [
+    edit,
+    { title: "Apply force or torque…", run: () => openWrench(shell, selection) },
+    { title: found.held ? "Let go" : "Hold in the air", keys: "H", run: () => holdModel(shell, model, !found.held) },
+  ];
+}
+
+function deleteItem(shell: Shell, { model }: InModel): MenuItem {
+  return { title: "Delete", keys: "Delete", run: () => deleteModel(shell, model) };
+}

@@ -1,0 +1,60 @@
+/** How the scene is split into panes, each with a view of its own. */
+
+import { freeArea, type Area } from "../free_area";
+import type { Insets } from "../scene_view";
+
+export const PANE_LAYOUTS = ["one", "beside", "stacked", "four"] as const;
+export type PaneLayout = (typeof PANE_LAYOUTS)[number];
+
+/** Where a pane is in the scene [px], and how much of its edges panels cover [px]. */
+export interface PanePlace {
+  readonly area: Area;
+  readonly insets: Insets;
+}
+
+/** Column and row of each pane; of four, the first is at the top right, with the views from top and front in one column. */
+const CELLS: Readonly<Record<PaneLayout, readonly (readonly [number, number])[]>> = {
+  one: [[0, 0]],
+  beside: [[0, 0], [1, 0]],
+  stacked: [[0, 0], [0, 1]],
+  four: [[1, 0], [0, 0], [0, 1], [1, 1]],
+};
+
+/** Number of panes of a layout. */
+export function paneCount(layout: PaneLayout): number {
+  return CELLS[layout].length;
+}
+
+/**
+ * Places of a layout's panes: the scene's free part is halved, and what panels cover belongs to the pane that it is next to.
+ *
+ * `head`: height that the tools cover at the top of several panes [px].
+ */
+export function panePlaces(layout: PaneLayout, size: { readonly width: number; readonly height: number }, insets: Insets, head: number): readonly PanePlace[] {
+  const free = freeArea(size.width, size.height, insets);
+  const cells = CELLS[layout];
+  const xs = edges(size.width, Math.round(free.left + free.width / 2), cells.some(([column]) => column === 1));
+  const ys = edges(size.height, Math.round(free.top + free.height / 2), cells.some(([, row]) => row === 1));
+  return cells.map(([column, row]) => {
+    const [left = 0, right = 0] = xs.slice(column);
+    const [top = 0, bottom = 0] = ys.slice(row);
+    const tools = cells.length > 1 && row === 0 ? head : 0;
+    return {
+      area: { left, top, width: Math.max(1, right - left), height: Math.max(1, bottom - top) },
+      insets: {
+        left: column === 0 ? insets.left : 0,
+        right: column === xs.length - 2 ? insets.right : 0,
+        top: (row === 0 ? insets.top : 0) + tools,
+        bottom: row === ys.length - 2 ? insets.bottom : 0,
+      },
+    };
+  });
+}
+
+function edges(length: number, middle: number, isSplit: boolean): readonly number[] {
+  return isSplit ? [0, middle, length] : [0, length];
+}
+
+export function isInside({ left, top, width, height }: Area, x: number, y: number): boolean {
+  return x >= left && x < left + width && y >= top && y < top + height;
+}

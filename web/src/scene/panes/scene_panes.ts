@@ -1,0 +1,111 @@
+/** The panes of the scene: which are shown and where, which is active, and which the pointer is in. */
+
+import { computed, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
+
+import type { LabelSet } from "../label_layer";
+import type { Insets } from "../scene_view";
+import { Pane } from "./pane";
+import { isInside, paneCount, panePlaces, type PaneLayout, type PanePlace } from "./pane_layout";
+
+/** Height of the tools at the top of the scene [px]. */
+const TOOLS = 40;
+
+export class ScenePanes {
+  readonly layout = signal<PaneLayout>("one");
+  /** The pane last pressed. */
+  readonly active;
+  /** The pane that the pointer is in, or was in last. */
+  readonly pointed;
+  /** Panes that are drawn; one that is not keeps its view. */
+  readonly shown: ReadonlySignal<readonly Pane[]>;
+  readonly places: ReadonlySignal<readonly PanePlace[]>;
+  private readonly made;
+  /** Where a button went down that is still down. */
+  private held: Pane | null = null;
+  private readonly stops: (() => void)[];
+
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly labels: LabelSet,
+    size: ReadonlySignal<{ readonly width: number; readonly height: number }>,
+    insets: ReadonlySignal<Insets>,
+  ) {
+    const first = new Pane(host, labels);
+    this.made = signal<readonly Pane[]>([first]);
+    this.active = signal(first);
+    this.pointed = signal(first);
+    this.shown = computed(() => this.chosen());
+    this.places = computed(() => panePlaces(this.layout.value, size.value, insets.value, TOOLS));
+    this.stops = [
+      effect(() => {
+        const count = paneCount(this.layout.value);
+        untracked(() => this.make(count));
+      }),
+      effect(() => {
+        const [shown, places] = [this.shown.value, this.places.value];
+        untracked(() => this.put(shown, places));
+      }),
+    ];
+  }
+
+  dispose(): void {
+    for (const stop of this.stops) stop();
+    for (const pane of this.made.peek()) pane.dispose();
+  }
+
+  /** The pane at a point of the scene [px]; while a button is down, the one where it went down. */
+  at(x: number, y: number): Pane {
+    if (this.held !== null) return this.held;
+    const shown = this.shown.peek();
+    if (shown.length === 1) return this.active.peek();
+    return shown.find((pane) => isInside(pane.place.peek().area, x, y)) ?? this.active.peek();
+  }
+
+  /** The pointer is at a point [px]. */
+  point(x: number, y: number): Pane {
+    const pane = this.at(x, y);
+    this.pointed.value = pane;
+    return pane;
+  }
+
+  /** A button goes down at a point [px]: its pane is the active one, and has the pointer until it goes up. */
+  press(x: number, y: number): Pane {
+    this.held = null;
+    this.active.value = this.point(x, y);
+    this.held = this.active.peek();
+    return this.held;
+  }
+
+  release(): void {
+    this.held = null;
+  }
+
+  /** Make the next pane, or the one before it, the active one. */
+  step(by: number): void {
+    const shown = this.shown.peek();
+    const next = shown.at((shown.indexOf(this.active.peek()) + by) % shown.length);
+    if (next !== undefined) this.active.value = this.pointed.value = next;
+  }
+
+  private make(count: number): void {
+    const made = this.made.peek();
+    const more = Array.from({ length: Math.max(0, count - made.length) }, () => new Pane(this.host, this.labels));
+    if (more.length > 0) this.made.value = [...made, ...more];
+  }
+
+  /** The first panes, and among them the active one. */
+  private chosen(): readonly Pane[] {
+    const [made, active, count] = [this.made.value, this.active.value, paneCount(this.layout.value)];
+    const first = made.slice(0, count);
+    return first.includes(active) ? first : [active, ...first.slice(0, count - 1)];
+  }
+
+  private put(shown: readonly Pane[], places: readonly PanePlace[]): void {
+    for (const pane of this.made.peek()) pane.isShown = shown.includes(pane);
+    shown.forEach((pane, index) => {
+      const place = places[index];
+      if (place !== undefined) pane.place.value = place;
+    });
+    if (!shown.includes(this.pointed.peek())) this.pointed.value = this.active.peek();
+  }
+}
