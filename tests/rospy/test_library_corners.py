@@ -195,6 +195,37 @@ print([m.message.data for m in rosbag.Bag(path)])
     assert [each.name for each in tmp_path.iterdir() if each.suffix == ".bag"] == ["a.bag"]
 
 
+def test_an_encrypted_bag_is_refused_with_the_way_out(tmp_path: Path) -> None:
+    code = f"""
+import struct, genpy, rosbag
+from std_msgs.msg import String
+path = {str(tmp_path / "a.bag")!r}
+with rosbag.Bag(path, "w") as bag:
+    bag.set_encryptor("rosbag/NoEncryptor")
+    bag.write("/a", String("one"), genpy.Time(1))
+    try:
+        bag.set_encryptor("rosbag/AesCbcEncryptor", "*")
+    except rosbag.ROSBagEncryptNotSupportedException as error:
+        print(error)
+data = open(path, "rb").read()
+length = struct.unpack_from("<I", data, 13)[0]  # of the first record's header, whose data are blanks
+header, blanks = data[17 : 17 + length], struct.unpack_from("<I", data, 17 + length)[0]
+field = b"encryptor=rosbag/AesCbcEncryptor"
+header += struct.pack("<I", len(field)) + field
+rest = blanks - len(field) - 4
+record = struct.pack("<I", len(header)) + header + struct.pack("<I", rest) + b" " * rest
+open(path, "wb").write(data[:13] + record + data[21 + length + blanks :])
+try:
+    rosbag.Bag(path)
+except rosbag.ROSBagEncryptNotSupportedException as error:
+    print(error)
+"""
+    written, read = _run(code, tmp_path).splitlines()
+    assert written == "encryption (rosbag/AesCbcEncryptor) is not supported; write the bag without it"
+    assert "'rosbag/AesCbcEncryptor' is not supported" in read
+    assert read.endswith("rosbag decrypt a.bag")
+
+
 def test_urdf_parser_py_and_angles_and_every_library_import(tmp_path: Path) -> None:
     names = (
         "PyKDL actionlib angles cv_bridge diagnostic_updater dynamic_reconfigure.server dynamic_reconfigure.client "

@@ -1,5 +1,7 @@
 """tf2 as programs print it: a transform backwards, the names beside the classes, times that are none."""
 
+import traceback
+
 import rospy
 import tf2_ros
 
@@ -15,3 +17,7 @@ for stamp in (3, 3.5, None):
     except TypeError as error:
         print(error)
 print(tf2_ros.TFMessage([forwards]) == tf2_ros.TFMessage([forwards]), tf2_ros.LookupTransformGoal().timeout)
+try:
+    buffer.lookup_transform_core("map", "nowhere", rospy.Time(0))
+except tf2_ros.LookupException as error:
+    print("".join(traceback.format_exception_only(type(error), error)))

@@ -13,7 +13,7 @@ import roslib.names
 import rospy
 from trundle.ros import BagSummary, byte_text
 
-from .exceptions import ROSBagException
+from .exceptions import ROSBagEncryptNotSupportedException, ROSBagException
 from .message_class import message_class
 from .read_file import ReadFile
 from .streams import SpooledStream
@@ -322,9 +322,15 @@ class Bag:
         return _TypesAndTopics(types, topics)
 
     def set_encryptor(self, encryptor=None, param=None):
-        """Accept no encryptor; there is none."""
-        if encryptor is not None:
-            raise ROSBagException(f"encryption ({encryptor}) is not supported; write the bag without it")
+        """Accept `rosbag/NoEncryptor`, which there is always.
+
+        Raises:
+            ROSBagEncryptNotSupportedException: another encryptor.
+        """
+        del param
+        if encryptor not in (None, "", "rosbag/NoEncryptor"):
+            what = f"encryption ({encryptor}) is not supported; write the bag without it"
+            raise ROSBagEncryptNotSupportedException(what)
 
     def __str__(self):
         summary = self._summary()

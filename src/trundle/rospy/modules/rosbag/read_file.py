@@ -5,7 +5,7 @@ from pathlib import Path
 
 from trundle.ros import BagError, UnindexedBagError, open_bag, recover_messages
 
-from .exceptions import ROSBagException, ROSBagUnindexedException
+from .exceptions import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagUnindexedException
 
 
 class ReadFile:
@@ -16,6 +16,7 @@ class ReadFile:
 
         Raises:
             ROSBagUnindexedException: the bag has no index, and that is not allowed.
+            ROSBagEncryptNotSupportedException: the bag is encrypted.
             ROSBagException: the file is no bag.
             OSError: the file cannot be opened.
         """
@@ -32,6 +33,9 @@ class ReadFile:
         except BagError as error:
             if "recover" in str(error) or "reindex" in str(error):
                 raise ROSBagUnindexedException from None
+            if "encryption" in str(error):
+                what = f"{error} Decrypt it where it was written: rosbag decrypt {path.name}"
+                raise ROSBagEncryptNotSupportedException(what) from None
             raise ROSBagException(f"This does not appear to be a bag file: {error}") from None
 
     def messages(self, wanted=None, start_ns=None, end_ns=None):

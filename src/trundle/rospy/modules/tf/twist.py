@@ -38,7 +38,7 @@ def frame_twist(
     linear, angular = reference_from_observation @ linear, reference_from_observation @ angular
     origin = _pose(transformer, reference, tracking, middle)[:3, 3]
     point = (_pose(transformer, reference, reference_point_frame, middle) @ (*reference_point, 1.0))[:3]
-    return tuple(linear + np.cross(angular, point - origin)), tuple(angular)
+    return tuple((linear + np.cross(angular, point - origin)).tolist()), tuple(angular.tolist())
 
 
 def _pose(transformer, target, source, stamp):

@@ -31,3 +31,10 @@ class InvalidArgumentException(TransformException):
 
 class TimeoutException(TransformException):
     """No answer in time."""
+
+
+for _class in (
+    TransformException, ConnectivityException, LookupException, ExtrapolationException, InvalidArgumentException,
+    TimeoutException,
+):  # fmt: skip
+    _class.__module__ = "tf2"  # tracebacks name it, as those of the original's compiled module
