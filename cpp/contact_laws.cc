@@ -10,6 +10,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -143,6 +144,12 @@ void bind(const std::vector<std::uintptr_t>& addresses) {
 #undef TRUNDLE_BIND
 }
 
+mjtNum steady_s() {
+  return std::chrono::duration<mjtNum>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void set_timers(bool on) { *mujoco.time = on ? steady_s : nullptr; }
+
 const mjModel* model_at(std::uintptr_t address) { return reinterpret_cast<const mjModel*>(address); }
 mjData* data_at(std::uintptr_t address) { return reinterpret_cast<mjData*>(address); }
 
@@ -247,6 +254,7 @@ NB_MODULE(_contact_laws, module) {
   module.def("names", trundle::names);
   module.def("bind", trundle::bind, nb::arg("addresses"));
   module.def("install", trundle::install);
+  module.def("set_timers", trundle::set_timers, nb::arg("on"));
   nb::class_<trundle::RowStepper>(module, "RowStepper")
       .def("step", trundle::step_rows, nb::arg("chosen").noconvert(), nb::arg("states").noconvert(),
            nb::arg("max_efforts").noconvert(), nb::arg("rates").noconvert(), nb::arg("unstable").noconvert(),

@@ -28,7 +28,9 @@ class ClockTopic:
         if self._period_ns is None:
             StepPublisher(self._publisher, self.after_step).attach(simulation)
         else:
-            simulation.add_hook(self, period_ns=self._period_ns, enabled=lambda: self._publisher.has_subscribers)
+            simulation.add_hook(
+                self, period_ns=self._period_ns, enabled=lambda: self._publisher.has_subscribers, name="/clock"
+            )
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the time."""

@@ -25,8 +25,9 @@ class StepPublisher:
 
     def attach(self, simulation: Simulation) -> None:
         """Start publishing; without subscribers, it does not shorten strides."""
-        simulation.add_hook(_Tick(self._publish), period_ns=_MIN_PERIOD_NS, enabled=self._is_sparing)
-        simulation.add_hook(_Tick(self._publish), enabled=lambda: self._topic.needs_every_message)
+        name, topic = self._topic.topic, self._topic
+        simulation.add_hook(_Tick(self._publish), period_ns=_MIN_PERIOD_NS, enabled=self._is_sparing, name=name)
+        simulation.add_hook(_Tick(self._publish), enabled=lambda: topic.needs_every_message, name=name)
 
     def _is_sparing(self) -> bool:
         return self._topic.has_subscribers and not self._topic.needs_every_message

@@ -20,6 +20,7 @@ if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors
     from trundle.ros import GraphLoop, Node
     from trundle.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
 
+    from .profile.stride_profile import StrideProfile
     from .run.ros_interface import RosInterface
 
 
@@ -89,6 +90,12 @@ class LoadedSimulation(Simulation):
         from trundle.sensors import MountedSensors
 
         return MountedSensors(self, RENDERERS["cpu"])
+
+    def profile(self) -> "StrideProfile":
+        """Profiler of where wall time goes: `with sim.profile() as profile: sim.run(10)`, then `profile.read()`."""
+        from .profile.stride_profile import StrideProfile
+
+        return StrideProfile(self, None if self._ros is None else self._ros.graph.loop)
 
     # -- the ROS graph
 

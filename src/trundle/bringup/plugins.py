@@ -60,7 +60,7 @@ def load_plugins(
 
             plugin = _loaded(tag, load, simulation.report)
             if plugin is not None:
-                _hook_in(simulation, plugin, model)
+                _hook_in(simulation, plugin, model, f"{model.name}::{tag.name}")
                 loaded.append(plugin)
         _load_visual_plugins(simulation, model, make_node, environment, say)
     return loaded
@@ -94,7 +94,7 @@ def _load_visual_plugins(
 
             plugin = _loaded(tag, load, report)
             if plugin is not None:
-                _hook_in(simulation, plugin, model)
+                _hook_in(simulation, plugin, model, f"{model.name}::{link.name}::{visual.name}::{tag.name}")
 
 
 def load_world_plugins(
@@ -116,7 +116,7 @@ def load_world_plugins(
 
         plugin = _loaded(tag, load, simulation.report)
         if plugin is not None:
-            _hook_in(simulation, plugin, None)
+            _hook_in(simulation, plugin, None, tag.name)
     if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
         report = simulation.report
         report.info(world.at, "there is no wind force: as in Gazebo, that takes libWindPlugin.so in the world")
@@ -195,7 +195,7 @@ def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _
     return None
 
 
-def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None") -> None:
+def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None", name: str) -> None:
     """Register a plugin's hooks; they run until its model is deleted."""
 
     def is_there() -> bool:
@@ -205,5 +205,7 @@ def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None
         if is_there():
             plugin.reset()
 
-    simulation.add_hook(plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted())
+    simulation.add_hook(
+        plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted(), name=name
+    )
     simulation.on_reset(reset)

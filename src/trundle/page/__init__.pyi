@@ -53,6 +53,7 @@ from .session import Session as Session
 from .streams import CONTACTS as CONTACTS
 from .streams import JOINTS as JOINTS
 from .streams import LINES as LINES
+from .streams import PERFORMANCE as PERFORMANCE
 from .streams import POSES as POSES
 from .streams import RANGES as RANGES
 from .streams import SERIES as SERIES

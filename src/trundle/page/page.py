@@ -59,6 +59,7 @@ from .world_channels import (
     contacts_channel,
     joints_channel,
     line_channels,
+    performance_channel,
     series_channel,
 )
 from .world_requests import RenderModel
@@ -89,7 +90,7 @@ class Page:
         if start.bag is None:
             world = self._world
             boxes = (self._state, PosesChannel(world), joints_channel(world), contacts_channel(world), *line_channels())
-            boxes += (series_channel(),)
+            boxes += (series_channel(), performance_channel())
         self._boxes: dict[str, BoxChannel] = {box.topic: box for box in boxes}
         self.hub = Hub(
             session_id=str(time.time_ns()),

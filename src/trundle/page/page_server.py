@@ -28,6 +28,7 @@ from .streams import (
     IMAGE_HEADER,
     JOINTS,
     LINES,
+    PERFORMANCE,
     POSES,
     RANGES,
     SERIES,
@@ -262,6 +263,10 @@ class PageServer:
         self._put(
             SERIES, [SERIES_HEADER.pack(first, len(text)), text, np.ascontiguousarray(rows).reshape(-1).view(np.uint8)]
         )
+
+    def put_performance(self, profile: Mapping[str, object]) -> None:
+        """Show where the wall time of the last second went, as in docs/decisions/0020."""
+        self._put(PERFORMANCE, [msgspec.json.encode(profile)])
 
     def put_lines(self, time_ns: int, lines: Iterable[Line]) -> None:
         """Show these lines and no others."""

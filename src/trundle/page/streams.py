@@ -16,6 +16,7 @@ LINES = "trundle/lines"
 CONTACTS = "trundle/contacts"
 RANGES = "trundle/ranges"
 SERIES = "trundle/series"
+PERFORMANCE = "trundle/performance"
 DROPS = "trundle/drops"
 PEOPLE = "trundle/people"
 

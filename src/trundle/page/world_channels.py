@@ -10,7 +10,7 @@ from .channel import Channel, Client
 from .mailbox import Mailbox
 from .outbox import Buffer
 from .protocol import ENCODING
-from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, POSES, RANGES, SERIES, STATE, WORLD
+from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, PERFORMANCE, POSES, RANGES, SERIES, STATE, WORLD
 
 _XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
 """Columns of a pose on the wire, of x y z qw qx qy qz."""
@@ -188,6 +188,11 @@ def contacts_channel(world: WorldChannel) -> RowsChannel:
 def series_channel() -> BoxChannel:
     """Channel of plotted values, 20 Hz; each message has the rows of about a second."""
     return BoxChannel(SERIES, encoding=SERIES.replace("/", "."), period_s=0.05)
+
+
+def performance_channel() -> BoxChannel:
+    """Channel of profiles, as they come."""
+    return BoxChannel(PERFORMANCE, encoding="json", period_s=0.0)
 
 
 def joints_channel(world: WorldChannel) -> RowsChannel:

@@ -13,6 +13,9 @@ def bind(addresses: Sequence[int]) -> None: ...
 def install() -> None:
     """Have MuJoCo call the laws in every step, behind whoever it calls now."""
 
+def set_timers(on: bool) -> None:
+    """Have MuJoCo time the parts of every step [s], in all threads, or end it."""
+
 def report_efforts(model: int, data: int) -> None:
     """Write what motors exert to qfrc_actuator, after a step. Both by their addresses."""
 

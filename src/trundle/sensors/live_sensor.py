@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from trundle.diagnostics import UsageError
 from trundle.model import Link, Model, Sensor
-from trundle.simulation import LinkHandle, Simulation, Snapshot
+from trundle.simulation import LinkHandle, Simulation, Snapshot, StridePart
 from trundle.spatial import NS_PER_S, Pose, Vector3, cross, pose_from_row
 
 Reading = TypeVar("Reading")
@@ -85,7 +85,7 @@ class LiveSensor(Generic[Reading]):
     def start(self, simulation: Simulation) -> None:
         """Register the sensor's hook at its rate."""
         self._simulation = simulation
-        simulation.add_hook(self, period_ns=self.period_ns, enabled=self.enabled)
+        simulation.add_hook(self, period_ns=self.period_ns, enabled=self.enabled, name=self.scoped_name)
 
     def stop(self, simulation: Simulation) -> None:
         """Remove the sensor's hook."""
@@ -101,6 +101,11 @@ class LiveSensor(Generic[Reading]):
     def name(self) -> str:
         """Name as in the file."""
         return self.sensor.name
+
+    @property
+    def scoped_name(self) -> str:
+        """Name as `model::link::sensor`."""
+        return f"{self.model.name}::{self.parent_name}::{self.name}"
 
     def attach_to(self, handle: LinkHandle) -> None:
         """Follow a link whose index changes as models are spawned and deleted; a deleted link ends measuring."""
@@ -135,9 +140,14 @@ class LiveSensor(Generic[Reading]):
         """Measure and pass the reading to the listeners."""
         reading = self.measure(snapshot)
         self.reading_count += 1
+        profiler = None if self._simulation is None else self._simulation.profiler
+        if profiler is not None:
+            profiler.lap(self)
         for listener in self._listeners:
             if listener.enabled():
                 listener.call(reading)
+        if profiler is not None:
+            profiler.lap(StridePart.LISTENERS)
 
     def measure(self, snapshot: Snapshot) -> Reading:
         """Return a reading of the snapshot."""

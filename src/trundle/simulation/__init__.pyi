@@ -7,6 +7,8 @@ from .handles import LinkHandle as LinkHandle
 from .handles import ModelHandle as ModelHandle
 from .hooks import AfterStep as AfterStep
 from .hooks import BeforeStep as BeforeStep
+from .profiler import Profiler as Profiler
+from .profiler import StridePart as StridePart
 from .saved_state import SavedSimulation as SavedSimulation
 from .simulation import Simulation as Simulation
 from .snapshot import Snapshot as Snapshot

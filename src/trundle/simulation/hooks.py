@@ -79,9 +79,17 @@ class ScheduledHook(Generic[WorldT]):
     """Hook with its timers: `before_step` is first due at once, `after_step` after one period."""
 
     def __init__(
-        self, hook: object, period_ns: Period, clock: StepClock, *, now_ns: int, enabled: Callable[[], bool] | None
+        self,
+        hook: object,
+        period_ns: Period,
+        clock: StepClock,
+        *,
+        now_ns: int,
+        enabled: Callable[[], bool] | None,
+        name: str | None,
     ) -> None:
         self.hook = hook
+        self.name = name
         self.enabled = enabled
         self.was_enabled = True
         """Value of `enabled` at the last check."""

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Generic
 
 from .hooks import AfterStep, BeforeStep, ScheduledHook, WorldT
+from .profiler import Profiler, StridePart
 from .snapshot import Snapshot
 from .step_clock import Period, StepClock
 
@@ -22,9 +23,10 @@ class Schedule(Generic[WorldT]):
         *,
         now_ns: int,
         enabled: Callable[[], bool] | None,
+        name: str | None,
     ) -> None:
         """Register a hook from now [ns] on; see `Simulation.add_hook`."""
-        self._hooks.append(ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled))
+        self._hooks.append(ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled, name=name))
 
     def retime(self, hook: object, period_ns: Period, *, now_ns: int) -> None:
         """Change a hook's period [ns] from now [ns] on; it keeps its place in the order."""
@@ -36,6 +38,10 @@ class Schedule(Generic[WorldT]):
     def hooks(self) -> list[object]:
         """Hooks in order of registration."""
         return [scheduled.hook for scheduled in self._hooks]
+
+    def name_of(self, hook: object) -> str | None:
+        """Return the name that a hook was registered with."""
+        return next((each.name for each in self._hooks if each.hook is hook), None)
 
     def remove(self, hook: object) -> None:
         """Remove a hook."""
@@ -57,14 +63,18 @@ class Schedule(Generic[WorldT]):
         return [hook for hook in self._hooks if hook.update_enabled(step)]
 
 
-def run_before(hooks: list[ScheduledHook[WorldT]], sim: WorldT) -> None:
+def run_before(hooks: list[ScheduledHook[WorldT]], sim: WorldT, profiler: Profiler | None) -> None:
     """Call `before_step` of the hooks that are due."""
     for hook in hooks:
         if hook.before is not None and hook.before_timer.due(sim.steps):
             hook.before(sim)
+            if profiler is not None:
+                profiler.lap(hook.hook)
 
 
-def run_after(hooks: list[ScheduledHook[WorldT]], step: int, snapshot: Callable[[], Snapshot]) -> None:
+def run_after(
+    hooks: list[ScheduledHook[WorldT]], step: int, snapshot: Callable[[], Snapshot], profiler: Profiler | None
+) -> None:
     """Call `after_step` of the hooks that are due; the snapshot is taken only if there are any."""
     due = [hook for hook in hooks if hook.after is not None and hook.after_timer.due(step)]
     if not due:
@@ -73,6 +83,10 @@ def run_after(hooks: list[ScheduledHook[WorldT]], step: int, snapshot: Callable[
     for hook in due:
         if hook.prepare is not None:
             hook.prepare(seen)
+    if profiler is not None:
+        profiler.lap(StridePart.SCHEDULE)
     for hook in due:
         if hook.after is not None:
             hook.after(seen)
+            if profiler is not None:
+                profiler.lap(hook.hook)

@@ -23,6 +23,7 @@ from .handles import ModelHandle, handles_of, world_joints_of
 from .hooks import AfterStep, BeforeStep
 from .joint_attachment import with_joint
 from .joint_handle import JointHandle
+from .profiler import Profiler, StridePart
 from .saved_state import SavedSimulation
 from .schedule import Schedule, run_after, run_before
 from .snapshot import Snapshot
@@ -82,6 +83,8 @@ class Simulation:
         self._commands: deque[Command] = deque()
         self.record_input: Callable[[Repeat], None] | None = None
         """Takes what repeats each input from outside."""
+        self.profiler: Profiler | None = None
+        """Charges the wall time of strides to their parts."""
         self._schedule = Schedule[Simulation](self._clock)
         self._recorders: list[tuple[ContactRecorder, Callable[[], bool]]] = []
         self._on_change: list[Callable[[], None]] = []
@@ -172,16 +175,26 @@ class Simulation:
 
     def _stride(self, most_ns: int) -> int:
         """Simulate at most a duration [ns]; return the simulated part."""
+        profiler = self.profiler
+        if profiler is not None:
+            profiler.lap(StridePart.BETWEEN)
         self._drain()
         hooks = self._schedule.enabled(self.steps)
-        run_before(hooks, self)
+        if profiler is not None:
+            profiler.lap(StridePart.SCHEDULE)
+        run_before(hooks, self, profiler)
         target = self._clock.step_at(self.time_ns + most_ns)
         stop = min([target, self.steps + _MAX_STRIDE, *[hook.next_step for hook in hooks], *self.loads.expiry_steps()])
         simulated_ns = (stop - self.steps) * self.step_ns
-        self.engine.step(stop - self.steps, self.recording)
+        recording = self.recording
+        if profiler is not None:
+            profiler.lap(StridePart.SCHEDULE)
+        self.engine.step(stop - self.steps, recording)
+        if profiler is not None:
+            profiler.lap(StridePart.PHYSICS)
         self.steps = stop
         self.loads.expire(self.steps)
-        run_after(hooks, self.steps, self.snapshot)
+        run_after(hooks, self.steps, self.snapshot, profiler)
         return simulated_ns
 
     @property
@@ -196,6 +209,7 @@ class Simulation:
         *,
         period_ns: Period = 0,
         enabled: Callable[[], bool] | None = None,
+        name: str | None = None,
     ) -> None:
         """Register a periodic hook.
 
@@ -203,8 +217,9 @@ class Simulation:
             hook: an object with before_step(simulation), after_step(snapshot) or both.
             period_ns: period [ns]; 0: every step, which costs Python at every step.
             enabled: checked before each stride; while False, the hook costs no stride.
+            name: what a profile calls it; None: by its class.
         """
-        self._schedule.add(hook, period_ns, now_ns=self.time_ns, enabled=enabled)
+        self._schedule.add(hook, period_ns, now_ns=self.time_ns, enabled=enabled, name=name)
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:
         """Change a hook's period [ns] from now on; it keeps its place in the order."""
@@ -214,6 +229,10 @@ class Simulation:
     def hooks(self) -> list[object]:
         """Hooks in order of registration."""
         return self._schedule.hooks
+
+    def hook_name(self, hook: object) -> str | None:
+        """Return the name that a hook was registered with."""
+        return self._schedule.name_of(hook)
 
     def remove_hook(self, hook: object) -> None:
         """Remove a hook."""
@@ -418,8 +437,12 @@ class Simulation:
             self.record_input(repeat)
 
     def _drain(self) -> None:
+        if not self._commands:
+            return
         for _ in range(len(self._commands)):
             self._commands.popleft()(self)
+        if self.profiler is not None:
+            self.profiler.lap(StridePart.COMMANDS)
 
     def expiry_step(self, duration_s: float | None) -> int | None:
         """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""

@@ -12,7 +12,7 @@ from typing import TypeAlias
 from msgspec import Struct
 
 from trundle.diagnostics import UsageError
-from trundle.simulation import Simulation
+from trundle.simulation import Simulation, StridePart
 from trundle.spatial import NS_PER_S
 
 from .inside import is_outside
@@ -198,6 +198,8 @@ class Timeline:
             self._next -= before
         now = self._wall_ns()
         self._due_wall_ns = now + _WALL_SHARE * (now - started)
+        if simulation.profiler is not None:
+            simulation.profiler.lap(StridePart.TIMELINE)
 
 
 def _zero_ns(simulation: Simulation) -> int:

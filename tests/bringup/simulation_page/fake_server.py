@@ -32,6 +32,7 @@ class FakeServer:
         self.notices: list[tuple[str, str | None]] = []
         self.plotted: tuple[str, ...] = ()
         self.series: list[tuple[int, dict[str, Any], Any]] = []
+        self.profiles: list[dict[str, Any]] = []
         self.is_closed = False
 
     def ask(self, action: PageAction) -> int:
@@ -73,6 +74,9 @@ class FakeServer:
 
     def put_series(self, first: int, head: dict[str, Any], rows: Any) -> None:
         self.series.append((first, head, np.array(rows)))
+
+    def put_performance(self, profile: dict[str, Any]) -> None:
+        self.profiles.append(profile)
 
     def put_lines(self, time_ns: int, lines: Any) -> None:
         self.lines.append((time_ns, list(lines)))

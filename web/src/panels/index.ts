@@ -9,6 +9,7 @@ import { logPanel } from "./log";
 import { nodesPanel } from "./nodes";
 import type { Panel } from "./panel";
 import { parametersPanel } from "./parameters";
+import { performancePanel } from "./performance";
 import { plotsPanel } from "./plots";
 import { reconfigurePanel } from "./reconfigure";
 import { servicesPanel } from "./services";
@@ -23,6 +24,7 @@ export const panels: readonly Panel[] = [
   logPanel,
   graphPanel,
   timelinePanel,
+  performancePanel,
   imagesPanel,
   nodesPanel,
   servicesPanel,

@@ -53,7 +53,7 @@ class RosInterface:
         static_broadcaster = StaticTransformBroadcaster(self.node)
         frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
         simulation.on_change(lambda: frames.set_world(simulation.world, simulation.snapshot()))
-        simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled)
+        simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled, name="/tf")
         self._sensor_topics = ModelTopics(self.node, static_broadcaster, simulation.report)
         self.plugin_nodes = ModelNodes(loop, self.make_node)
         self._frame_names = FrameNames.from_world(stage.world, stage.robot)
@@ -64,7 +64,7 @@ class RosInterface:
             simulation.on_change(
                 lambda: states.set_model(next((each for each in simulation.models if each.name == robot), None))
             )
-            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.enabled)
+            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.enabled, name="/joint_states")
 
     @classmethod
     def open(

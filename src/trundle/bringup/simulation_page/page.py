@@ -37,6 +37,7 @@ from .drafting import Drafting
 from .insertion import Insertion
 from .model_edits import ModelEdits
 from .model_pictures import ModelPictures
+from .performance import PerformanceStream
 from .pictures import WorldPictures
 from .pose_history import ReplaySaver
 from .titles import page_names
@@ -97,7 +98,8 @@ class SimulationPage:
         )
         self._drafting = Drafting(self._server.respond, self._contents, here)
         self._pictures = WorldPictures(self._server.respond_picture)
-        self._set_simulation(simulation, sensors, recorder, timeline)
+        self._performance = PerformanceStream(self._server)
+        self._set_simulation(simulation, sensors, node, recorder, timeline)
 
     @property
     def is_seen(self) -> bool:
@@ -120,12 +122,13 @@ class SimulationPage:
         """Show another simulation in place of the one before; arguments are those of the constructor."""
         self._set_titles(simulation)
         self._server.set_node(node)
-        self._set_simulation(simulation, sensors, recorder, timeline)
+        self._set_simulation(simulation, sensors, node, recorder, timeline)
 
     def _set_simulation(
         self,
         simulation: Simulation,
         sensors: Sequence[CameraSensor | InstrumentSensor],
+        node: Node | None,
         recorder: Recorder | None,
         timeline: Timeline | None,
     ) -> None:
@@ -134,6 +137,7 @@ class SimulationPage:
         self._insertion = Insertion(simulation, self._contents, self._do)
         self._model_edits = ModelEdits(simulation, self._contents, self._do)
         self._streams.show(simulation, sensors, recorder, timeline)
+        self._performance.show(simulation, node)
 
     def _do(self, command: Callable[[Simulation], None]) -> None:
         self._controls.do(command)
@@ -157,9 +161,11 @@ class SimulationPage:
         """Send the page what is due: poses and lines at 30 Hz, joints and the clock at 10 Hz, if they are watched."""
         self._streams.update(pacer, paused=paused, at_once=at_once)
         self._page.show_findings(self._simulation.report)
+        self._performance.end_page(paused=paused)
 
     def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Handle the requests since the last call; return True if the simulation is paused now."""
+        self._performance.begin_page()
         requests = self._page.requests(of_world=True)
         for request in requests:
             if isinstance(request.action, RenderView):
@@ -231,6 +237,7 @@ class SimulationPage:
     def close(self) -> None:
         """Close the page."""
         self._streams.close()
+        self._performance.close()
         self._pictures.close()
         self._saver.close()
         self._replays.close()

@@ -29,6 +29,7 @@ from .sleeping import DECISION_PERIOD, STATE, SleepPolicy
 from .state_reader import StateReader
 from .state_transfer import transfer_state
 from .state_writer import StateWriter
+from .step_timer import StepTimer
 
 if TYPE_CHECKING:  # a world without belts, or alone, does not load these
     from .batch import Batch, WorldRow
@@ -83,6 +84,7 @@ class Engine:
         self._scratch = ScratchEngine(compiled)
         self.dynamics = Dynamics(compiled, self._scratch)
         self._contact_query = ContactQuery(compiled, self._data, self._scratch)
+        self.timer = StepTimer(self._data)
         self._warnings = [self._data.warning[kind] for kind in _BAD]
         self._last_state = np.empty(mujoco.mj_stateSize(self._model, STATE))
         self._steps = 0
@@ -211,6 +213,11 @@ class Engine:
     def asleep(self) -> int:
         """Number of sleeping trees."""
         return self._sleep_policy.asleep
+
+    @property
+    def contact_count(self) -> int:
+        """Number of contacts of the last step."""
+        return self._data.ncon
 
     def contacts(self, among: frozenset[str] | None = None) -> Contacts:
         """Return the current contacts.

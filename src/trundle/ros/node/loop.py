@@ -53,6 +53,8 @@ class GraphLoop:
         self.own_threads: set[int | None] = set()
         """IDs of the loop's and the batching thread, for which sending directly has no advantage."""
         self._batch: list[Callable[[], object]] = []
+        self.publish_timer: Callable[[], contextlib.AbstractContextManager[object]] | None = None
+        """Entered while a message is published, in the publishing thread."""
         self._calls = 0
         """Count of calls, for `idle`."""
         self._deliveries = 0

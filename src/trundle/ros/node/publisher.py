@@ -104,6 +104,13 @@ class Publisher:
         """
         if self._wanted == 0 and not self.latch:
             return
+        if (timer := self._node.loop.publish_timer) is None:
+            self._publish(message)
+            return
+        with timer():
+            self._publish(message)
+
+    def _publish(self, message: TypedMessage | Mapping[str, object] | bytes | memoryview) -> None:
         if type(message) is not self._class:
             message = self._checked(message)
         header: Any = getattr(message, "header", None) if self._has_header else None

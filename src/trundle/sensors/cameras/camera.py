@@ -136,7 +136,7 @@ class CameraSensor(LiveSensor[CameraReading]):
     def prepare(self, snapshot: Snapshot) -> None:
         """Request rendering, batched with the other cameras that are due."""
         self._request = self.scene.request(
-            snapshot, self._views(snapshot), depth=self.needs_depth, segmentation=self.needs_segmentation
+            snapshot, self._views(snapshot), depth=self.needs_depth, segmentation=self.needs_segmentation, camera=self
         )
 
     def render(self, snapshot: Snapshot) -> Picture:
@@ -150,7 +150,8 @@ class CameraSensor(LiveSensor[CameraReading]):
 
     def draw(self, snapshot: Snapshot, *, depth: bool, segmentation: bool) -> Picture:
         """Return a rendered image with the given passes, regardless of the camera's kind."""
-        request = self.scene.request(snapshot, self._views(snapshot), depth=depth, segmentation=segmentation)
+        views = self._views(snapshot)
+        request = self.scene.request(snapshot, views, depth=depth, segmentation=segmentation, camera=self)
         return self.projection.compose(self.scene.fetch(request))
 
     def _views(self, snapshot: Snapshot) -> list[tuple[Pose, Intrinsics]]:

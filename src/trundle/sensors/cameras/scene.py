@@ -23,6 +23,8 @@ class RenderRequest(Struct, eq=False):
     views: list[tuple[Pose, Intrinsics]]
     depth: bool
     segmentation: bool
+    camera: object
+    """Hook that requests them."""
     batch: list["RenderRequest"]
     """Requests rendered together on the first fetch; empty afterwards."""
     pictures: list[Picture] | None = None
@@ -79,7 +81,13 @@ class CameraScene:
         return np.array([*(number[owner] for owner in owners), -1], dtype=np.int32), (*names, "")
 
     def request(
-        self, snapshot: Snapshot, views: list[tuple[Pose, Intrinsics]], *, depth: bool, segmentation: bool
+        self,
+        snapshot: Snapshot,
+        views: list[tuple[Pose, Intrinsics]],
+        *,
+        depth: bool,
+        segmentation: bool,
+        camera: object,
     ) -> RenderRequest:
         """Request views of one size; they are rendered in one batch with the requests made before the first fetch."""
         if self._requested is not snapshot:
@@ -90,7 +98,7 @@ class CameraScene:
         if (len(together) + 1) * len(views) * height * width > _MAX_BATCH_PX:
             together = []
         self._open[kind] = together
-        request = RenderRequest(snapshot, views, depth, segmentation, together)
+        request = RenderRequest(snapshot, views, depth, segmentation, camera, together)
         together.append(request)
         return request
 
@@ -102,6 +110,8 @@ class CameraScene:
             pictures = iter(self._renderer.render(views, depth=request.depth, segmentation=request.segmentation))
             for each in request.batch:
                 each.pictures = [next(pictures) for _ in each.views]
+            if self._simulation.profiler is not None:
+                self._simulation.profiler.lap(*(each.camera for each in request.batch))
             request.batch.clear()
         assert request.pictures is not None
         return request.pictures

@@ -1,0 +1,1 @@
+"""Profile of a running simulation: where its wall time goes."""

@@ -1,0 +1,42 @@
+"""Profile: wall times of the parts of a simulation, with counts."""
+
+from typing import Literal, TypeAlias
+
+from msgspec import Struct
+
+Group: TypeAlias = Literal["physics", "cameras", "sensors", "plugins", "ros", "page", "waiting", "other"]
+
+
+class ProfilePart(Struct, frozen=True, kw_only=True):
+    """One thing that takes wall time."""
+
+    group: Group
+    name: str
+    wall_s: float
+
+
+class Profile(Struct, frozen=True, kw_only=True):
+    """Wall times of an interval, with counts."""
+
+    wall_s: float
+    simulated_s: float
+    steps: int
+    contacts: int
+    """Number of contacts of the last step."""
+    bodies: int
+    """Number of links of all models."""
+    asleep: int
+    """Number of resting trees of bodies, which the physics skips."""
+    parts: tuple[ProfilePart, ...]
+    """The most expensive first; their times add up to that of the interval."""
+
+    @property
+    def real_time_factor(self) -> float | None:
+        """Simulated over wall time; None: no time has passed."""
+        return self.simulated_s / self.wall_s if self.wall_s > 0 else None
+
+    def __str__(self) -> str:
+        head = f"{self.simulated_s:.3f} s simulated in {self.wall_s:.3f} s; ms per simulated second:"
+        parts = self.parts if self.simulated_s > 0 else ()
+        rows = (f"{1e3 * part.wall_s / self.simulated_s:10.3f}  {part.group:8} {part.name}" for part in parts)
+        return "\n".join([head, *rows])

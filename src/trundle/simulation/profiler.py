@@ -1,0 +1,27 @@
+"""Profiler of strides, which has the clock that the simulator itself never reads."""
+
+from enum import Enum
+from typing import Protocol
+
+
+class StridePart(Enum):
+    """Parts of a stride beside its hooks."""
+
+    BETWEEN = "between strides"
+    COMMANDS = "commands"
+    """Commands and callbacks of messages."""
+    SCHEDULE = "schedule"
+    """Search for what is due, and the snapshot."""
+    PHYSICS = "physics"
+    LISTENERS = "listeners"
+    """Listeners to the readings of sensors."""
+    TIMELINE = "timeline"
+    """Saving states to go back to."""
+
+
+class Profiler(Protocol):
+    """Charges the wall time of a stride to its parts."""
+
+    def lap(self, *parts: object) -> None:
+        """Charge the time since the last lap to parts, in equal shares: hooks, or members of `StridePart`."""
+        ...

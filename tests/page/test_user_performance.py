@@ -1,0 +1,63 @@
+"""A person looks where the time of a simulated second goes."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.bringup.simulation_page.worlds import BOX, CAMERA, model, world
+from tests.page.panel_user import PanelUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+PLUGIN = """import time
+from trundle.plugins import Plugin
+class Busy(Plugin):
+    period_ns = 100_000_000
+    @classmethod
+    def load(cls, sim, model, node, tag): return cls()
+    def after_step(self, snapshot): time.sleep(0.02)
+"""
+
+
+def table(user: PanelUser) -> dict[str, tuple[str, float, float]]:
+    """Part, ms per simulated second and share [%], by name."""
+    rows = user.page.locator("table.parts").evaluate_all(
+        "tables => tables.flatMap((table) => [...table.rows].slice(1))"
+        ".map(({ cells }) => [...cells].map((cell) => cell.textContent))"
+    )
+    return {name: (part, float(ms), float(share.split()[0])) for name, part, ms, share in rows}
+
+
+def test_camera_plugin_and_waiting_have_their_share(chromium: Any, tmp_path: Path) -> None:
+    """The plugin sleeps 20 ms ten times a second: about 200 ms of each simulated one."""
+    (tmp_path / "busy.py").write_text(PLUGIN)
+    plugin = '<plugin name="idler" filename="libbusy.so"/></model>'
+    (tmp_path / "w.sdf").write_text(world(model("m", BOX + CAMERA).replace("</model>", plugin)))
+    with running_page("run", str(tmp_path / "w.sdf"), "--no-ros", environment={}) as url:
+        user = PanelUser(chromium, url)
+        user.page.keyboard.press("Control+K")
+        user.page.keyboard.type("Open Performance")
+        user.page.get_by_role("option", name="Open Performance").first.click()
+        rows: dict[str, tuple[str, float, float]] = {}
+
+        def has_both() -> bool:
+            rows.clear()
+            rows.update(table(user))
+            return rows.keys() >= {"m::idler", "m::l::cam"} and rows["m::idler"][1] > 150
+
+        user.until(has_both, what="for plugin and camera")
+        assert rows["m::idler"][0] == "Plugins"
+        assert rows["m::l::cam"][0] == "Cameras"
+        assert rows["m::l::cam"][1] > 0
+        assert {"Page", "Waiting"} <= set(rows)
+        assert sum(share for _, _, share in rows.values()) == pytest.approx(100, abs=1)
+        user.page.get_by_role("table", name="Wall time per simulated second").wait_for()
+        bar = user.page.get_by_role("img", name="One simulated second takes")
+        assert "m::idler" in (bar.get_attribute("aria-label") or "")
+        user.page.get_by_role("img", name="Real-time factor over the last").wait_for()
+        user.close()
