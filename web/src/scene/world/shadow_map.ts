@@ -18,7 +18,7 @@ const MARGIN = 4;
 
 export class ShadowMap {
   /** The shader's values. */
-  readonly uniform = { view: new Matrix4(), projection: new Matrix4(), texel: 0, isOrthographic: true, isThere: false };
+  readonly uniform = { view: new Matrix4(), projection: new Matrix4(), texel: 0, isThere: false };
   private target: WebGLRenderTarget | null = null;
   private readonly orthographic = new OrthographicCamera();
   private readonly perspective = new PerspectiveCamera();
@@ -92,7 +92,6 @@ export class ShadowMap {
     this.uniform.view.copy(camera.matrixWorldInverse);
     this.uniform.projection.copy(camera.projectionMatrix);
     this.uniform.texel = texel;
-    this.uniform.isOrthographic = camera === this.orthographic;
     const before = renderer.getRenderTarget();
     scene.overrideMaterial = this.override;
     renderer.setRenderTarget(this.targetOf(size));

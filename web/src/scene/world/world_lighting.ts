@@ -3,7 +3,7 @@
 import { Color, Object3D, Vector3, type Light, type Mesh, type Scene, type ShaderMaterial, type WebGLRenderer } from "three";
 
 import type { Manifest } from "../simulated_world";
-import { FOG_KINDS, fragmentShader, LIGHT_KINDS } from "./sdf_shader";
+import { FOG_KINDS, fragmentShader, type LightKind } from "./sdf_shader";
 import { CASTERS, ShadowMap } from "./shadow_map";
 
 const MAX_LIGHTS = 16;
@@ -21,7 +21,7 @@ interface SdfLight {
 interface WorldLight {
   /** Shines along its −z. */
   readonly object: Object3D;
-  readonly kind: keyof typeof LIGHT_KINDS;
+  readonly kind: LightKind;
   readonly sdf: SdfLight;
   readonly range: number;
   readonly uniform: ReturnType<typeof emptyUniform>;
@@ -33,9 +33,9 @@ const DEFAULT_DIRECTION = new Vector3(-0.3, 0.5, -0.8);
 const DEFAULT_SUN: SdfLight = { diffuse: [0.8, 0.8, 0.8], specular: [0.1, 0.1, 0.1], attenuation: [1, 0, 0], cast_shadows: false };
 
 function emptyUniform() {
-  const [cosInner, cosOuter, falloff, kind, range] = [1, 0, 1, 0, 0] as number[];
+  const [cosInner, cosOuter, falloff, range] = [1, 0, 1, 0] as number[];
   return {
-    kind, range, cosInner, cosOuter, falloff,
+    range, cosInner, cosOuter, falloff,
     position: new Vector3(), toLight: new Vector3(), diffuse: new Color(), specular: new Color(), attenuation: new Vector3(1, 0, 0),
   };
 }
@@ -108,7 +108,7 @@ export class WorldLighting {
   }
 
   private get shader(): string {
-    return fragmentShader(this.lights.length, this.lights.filter(({ shadow }) => shadow !== null).length);
+    return fragmentShader(this.lights.map(({ kind }) => kind), this.lights.filter(({ shadow }) => shadow !== null).length);
   }
 
   private setLights(found: readonly Light[], hasShadows = false): void {
@@ -149,8 +149,7 @@ export class WorldLighting {
   }
 }
 
-function setConstants({ kind, sdf, range, uniform }: WorldLight): void {
-  uniform.kind = LIGHT_KINDS[kind];
+function setConstants({ sdf, range, uniform }: WorldLight): void {
   uniform.range = range;
   uniform.diffuse.fromArray(sdf.diffuse);
   uniform.specular.fromArray(sdf.specular);
@@ -168,7 +167,7 @@ function defaultSun(): WorldLight {
   return { object: new Object3D(), kind: "directional", sdf: DEFAULT_SUN, range: 1e9, uniform, shadow: null };
 }
 
-function kindOf(light: Light): keyof typeof LIGHT_KINDS {
+function kindOf(light: Light): LightKind {
   if (light.type === "PointLight") return "point";
   return light.type === "SpotLight" ? "spot" : "directional";
 }
