@@ -1,5 +1,6 @@
 """HTTP of the page: its session, the client's files, policies, and who is refused."""
 
+import gzip
 import http.client
 import json
 import urllib.error
@@ -16,7 +17,7 @@ from websockets.typing import Origin
 import trundle
 from trundle.access import Access, PageRequest
 from trundle.page import PageServer, Session
-from trundle.page.client_files import ClientFiles
+from trundle.page.client_files import CLIENT, ClientFiles
 from trundle.page.content_policy import response_fields
 from trundle.page_address import AllowedNames, PageAddress
 
@@ -173,15 +174,34 @@ def test_a_workers_policy_lets_it_connect_to_nothing() -> None:
     assert policy["default-src"] == ["'none'"]
 
 
+@pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+@pytest.mark.parametrize("encoding", ["gzip, deflate", "identity"])
+def test_scripts_are_sent_compressed_to_who_takes_that(page: PageServer, encoding: str) -> None:
+    """They may be kept for ever, since their names change with them."""
+    script = max((CLIENT / "assets").glob("*.js"), key=lambda file: file.stat().st_size)
+    request = urllib.request.Request(f"{page.url}/assets/{script.name}", headers={"Accept-Encoding": encoding})
+    with urllib.request.urlopen(request, timeout=30) as answer:
+        body, fields = answer.read(), answer.headers
+
+    assert fields["Content-Type"] == "text/javascript"
+    assert "immutable" in fields["Cache-Control"]
+    assert fields["Content-Encoding"] == ("gzip" if "gzip" in encoding else None)
+    if "gzip" in encoding:
+        assert len(body) < script.stat().st_size / 3
+        body = gzip.decompress(body)
+    assert body == script.read_bytes()
+
+
 def test_the_clients_files_are_found_by_their_path(tmp_path: Path) -> None:
     (tmp_path / "assets").mkdir()
-    for name in ("index.html", "assets/a.js"):
+    for name in ("index.html", "assets/a.js", "assets/a.js.gz"):
         (tmp_path / name).write_text(name)
     files = ClientFiles(tmp_path)
 
     assert files.find("") == files.find("index.html") == tmp_path / "index.html"
     assert files.find("assets/a.js") == tmp_path / "assets/a.js"
     assert files.find("assets/../index.html") is None
+    assert files.find("assets/a.js.gz") is None
 
 
 def _policy(fields: dict[str, str]) -> dict[str, list[str]]:

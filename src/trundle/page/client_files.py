@@ -19,12 +19,18 @@ MISSING = (
 )
 
 
+_COMPRESSED = ".gz"
+"""Ending of a file beside another one, which aiohttp sends in its place to browsers that take it."""
+
+
 class ClientFiles:
     """Files below a folder, by their path in a URL; others cannot be named."""
 
     def __init__(self, folder: Path = CLIENT) -> None:
         self._files = {
-            file.relative_to(folder).as_posix(): file for file in sorted(folder.rglob("*")) if file.is_file()
+            file.relative_to(folder).as_posix(): file
+            for file in sorted(folder.rglob("*"))
+            if file.is_file() and file.suffix != _COMPRESSED
         }
 
     def find(self, path: str) -> Path | None:

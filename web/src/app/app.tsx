@@ -50,9 +50,10 @@ function Scene({ shell }: { readonly shell: Shell }): JSX.Element {
 }
 
 function DockPanel({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { dock, layout } = shell;
+  const { layout } = shell;
   const host = useRef<HTMLDivElement>(null);
-  useEffect(() => (host.current === null ? undefined : dock.mount(host.current)), [dock]);
+  const dock = shell.dock.dock.value;
+  useEffect(() => (host.current === null || dock === null ? undefined : shell.dock.mount(dock, host.current)), [dock]);
   const height = layout.dock.value;
   const open = layout.dockOpen.value;
   return (

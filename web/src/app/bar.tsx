@@ -29,9 +29,7 @@ export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
       <Clock shell={shell} />
       <span class="sp" />
       {!phone && <Record shell={shell} />}
-      {!phone && shell.panels.some((panel) => panel.id === "timeline") && (
-        <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />
-      )}
+      {!phone && <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />}
       {!phone && <span class="sep" />}
       <PeopleHere shell={shell} />
       <Connected shell={shell} />

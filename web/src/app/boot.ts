@@ -1,4 +1,4 @@
-/** Start: fetch the session, make the parts, draw the page. */
+/** Start: make the parts of a page for its session, draw it. */
 
 import "../displays/all";
 
@@ -7,7 +7,6 @@ import { effect, signal } from "@preact/signals";
 import { DisplayStore } from "../displays/display_store";
 import { feedTransforms } from "../frames/tf_topics";
 import { TransformTree } from "../frames/transform_tree";
-import { panels } from "../panels";
 import { connect } from "../protocol/foxglove_connection";
 import { GraphNames } from "../protocol/graph_names";
 import { SceneInput } from "../scene/pointer_input";
@@ -22,6 +21,7 @@ import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
 import { CommandList } from "./commands";
 import { Drive } from "./drive/drive";
+import { firstPicture } from "./first_picture";
 import { freezable } from "./freeze";
 import { outlinedBodies, targetPose } from "./views/framing";
 import { mount } from "./mount";
@@ -36,15 +36,6 @@ import { UndoHistory } from "./undo";
 import type { Shell } from "./shell";
 import { makeEditor } from "./world/edits";
 import { allModels, type ScopedModel } from "./world/nodes";
-
-/** Fetch what the page is for; throws a sentence. */
-export async function fetchSession(address: string): Promise<Session> {
-  const url = new URL("session.json", address);
-  url.search = new URL(address).search; // the token
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`The page's server refuses: ${response.status} ${await response.text()}`);
-  return (await response.json()) as Session;
-}
 
 /** Make the page's parts for a session and draw them into an element. */
 export function boot(root: HTMLElement, first: Session, address: string): void {
@@ -97,7 +88,7 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   new ContactMarks(scene, world, connection, modelsOf);
   new RangeLines(scene, world, connection);
   scene.onTick((elapsed) => displays.update(view.now(), elapsed));
-  const shell: Shell = mount(root, { page, panels, commands, sceneHost, frozen });
+  const shell: Shell = mount(root, { page, panels: firstPicture(page).then(async () => (await import("../panels")).panels), commands, sceneHost, frozen });
   startDisplays(shell);
   startView(shell);
 }

@@ -15,7 +15,7 @@ import { forEachNew, type Session } from "./session";
 import { recall, remember } from "./storage";
 
 /** Panels that are open at first, in this order. */
-const FIRST = ["plots", "topics", "log", "graph", "timeline"];
+const FIRST = ["plots", "topics", "log", "graph", "timeline"] as const;
 
 /** Panel in front at first. */
 const FRONT: Readonly<Record<Session["kind"], string>> = { simulation: "plots", graph: "topics", log: "timeline", bag: "timeline" };
@@ -61,19 +61,17 @@ export class Dock {
   }
 
   /** Bring a panel to the front, opening it where it is not yet. */
-  open(id: string): void {
-    if (!this.byId.has(id)) return;
+  show(id: string): void {
     this.layout.dockOpen.value = true;
-    if (this.layout.isPhone.peek()) this.layout.openSheet(id);
-    if (this.api !== null) this.show(this.api, id);
+    if (this.api !== null) this.add(this.api, id);
   }
 
-  private show(api: DockviewApi, id: string): void {
+  private add(api: DockviewApi, id: string, behind?: string): void {
     const panel = this.byId.get(id);
     if (panel === undefined) return;
     const open = api.getPanel(id);
     if (open !== undefined) open.api.setActive();
-    else api.addPanel({ id, component: id, tabComponent: id, title: panel.title });
+    else api.addPanel({ id, component: id, tabComponent: id, title: panel.title, ...(behind !== undefined && { position: { referencePanel: behind }, inactive: true }) });
   }
 
   private get key(): string {
@@ -88,14 +86,16 @@ export class Dock {
       api.clear(); // a layout of another version
     }
     if (api.totalPanels === 0) {
-      for (const id of FIRST) this.show(api, id);
-      this.show(api, FRONT[this.page.session.kind]);
+      const [first, ...others] = FIRST;
+      this.add(api, first);
+      for (const id of others) this.add(api, id, first); // drawing each in front, one after the other, takes long
+      this.add(api, FRONT[this.page.session.kind]);
     }
   }
 
   /** Show the panels that take a program's place. */
   private showProgram(api: DockviewApi, program: string): void {
-    for (const panel of this.byId.values()) if (panel.programs.includes(program)) this.show(api, panel.id);
+    for (const panel of this.byId.values()) if (panel.programs.includes(program)) this.add(api, panel.id);
   }
 
   private content(id: string): IContentRenderer {
@@ -137,7 +137,7 @@ export class Dock {
     const items = (): { title: string; run: () => void }[] =>
       [...this.byId.values()]
         .filter((panel) => this.api?.getPanel(panel.id) === undefined)
-        .map((panel) => ({ title: panel.title, run: () => this.open(panel.id) }));
+        .map((panel) => ({ title: panel.title, run: () => this.show(panel.id) }));
     return {
       element,
       init: () => render(<MenuButton icon="plus" label="Open a panel" class="sml" items={items} />, element),

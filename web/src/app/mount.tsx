@@ -25,7 +25,7 @@ import { insertionCommands } from "./insert/insertion";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedRviz } from "./dialogs/open_rviz";
 import type { Page } from "./page";
-import { pageCommands } from "./page_commands";
+import { pageCommands, panelCommands } from "./page_commands";
 import { splitCommands } from "./panes/split";
 import { Shell } from "./shell";
 import { saveCommands } from "./dialogs/save_world";
@@ -36,7 +36,8 @@ import { viewMenuCommands } from "./views/view_menu";
 
 export interface Parts {
   readonly page: Page;
-  readonly panels: readonly Panel[];
+  /** Panels of the dock, when they are wanted. */
+  readonly panels: Promise<readonly Panel[]>;
   readonly commands: CommandList;
   /** Element that holds the scene's canvas. */
   readonly sceneHost: HTMLElement;
@@ -45,7 +46,7 @@ export interface Parts {
 }
 
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
-  const shell = new Shell(page, panels, commands, sceneHost, frozen);
+  const shell = new Shell(page, commands, sceneHost, frozen);
   shell.layout.listen();
   commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...splitCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
   rememberShown(page);
@@ -57,6 +58,7 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
       removeCameras = commands.add(...cameras);
     });
   });
+  shell.dock.load(panels).then(() => commands.add(...panelCommands(shell)), (error: unknown) => shell.notices.report("Panels", error instanceof Error ? error.message : String(error)));
   listenForKeys(commands);
   acceptDroppedRviz(shell);
   effect(() => {

@@ -13,11 +13,18 @@ import { switchTheme } from "./theme";
 
 const SIDES = ["front", "back", "left", "right", "top", "bottom"] as const;
 
+function command(id: string, group: Command["group"], title: string, run: () => void, keys?: string): Command {
+  return keys === undefined ? { id, group, title, run } : { id, group, title, run, keys };
+}
+
+/** Commands of the panels that are there. */
+export function panelCommands({ dock }: Shell): readonly Command[] {
+  return dock.panels.peek().map(({ id, title }) => command(`panel.${id}`, "Panels", `Open ${title}`, () => dock.open(id)));
+}
+
 export function pageCommands(shell: Shell): readonly Command[] {
-  const { page, layout, dock, dialog } = shell;
+  const { page, layout, dialog } = shell;
   const { undo, views } = page;
-  const command = (id: string, group: Command["group"], title: string, run: () => void, keys?: string): Command =>
-    keys === undefined ? { id, group, title, run } : { id, group, title, run, keys };
   const toggle = (open: { value: boolean; peek(): boolean }) => () => {
     open.value = !open.peek();
   };
@@ -33,7 +40,6 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("link", "View", "Link to this view", () => (dialog.value = "link")),
     ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
     ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
-    ...shell.panels.map((panel) => command(`panel.${panel.id}`, "Panels", `Open ${panel.title}`, () => dock.open(panel.id))),
     command("left.toggle", "Panels", "Show or hide the left panel", toggle(layout.left.isOpen), "["),
     command("right.toggle", "Panels", "Show or hide the right panel", toggle(layout.right.isOpen), "]"),
     command("dock.toggle", "Panels", "Show or hide the dock", toggle(layout.dockOpen), "\\"),

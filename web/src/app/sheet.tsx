@@ -73,7 +73,7 @@ function SheetPage({ shell, page }: { readonly shell: Shell; readonly page: stri
   const wanted = page === "inspector" ? shell.layout.right.page.value : page;
   const Side = [...sidePages(shell, "left"), ...sidePages(shell, "right")].find(({ id }) => id === wanted)?.component;
   if (Side !== undefined) return <Side shell={shell} />;
-  const panel = shell.panels.find(({ id }) => id === page);
+  const panel = shell.dock.panels.value.find(({ id }) => id === page);
   if (panel === undefined) return null;
   const { component: Component, actions: Actions } = panel;
   return (

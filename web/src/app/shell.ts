@@ -4,11 +4,10 @@ import { computed, effect, signal, type Signal } from "@preact/signals";
 
 import type { Display } from "../displays/display";
 import { ModelEditor } from "../editor/model_editor";
-import type { Panel } from "../panels/panel";
 import type { PaneLayout } from "../scene/panes/pane_layout";
 import { cameraTopics } from "./cameras/topics";
 import { CommandList } from "./commands";
-import { Dock } from "./dock";
+import { DockSlot } from "./dock_slot";
 import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
@@ -30,7 +29,7 @@ export interface RvizFileInfo {
 export class Shell {
   readonly layout: Layout;
   readonly notices: Notices;
-  readonly dock: Dock;
+  readonly dock: DockSlot;
   readonly dialog = signal<Dialog>(null);
   /** How the scene is split where there is room. */
   readonly split: Signal<PaneLayout>;
@@ -68,7 +67,6 @@ export class Shell {
 
   constructor(
     readonly page: Page,
-    readonly panels: readonly Panel[],
     readonly commands: CommandList,
     /** Element that holds the scene's canvas. */
     readonly sceneHost: HTMLElement,
@@ -81,7 +79,7 @@ export class Shell {
     this.insertion = new Insertion(this);
     this.videos = new Videos(page, this.notices);
     this.editor = new ModelEditor(page, this.notices);
-    this.dock = new Dock(page, panels, this.layout);
+    this.dock = new DockSlot(page, this.layout);
     effect(() => remember("cameras", this.showsCameras.value));
   }
 

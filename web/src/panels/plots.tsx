@@ -10,6 +10,7 @@ import type { Panel, PanelProps } from "./panel";
 import { timeText } from "./messages/format";
 import { CurvePicker } from "./plots/curve_picker";
 import { Legend } from "./plots/legend";
+import { parquetFile } from "./plots/parquet";
 import { PlotCanvas } from "./plots/plot_canvas";
 import { plotsState, WINDOWS, type PlotsState } from "./plots/plots_state";
 import { Split } from "./parts";
@@ -83,7 +84,7 @@ function exports(state: PlotsState): readonly MenuItem[] {
   });
   return [
     item("CSV", "csv", "text/csv", () => state.csv()),
-    item("Parquet", "parquet", "application/vnd.apache.parquet", () => state.parquet()),
+    item("Parquet", "parquet", "application/vnd.apache.parquet", () => parquetFile(state.columns())),
     item("SVG", "svg", "image/svg+xml", () => state.svg()),
   ];
 }

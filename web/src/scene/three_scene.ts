@@ -7,7 +7,7 @@ import {
   AmbientLight, Color, DirectionalLight, Group, Scene, WebGLRenderer, type Object3D, type Ray, type Vector3,
 } from "three";
 
-import { drawsOnCpu } from "./draws_on_cpu";
+import { drawingCanvas, pixelRatio } from "./drawing_canvas";
 import { NO_INSETS, type Area } from "./free_area";
 import { GroundGrid } from "./ground_grid";
 import { LabelSet } from "./label_layer";
@@ -18,11 +18,6 @@ import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
-/** Most device pixels per pixel, and in the whole picture. */
-const MAX_PIXEL_RATIO = 2;
-const MAX_PIXELS = 5e6;
-/** Most device pixels where the CPU draws. */
-const MAX_SLOW_PIXELS = 1e6;
 
 const NO_WEBGL = "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
 
@@ -30,7 +25,7 @@ export class ThreeScene implements SceneView {
   readonly status = signal<SceneStatus>({ kind: "drawing" });
   readonly displays = new Group();
   readonly world = new Group();
-  readonly element = document.createElement("canvas");
+  readonly element: HTMLCanvasElement;
   readonly size = signal({ width: 1, height: 1 });
   readonly freeArea = signal<Insets>(NO_INSETS);
   readonly background = signal("#16191c");
@@ -60,11 +55,14 @@ export class ThreeScene implements SceneView {
   private frame = 0;
   private pixelRatio = 1;
   /** True where the browser draws on the CPU: edges are not smoothed then. */
-  readonly isSlow = drawsOnCpu();
+  readonly isSlow: boolean;
 
   /** Fills `host`, which is positioned. */
   constructor(private readonly host: HTMLElement) {
-    this.renderer = this.createRenderer();
+    const { element, context, isSlow } = drawingCanvas();
+    this.element = element;
+    this.isSlow = isSlow;
+    this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
     this.element.setAttribute("aria-label", "3D view");
     Object.assign(this.element.style, { position: "absolute", inset: "0", width: "100%", height: "100%", touchAction: "none", outline: "none" });
@@ -154,8 +152,7 @@ export class ThreeScene implements SceneView {
     this.element.remove();
   }
 
-  private createRenderer(): WebGLRenderer | null {
-    const context = this.element.getContext("webgl2", { powerPreference: "high-performance", antialias: !this.isSlow });
+  private createRenderer(context: WebGL2RenderingContext | null): WebGLRenderer | null {
     if (context === null) {
       this.status.value = { kind: "unsupported", reason: NO_WEBGL };
       return null;
@@ -229,8 +226,7 @@ export class ThreeScene implements SceneView {
   /** Device pixels per pixel of the element. */
   private get ratio(): number {
     const { width, height } = this.size.peek();
-    const most = this.isSlow ? MAX_SLOW_PIXELS : MAX_PIXELS;
-    return Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO, Math.sqrt(most / (width * height)));
+    return pixelRatio(width, height, this.isSlow);
   }
 
   /** Fit the canvas to a size [px]. */

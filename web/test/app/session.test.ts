@@ -9,7 +9,7 @@ import { PlotsState } from "../../src/panels/plots/plots_state";
 import { FakeConnection } from "../fake_connection";
 import { changeSession, fakePage, SESSION, type FakePage } from "../fake_page";
 
-const shellOf = (page: FakePage): Shell => new Shell(page, [], page.commands, document.createElement("div"), signal(false));
+const shellOf = (page: FakePage): Shell => new Shell(page, page.commands, document.createElement("div"), signal(false));
 const file = (text: string) => ({ rviz: { name: "a.rviz", text, writable: true } });
 
 describe("a session that changes", () => {

@@ -8,7 +8,7 @@ import { startDisplays, startView } from "../../src/app/start";
 import { fakePage, type FakePage } from "../fake_page";
 import { MANIFEST } from "../harness/manifest";
 
-const shellOf = (page: FakePage): Shell => new Shell(page, [], page.commands, document.createElement("div"), signal(false));
+const shellOf = (page: FakePage): Shell => new Shell(page, page.commands, document.createElement("div"), signal(false));
 
 beforeEach(() => localStorage.clear());
 

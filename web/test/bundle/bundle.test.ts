@@ -46,7 +46,22 @@ test("every package in the page's bundle has its licence beside it", async () =>
   const licensed = headings(output);
   expect(packages).toContain("preact");
   expect([...packages].filter((name) => !licensed.has(name))).toEqual([]);
+  expectFewFirst(output);
 }, SLOW);
+
+/** The document's script is small and names all others; what the first picture needs is without the dock and its panels. */
+function expectFewFirst(output: Rolldown.RolldownOutput["output"]): void {
+  const chunks = output.filter((file) => file.type === "chunk");
+  const entry = chunks.find(({ isEntry }) => isEntry);
+  const page = chunks.find(({ fileName }) => entry?.dynamicImports.includes(fileName));
+  expect(entry?.code.length).toBeLessThan(10_000);
+  const file = output.find(({ fileName }) => fileName === "index.html");
+  const document = file?.type === "asset" ? String(file.source) : "";
+  expect(chunks.filter(({ fileName }) => !document.includes(fileName))).toEqual([]);
+  const first = packageNames([page, ...chunks.filter(({ fileName }) => page?.imports.includes(fileName))].flatMap((chunk) => chunk?.moduleIds ?? []));
+  expect(first).toContain("three");
+  for (const name of ["dockview-core", "uplot", "@dagrejs/dagre", "hyparquet-writer"]) expect(first).not.toContain(name);
+}
 
 test("a worker's packages have theirs, and those that they carry", async () => {
   const { page, worker } = licenses();

@@ -144,5 +144,5 @@ document.documentElement.dataset["theme"] = page.theme.value;
 const host = document.createElement("div");
 host.append(page.scene.element);
 const root = document.getElementById("app");
-if (root !== null) mount(root, { page, panels, commands: page.commands, sceneHost: host, frozen: signal(false) });
+if (root !== null) mount(root, { page, panels: Promise.resolve(panels), commands: page.commands, sceneHost: host, frozen: signal(false) });
 Object.assign(window, { page });

@@ -60,5 +60,5 @@ const host = document.createElement("div");
 host.append(page.scene.element);
 const panels = ["Plots", "Topics", "Log", "Graph", "Timeline", "Parameters", "Services"].map((title) => panel(title.toLowerCase(), title));
 const root = document.getElementById("app");
-if (root !== null) mount(root, { page, panels, commands: page.commands, sceneHost: host });
+if (root !== null) mount(root, { page, panels: Promise.resolve(panels), commands: page.commands, sceneHost: host });
 Object.assign(window, { page });

@@ -7,7 +7,6 @@ import { forEachNew } from "../../app/session";
 import { perPage } from "../per_page";
 import { Curve } from "./curve";
 import { csvText, type CsvColumn } from "./csv";
-import { parquetFile } from "./parquet";
 import { svgText } from "./svg";
 
 export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
@@ -97,16 +96,13 @@ export class PlotsState {
     return csvText(this.columns());
   }
 
-  parquet(): ArrayBuffer {
-    return parquetFile(this.columns());
-  }
-
   /** The plots as they are shown, one below the other. */
   svg(): string {
     return svgText(this.plots.peek(), this.range());
   }
 
-  private columns(): readonly CsvColumn[] {
+  /** All curves, whole. */
+  columns(): readonly CsvColumn[] {
     return this.curves.map((curve) => {
       const [xs, ys] = curve.points.between(-Infinity, Infinity);
       return { name: curve.path, xs, ys };

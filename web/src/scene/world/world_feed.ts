@@ -1,6 +1,6 @@
 /** The simulated world as the server's channels describe it, drawn in the scene. */
 
-import { effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
+import { batch, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import { Box3, type Object3D } from "three";
 
 import type { FrameTree } from "../../frames/frame_tree";
@@ -86,7 +86,7 @@ export class WorldFeed implements SimulatedWorld {
       const subscription = connection.subscribeRaw(topic, act);
       this.stops.push(() => subscription.close());
     };
-    on("trundle/world", (payload) => this.onManifest(parse(payload) as Manifest));
+    on("trundle/world", (payload) => batch(() => this.onManifest(parse(payload) as Manifest)));
     on("trundle/state", (payload) => {
       this.state.value = parse(payload) as WorldState;
     });

@@ -1,0 +1,36 @@
+/** Scripts that the document's own script imports later are named in it, so that they come at once and beside each other. */
+
+import type { HtmlTagDescriptor, Plugin, Rolldown } from "vite";
+
+export function preloads(): Plugin {
+  return {
+    name: "preloads",
+    transformIndexHtml: {
+      order: "post",
+      handler(_html, { bundle, chunk }) {
+        if (bundle === undefined || chunk === undefined) return [];
+        return [...laterScripts(bundle, chunk)].map((name): HtmlTagDescriptor => ({ tag: "link", injectTo: "head", attrs: { rel: "modulepreload", crossorigin: true, href: `./${name}` } }));
+      },
+    },
+  };
+}
+
+/** Scripts that a chunk imports while it runs, and those that these import, in the order in which they are needed. */
+function laterScripts(bundle: Rolldown.OutputBundle, first: Rolldown.OutputChunk): Set<string> {
+  const chunkOf = (name: string): Rolldown.OutputChunk | null => {
+    const file = bundle[name];
+    return file?.type === "chunk" ? file : null;
+  };
+  const known = new Set<string>();
+  const add = (chunk: Rolldown.OutputChunk): void => {
+    for (const name of [...chunk.dynamicImports.flatMap((later) => [later, ...(chunkOf(later)?.imports ?? [])]), ...chunk.imports]) {
+      if (known.has(name)) continue;
+      known.add(name);
+      const next = chunkOf(name);
+      if (next !== null) add(next);
+    }
+  };
+  add(first);
+  for (const name of [first.fileName, ...first.imports]) known.delete(name);
+  return known;
+}

@@ -1,0 +1,47 @@
+/** The place of the dock, which is loaded with its panels after the page's first picture. */
+
+import { signal } from "@preact/signals";
+
+import type { Panel } from "../panels/panel";
+import type { Dock } from "./dock";
+import type { Layout } from "./layout";
+import type { Page } from "./page";
+
+export class DockSlot {
+  /** Panels that there are; none before they are loaded. */
+  readonly panels = signal<readonly Panel[]>([]);
+  /** Null before it is loaded. */
+  readonly dock = signal<Dock | null>(null);
+  /** A panel that was asked for before. */
+  private wanted: string | null = null;
+
+  constructor(
+    private readonly page: Page,
+    private readonly layout: Layout,
+  ) {}
+
+  /** Load the dock once there are panels. */
+  async load(coming: Promise<readonly Panel[]>): Promise<void> {
+    const panels = await coming;
+    const { Dock } = await import("./dock");
+    this.dock.value = new Dock(this.page, panels, this.layout);
+    this.panels.value = panels;
+  }
+
+  /** Fill an element with the dock that is loaded; returns how to empty it. */
+  mount(dock: Dock, element: HTMLElement): () => void {
+    const unmount = dock.mount(element);
+    if (this.wanted !== null) dock.show(this.wanted);
+    this.wanted = null;
+    return unmount;
+  }
+
+  /** Bring a panel to the front, opening it where it is not yet. */
+  open(id: string): void {
+    this.layout.dockOpen.value = true;
+    if (this.layout.isPhone.peek()) this.layout.openSheet(id);
+    const dock = this.dock.peek();
+    if (dock === null) this.wanted = id;
+    else dock.show(id);
+  }
+}

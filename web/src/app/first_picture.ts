@@ -1,0 +1,25 @@
+/** The first picture that a person waits for: what is not in it comes after it. */
+
+import { whenSeen } from "../scene/world/first_sight";
+import type { Page } from "./page";
+
+/** Longest wait for it [ms]: a world may be long on its way. */
+const PATIENCE = 2000;
+
+/** Wait until the simulated world is drawn, or, where there is none, the scene. */
+export function firstPicture({ session, scene, world }: Page): Promise<void> {
+  return new Promise((resolve) => {
+    const onDrawn = (): void => {
+      const stop = scene.addStep({
+        after: () => {
+          stop();
+          setTimeout(resolve);
+        },
+      });
+    };
+    if (scene.status.peek().kind === "unsupported") resolve();
+    else if (session.kind === "simulation" || session.kind === "log") whenSeen(world, onDrawn);
+    else onDrawn();
+    setTimeout(resolve, PATIENCE);
+  });
+}
