@@ -15,6 +15,11 @@ export function preloads(): Plugin {
   };
 }
 
+/** True for a library that is imported by itself: few ask for what it does. */
+export function isLibrary({ facadeModuleId }: Rolldown.OutputChunk): boolean {
+  return facadeModuleId?.includes("/node_modules/") ?? false;
+}
+
 /** Scripts that a chunk imports while it runs, and those that these import, in the order in which they are needed. */
 function laterScripts(bundle: Rolldown.OutputBundle, first: Rolldown.OutputChunk): Set<string> {
   const chunkOf = (name: string): Rolldown.OutputChunk | null => {
@@ -24,10 +29,10 @@ function laterScripts(bundle: Rolldown.OutputBundle, first: Rolldown.OutputChunk
   const known = new Set<string>();
   const add = (chunk: Rolldown.OutputChunk): void => {
     for (const name of [...chunk.dynamicImports.flatMap((later) => [later, ...(chunkOf(later)?.imports ?? [])]), ...chunk.imports]) {
-      if (known.has(name)) continue;
-      known.add(name);
       const next = chunkOf(name);
-      if (next !== null) add(next);
+      if (known.has(name) || next === null || isLibrary(next)) continue;
+      known.add(name);
+      add(next);
     }
   };
   add(first);
