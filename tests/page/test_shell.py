@@ -75,6 +75,8 @@ def open_page(chromium: Any, drive_page: PageServer) -> Iterator[Open]:
         tab.set_default_timeout(TIMEOUT_MS)
         tab.goto(drive_page.url)
         tab.get_by_label("Connected").first.wait_for()
+        if width > 640:
+            tab.locator(".dv-tab").first.wait_for()  # the dock comes after the first picture
         return tab
 
     yield opened

@@ -88,10 +88,22 @@ def _choose(user: SceneUser, menu: str, entry: str) -> None:
 
 
 def _at_rest(user: SceneUser, heights: Heights) -> int:
-    """Wait until the world stands still; return its time [ns]."""
+    """Wait until the world stands still; return its time [ns], after a first step."""
     _bar(user, "Play").wait_for()
+    if not heights:
+        _bar(user, "Step 1").click()
+        user.until(lambda: heights)
     user.until_still(lambda: len(heights))
     return heights[-1][0]
+
+
+def _run_on(user: SceneUser, heights: Heights) -> int:
+    """Let the world run for 1.5 s at least, in which the balloon rises; return its time at rest [ns]."""
+    before = _at_rest(user, heights)
+    _bar(user, "Play").click()
+    user.until(lambda: heights[-1][0] > before + 1.5e9)
+    _bar(user, "Pause").click()
+    return _at_rest(user, heights)
 
 
 def test_play_and_pause_are_one_toggle(graph: Graph, user: SceneUser, heights: Heights) -> None:
@@ -140,7 +152,7 @@ def test_time_and_poses_are_reset_together_or_one_alone(user: SceneUser, heights
         user.until(lambda: len(heights) > count)
         return heights[-1]
 
-    before = _at_rest(user, heights)
+    before = _run_on(user, heights)
     assert heights[-1][1] > HEIGHT + 0.1
     _choose(user, "Reset", "Reset poses only")
     time_ns, height = after_a_step()
@@ -171,7 +183,7 @@ def test_a_joint_s_slider_moves_it(node: Node, user: SceneUser) -> None:
 
 @pytest.mark.slow
 def test_the_timeline_goes_back_and_on(user: SceneUser, heights: Heights) -> None:
-    before = _at_rest(user, heights)
+    before = _run_on(user, heights)
     user.open("Timeline")
     head = user.page.get_by_role("slider", name="Time")
     head.press("ArrowLeft")  # a second
