@@ -18,7 +18,6 @@ import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
-
 const NO_WEBGL = "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
 
 export class ThreeScene implements SceneView {
@@ -53,7 +52,8 @@ export class ThreeScene implements SceneView {
   private isPlaced = false;
   private last = performance.now();
   private frame = 0;
-  private pixelRatio = 1;
+  /** Of the last picture; 0 before the first. */
+  private pixelRatio = 0;
   /** True where the browser draws on the CPU: edges are not smoothed then. */
   readonly isSlow: boolean;
 
