@@ -14,6 +14,7 @@ from .plan_source import description_path as description_path
 from .plan_source import read_source as read_source
 from .property_path import ARGUMENTS as ARGUMENTS
 from .property_path import PARAMETERS as PARAMETERS
+from .property_path import is_property as is_property
 from .property_path import with_property as with_property
 from .results import Results as Results
 from .row_result import RowResult as RowResult

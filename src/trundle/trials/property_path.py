@@ -20,15 +20,22 @@ ARGUMENTS = "arguments"
 """First part of the path of an argument of a xacro or launch file."""
 PARAMETERS = "parameters"
 """First part of the path of a ROS parameter."""
+TIME_STEP = "time_step"
+"""The only property whose path has one part."""
 _ALIASES: dict[str, tuple[str, ...]] = {
     "gravity": ("physics", "gravity"),
-    "time_step": ("physics", "max_step_size_s"),
+    TIME_STEP: ("physics", "max_step_size_s"),
 }
 _POSES = ("world_from_model", "model_from_link", "world_from_light", "link_from_visual", "link_from_collision",
           "link_from_com", "link_from_sensor")  # fmt: skip
 _XYZ = ("x", "y", "z")
 _POSE = (*_XYZ, "roll", "pitch", "yaw")
 _COMPONENTS = {3: _XYZ, 4: ("r", "g", "b", "a")}
+
+
+def is_property(name: str) -> bool:
+    """Return True if a varied quantity is a property; else it is a name of the plan's own."""
+    return "/" in name or name == TIME_STEP
 
 
 def with_property(world: _T, path: str, value: Value) -> _T:

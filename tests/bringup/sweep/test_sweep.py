@@ -216,7 +216,7 @@ def test_the_report_opens_alone_and_shows_what_matters(plan: Path) -> None:
     assert done.returncode == 0, done.stderr
     html = Path(done.stdout.strip()).read_text()
     assert not re.search(r'(?:src|href)="(?!data:image/png)|url\(|@import', html), "it loads nothing"
-    ElementTree.fromstring(re.sub(r"<(meta[^>]*|img[^>]*)>", r"<\1/>", html.removeprefix("<!doctype html>")))
+    ElementTree.fromstring(re.sub(r"<(meta[^>]*|img[^>]*|wbr)>", r"<\1/>", html.removeprefix("<!doctype html>")))
     assert "12 runs of 1 s of box.sdf, seed 0" in html
     for heading in ("Distributions", "What matters", "Worst runs"):
         assert f"<h2>{heading}</h2>" in html
@@ -224,6 +224,21 @@ def test_the_report_opens_alone_and_shows_what_matters(plan: Path) -> None:
     assert len(pictures) == 6
     first = Image.open(io.BytesIO(base64.b64decode(pictures[0])))
     assert len(first.getcolors(1 << 20) or ()) > 20, "the box is seen"
+
+
+def test_the_time_step_is_a_property(plan: Path) -> None:
+    plan.with_name("box.py").write_text("def step(sim):\n    return sim.step_ns\n")
+    plan.write_text("""\
+world: box.sdf
+duration: 0.1
+vary: {time_step: [0.001, 0.004]}
+measure: {step: {function: box.py:step}}
+""")
+    read = load_plan(plan)
+
+    steps = [TrialRunner(read).run(row).measures["step"] for row in Rows(read)]
+
+    assert steps == [1_000_000, 4_000_000]
 
 
 def test_there_is_no_report_before_the_first_run(plan: Path) -> None:

@@ -5,7 +5,7 @@ from typing import TypeVar
 from msgspec import Struct
 
 from trundle.diagnostics import Source, UsageError
-from trundle.trials import ARGUMENTS, PARAMETERS, Formula, Plan, Row, Value, with_property
+from trundle.trials import ARGUMENTS, PARAMETERS, Formula, Plan, Row, Value, is_property, with_property
 
 from .state_names import StateExpressions, named_values
 
@@ -48,7 +48,7 @@ def assignments_of(plan: Plan, row: Row, expressions: StateExpressions) -> Assig
         UsageError: an expression of `set` has no such value; with its line.
     """
     assigned = {
-        each.name: Property(each.name, row.values[each.name], each.at) for each in plan.vary if "/" in each.name
+        each.name: Property(each.name, row.values[each.name], each.at) for each in plan.vary if is_property(each.name)
     }
     names = named_values(row.values)
     for path, formula in plan.assignments.items():

@@ -12,7 +12,7 @@ from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.trials import Plan, Rows, lock_folder, numbers, rank_correlation, worst_rows
 
-from .report_charts import correlation_bars, histogram, scatter
+from .report_charts import breakable, correlation_bars, histogram, scatter
 from .report_pictures import end_picture
 from .report_style import STYLE
 from .sweep import open_results, results_folder
@@ -95,18 +95,23 @@ class _Report:
             known = [(abs(value), name) for name, value in found if value is not None]
             if not known:
                 continue
-            first = numbers(self._table[max(known)[1]])
-            drawn = (
-                ""
-                if first is None or target == "ok"
-                else f"{scatter(first, values, self._is_ok)}<p>over {escape(max(known)[1])}</p>"
-            )
+            drawn = "" if target == "ok" else self._drawn_over(max(known)[1], target, values)
             bars = correlation_bars(found)
             sections.append(f"<figure><figcaption>{escape(target)}</figcaption>{bars}{drawn}</figure>")
         if not sections:
             return ""
         said = "Rank correlation of each varied value with each measure: ±1 decides it alone, 0 does not matter."
         return f'<h2>What matters</h2><p>{said}</p><div class="grid">{"".join(sections)}</div>'
+
+    def _drawn_over(self, varied: str, target: str, values: NDArray[np.float64]) -> str:
+        """Draw a measure over the varied value that matters most to it; text has no order."""
+        over = numbers(self._table[varied])
+        if over is None:
+            return ""
+        variation = next(each for each in self._plan.vary if each.name == varied)
+        is_log = variation.distribution is not None and variation.distribution.kind == "log_uniform"
+        said = f"{breakable(target)} over {breakable(varied)}{' (logarithmic)' if is_log else ''}"
+        return f"<p>{said}</p>{scatter(over, values, self._is_ok, is_log=is_log)}"
 
     def _worst(self) -> str:
         runner = runner_of(self._plan)
@@ -120,7 +125,7 @@ class _Report:
             image = f'<img src="{picture}" alt="row {number} at its end">' if picture else ""
             values = {name: found[name] for name in (*row.values, *self._measures)}
             cells = "".join(
-                f"<tr><th>{escape(name)}</th><td>{_text(value)}</td></tr>" for name, value in values.items()
+                f"<tr><th>{breakable(name)}</th><td>{_text(value)}</td></tr>" for name, value in values.items()
             )
             said = escape(found["reason"] or found["status"])
             again = f"<code>trundle sweep {escape(Path(self._plan.file).name)} --row {number}</code>"

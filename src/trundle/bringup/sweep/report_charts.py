@@ -6,8 +6,11 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from .chart_axes import Axis, axis_of, tick_texts
+
 _WIDTH, _HEIGHT = 320.0, 160.0
-_LEFT, _BOTTOM, _TOP = 8.0, 18.0, 6.0
+_LEFT, _RIGHT, _BOTTOM, _TOP = 44.0, 12.0, 20.0, 8.0
+_TICKS_X, _TICKS_Y = 5, 3
 _MAX_POINTS = 2000
 
 
@@ -21,30 +24,42 @@ def histogram(values: NDArray[np.float64], is_ok: NDArray[np.bool_]) -> str:
     bins = int(min(max(np.sqrt(len(values)), 5), 40)) if high > low else 1
     edges = np.linspace(low, high, bins + 1) if high > low else np.array([low - 0.5, low + 0.5])
     total, ok = np.histogram(values, edges)[0], np.histogram(values[is_ok], edges)[0]
-    width, most = (_WIDTH - 2 * _LEFT) / bins, max(int(total.max()), 1)
-    scale = (_HEIGHT - _BOTTOM - _TOP) / most
+    across = Axis(float(edges[0]), float(edges[-1]), _LEFT, _WIDTH - _RIGHT)
+    up = Axis(0.0, float(max(total.max(), 1)), _HEIGHT - _BOTTOM, _TOP)
+    width, scale, base = (across.last - across.first) / bins, (up.first - up.last) / up.high, up.first
     bars: list[str] = []
     for i, (all_of, good) in enumerate(zip(total.tolist(), ok.tolist(), strict=True)):
-        x, base = _LEFT + i * width, _HEIGHT - _BOTTOM
+        x = _LEFT + i * width
         said = f"<title>{edges[i]:.4g} to {edges[i + 1]:.4g}: {all_of} runs, {all_of - good} not ok</title>"
         bars.append(_bar(x, base - good * scale, width, good * scale, "ok", said))
         bars.append(_bar(x, base - all_of * scale, width, (all_of - good) * scale, "bad", said))
-    return _svg([*bars, *_axis(low, high)], f"{len(values)} runs from {low:.4g} to {high:.4g}")
+    shown = across if high > low else Axis(low, low, across.first, across.last)
+    counts = [tick for tick in up.ticks(_TICKS_Y) if tick == round(tick)]
+    title = f"{len(values)} runs from {low:.4g} to {high:.4g}"
+    return _svg([*_levels(up, counts), *bars, *_scale(shown, shown.ticks(_TICKS_X))], title)
 
 
-def scatter(x: NDArray[np.float64], y: NDArray[np.float64], is_ok: NDArray[np.bool_]) -> str:
-    """Draw (rows,) values against others; at most 2,000 evenly chosen points."""
+def scatter(x: NDArray[np.float64], y: NDArray[np.float64], is_ok: NDArray[np.bool_], *, is_log: bool = False) -> str:
+    """Draw (rows,) values against others; at most 2,000 evenly chosen points.
+
+    Args:
+        x: values along the width.
+        y: values along the height.
+        is_ok: of each row.
+        is_log: draw `x` by its logarithm.
+    """
     found = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
     found = found[:: max(-(-len(found) // _MAX_POINTS), 1)]
     if not len(found):
         return ""
-    at_x, at_y = _scaled(x[found], _LEFT, _WIDTH - _LEFT), _scaled(y[found], _HEIGHT - _BOTTOM - 3, _TOP + 3)
+    across = axis_of(x[found], _LEFT + 3, _WIDTH - _RIGHT, is_log=is_log)
+    up = axis_of(y[found], _HEIGHT - _BOTTOM - 3, _TOP + 3)
     points = [
         f'<circle class="{"ok" if good else "bad"}" cx="{a:.1f}" cy="{b:.1f}" r="2"/>'
-        for a, b, good in zip(at_x, at_y, is_ok[found], strict=True)
+        for a, b, good in zip(across.place(x[found]), up.place(y[found]), is_ok[found], strict=True)
     ]
-    low, high = float(x[found].min()), float(x[found].max())
-    return _svg([*points, *_axis(low, high)], f"{len(found)} points")
+    levels, scale = _levels(up, up.ticks(_TICKS_Y)), _scale(across, across.ticks(_TICKS_X))
+    return _svg([*levels, *points, *scale], f"{len(found)} points")
 
 
 def correlation_bars(rows: Sequence[tuple[str, float | None]]) -> str:
@@ -56,14 +71,13 @@ def correlation_bars(rows: Sequence[tuple[str, float | None]]) -> str:
         left = 50 - share if (value or 0.0) < 0 else 50
         number = "constant" if value is None else f"{value:+.2f}"
         bar = f'<span class="bar"><i style="left:{left:.1f}%;width:{share:.1f}%"></i></span>'
-        lines.append(f"<tr><th>{escape(name)}</th><td>{bar}</td><td>{number}</td></tr>")
+        lines.append(f"<tr><th>{breakable(name)}</th><td>{bar}</td><td>{number}</td></tr>")
     return f'<table class="correlations">{"".join(lines)}</table>'
 
 
-def _scaled(values: NDArray[np.float64], first: float, last: float) -> list[float]:
-    low, high = values.min(), values.max()
-    share = (values - low) / (high - low) if high > low else np.full(len(values), 0.5)
-    return (first + share * (last - first)).tolist()
+def breakable(name: str) -> str:
+    """Return a name as HTML that breaks after the slashes of a path."""
+    return escape(name).replace("/", "/<wbr>")
 
 
 def _bar(x: float, y: float, width: float, height: float, kind: str, said: str) -> str:
@@ -73,12 +87,29 @@ def _bar(x: float, y: float, width: float, height: float, kind: str, said: str) 
     return f'<rect class="{kind}" {box}>{said}</rect>'
 
 
-def _axis(low: float, high: float) -> list[str]:
+def _scale(axis: Axis, ticks: list[float]) -> list[str]:
+    """Draw the axis below."""
     y = _HEIGHT - _BOTTOM
+    places = axis.place(np.array(ticks))
     return [
-        f'<line x1="{_LEFT}" y1="{y}" x2="{_WIDTH - _LEFT}" y2="{y}"/>',
-        f'<text x="{_LEFT}" y="{_HEIGHT - 4}">{low:.4g}</text>',
-        f'<text x="{_WIDTH - _LEFT}" y="{_HEIGHT - 4}" text-anchor="end">{high:.4g}</text>',
+        f'<line x1="{_LEFT}" y1="{y}" x2="{_WIDTH - _RIGHT}" y2="{y}"/>',
+        *(f'<line x1="{x:.1f}" y1="{y}" x2="{x:.1f}" y2="{y + 3}"/>' for x in places),
+        *(
+            f'<text x="{x:.1f}" y="{_HEIGHT - 5}" text-anchor="middle">{text}</text>'
+            for x, text in zip(places, tick_texts(ticks), strict=True)
+        ),
+    ]
+
+
+def _levels(axis: Axis, ticks: list[float]) -> list[str]:
+    """Draw lines across at the ticks of the axis on the left."""
+    places = axis.place(np.array(ticks))
+    return [
+        *(f'<line class="level" x1="{_LEFT}" y1="{y:.1f}" x2="{_WIDTH - _RIGHT}" y2="{y:.1f}"/>' for y in places),
+        *(
+            f'<text x="{_LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{text}</text>'
+            for y, text in zip(places, tick_texts(ticks), strict=True)
+        ),
     ]
 
 

@@ -7,20 +7,22 @@ STYLE = """
   --ok: #5fa3e0; --bad: #f0755b; --card: #1e2226 } }
 * { box-sizing: border-box }
 body { margin: 0 auto; max-width: 1240px; padding: 24px 16px 64px; background: var(--ground); color: var(--ink);
-  font: 15px/1.5 system-ui, sans-serif; overflow-wrap: anywhere }
+  font: 15px/1.5 system-ui, sans-serif; overflow-wrap: break-word }
 h1 { font-size: 24px; margin: 0 } h2 { font-size: 18px; margin: 40px 0 4px }
 p { margin: 4px 0 16px; color: var(--soft) }
 .counts { display: flex; flex-wrap: wrap; gap: 8px; padding: 0; list-style: none }
 .counts li { padding: 6px 14px; border-radius: 6px; background: var(--card); border-left: 4px solid var(--bad) }
 .counts li.ok { border-color: var(--ok) }
-.grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(340px, 100%), 1fr)); gap: 16px }
+.grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(340px, 100%), 1fr)); gap: 16px;
+  align-items: start }
 figure { margin: 0; padding: 12px; background: var(--card); border-radius: 8px; min-width: 0 }
 figcaption { font-weight: 600; margin-bottom: 8px }
 figcaption small { display: block; font-weight: 400; color: var(--soft) }
 figcaption span { font-weight: 400; color: var(--bad) } figcaption span.ok { color: var(--soft) }
 svg, img { display: block; width: 100%; height: auto } img { border-radius: 4px; margin-bottom: 8px }
 svg .ok { fill: var(--ok) } svg .bad { fill: var(--bad) } svg circle { opacity: 0.6 }
-svg line { stroke: var(--line) } svg text { font-size: 11px; fill: var(--soft) }
+svg line { stroke: var(--soft) } svg .level { stroke: var(--line) }
+figure p { margin: 12px 0 4px; font-size: 13px } svg text { font-size: 11px; fill: var(--soft) }
 table { border-collapse: collapse; width: 100%; font-size: 13px }
 td, th { text-align: left; font-weight: 400; padding: 2px 8px 2px 0; vertical-align: top;
   border-bottom: 1px solid var(--line) }
