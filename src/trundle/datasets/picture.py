@@ -17,6 +17,7 @@ from .annotator import Annotator
 from .instance import Instance
 from .lidar import Cloud, Lidar
 from .looks import Looks
+from .mounted_camera import MountedCamera
 from .outlines import Outlines
 from .placer import Placer
 from .plan import DatasetPlan
@@ -51,8 +52,12 @@ class PictureMaker:
         Raises:
             DescriptionError: the plan names something that is not there; with its line.
         """
-        self._plan = plan
         scene = scene_from_world(simulation.world, Diagnostics())
+        is_mounted = isinstance(plan.camera.place, str)
+        self._mounted = MountedCamera(plan, simulation.world, scene) if is_mounted else None
+        plan = plan if self._mounted is None else self._mounted.plan
+        self.plan = plan
+        """The plan; of a camera in the world with what its sensor says."""
         outlines = Outlines(scene)
         self.looks = Looks(plan, scene, instances)
         self.placer = Placer(plan, simulation, instances, scene, outlines)
@@ -67,23 +72,25 @@ class PictureMaker:
 
         Raises:
             SimulationUnstableError: physics does not let its things come to rest.
+            UsageError: the robot that has the camera found no place.
         """
         arrangement = self.placer.arrange(number)
-        view = draw_view(self._plan, number, arrangement)
+        mounted = self._mounted
+        view = draw_view(self.plan, number, arrangement) if mounted is None else mounted.view(arrangement)
         scene = self.looks.scene(number, arrangement)
         self.renderer.restyle(scene)
         self.renderer.update(arrangement.poses)
         rgb, depth, shapes = self.draw(view)
-        if self._plan.camera.noise:
-            seed = int(random_stream(self._plan.seed, number, NOISE).integers(1 << 63))
-            add_colour_noise(rgb, seed=seed, mean=0.0, stddev=self._plan.camera.noise)
-        instances = self._annotator.numbers[shapes]
+        if self.plan.camera.noise:
+            seed = int(random_stream(self.plan.seed, number, NOISE).integers(1 << 63))
+            add_colour_noise(rgb, seed=seed, mean=0.0, stddev=self.plan.camera.noise)
+        instances = self._annotator.numbers.take(shapes, mode="wrap")  # -1, no shape, is the last
         objects = self._annotator.annotate(arrangement, view, depth, instances)
         cloud = None if self._lidar is None else self._lidar.scan(view.world_from_camera, self.renderer, scene)
         annotation = PictureAnnotation(
             number=number,
-            width=self._plan.width_px,
-            height=self._plan.height_px,
+            width=self.plan.width_px,
+            height=self.plan.height_px,
             camera=_camera(view),
             camera_from_lidar=None if self._lidar is None else _row(CAMERA_FROM_OPTICAL.inverse() @ self._lidar.pose),
             objects=objects,
@@ -95,7 +102,7 @@ class PictureMaker:
         picture = self.renderer.render([(view.world_from_camera, view.lens)], depth=True, segmentation=True)[0]
         assert picture.depth is not None
         assert picture.segmentation is not None
-        rgb, samples = picture.rgb, self._plan.samples
+        rgb, samples = picture.rgb, self.plan.samples
         if samples > 1:
             large = self.renderer.render([(view.world_from_camera, _sampled(view.lens, samples))])[0].rgb
             rgb = np.array(Image.fromarray(large).reduce(samples))

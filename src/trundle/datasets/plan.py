@@ -112,8 +112,8 @@ class CameraPlan:
     """Camera to draw."""
 
     at: Source
-    place: Orbit | Numbers
-    """Orbit, or x, y, z in the world [m]."""
+    place: Orbit | Numbers | str
+    """Orbit; x, y, z in the world [m]; or a camera of the world, MODEL/SENSOR."""
     look_at: Numbers | str | None
     """Point in the world [m], or the name of an object; None: the centre of all objects."""
     roll: Quantity

@@ -71,6 +71,8 @@ def read_dataset_plan(text: str, *, file: str, folder: Path) -> DatasetPlan:
     count = found["count"].whole("count", at_least=1)
     if count > _MAX_COUNT:
         found["count"].fail(f"a dataset has at most {_MAX_COUNT} pictures")
+    if "size" in found and isinstance(found["camera"].value, str):
+        found["size"].fail("the size of the pictures is that of the camera's sensor; leave `size` out")
     objects = read_objects(found["objects"], folder)
     formats = _formats(found["formats"]) if "formats" in found else ("coco",)
     lidar = _lidar(found["lidar"]) if "lidar" in found else None
@@ -129,9 +131,16 @@ def _formats(node: YamlNode) -> tuple[Format, ...]:
 
 
 def _camera(node: YamlNode, objects: tuple[str, ...]) -> CameraPlan:
+    if isinstance(node.value, str):
+        one = constant(1.0)  # its sensor says it
+        return CameraPlan(
+            at=node.at, place=node.value, look_at=None, roll=one, horizontal_fov=one, near_m=1.0, far_m=1.0, noise=0.0
+        )
     found = node.check_keys("camera", *_CAMERA)
     if ("orbit" in found) == ("position" in found):
-        node.fail("camera needs orbit: {center, distance, elevation, azimuth}, or position: [x, y, z]")
+        node.fail(
+            "camera needs orbit: {center, distance, elevation, azimuth}, or position: [x, y, z]; or is MODEL/SENSOR"
+        )
     place = _orbit(found["orbit"]) if "orbit" in found else read_numbers(found["position"], "position")
     look_at: Numbers | str | None = None
     if "look_at" in found:

@@ -53,6 +53,7 @@ def draw_view(plan: DatasetPlan, number: int, arrangement: Arrangement) -> View:
         flat, (x, y, z) = distance * math.cos(elevation), camera.place.center
         eye = (x + flat * math.cos(azimuth), y + flat * math.sin(azimuth), z + distance * math.sin(elevation))
     else:
+        assert not isinstance(camera.place, str), "a mounted camera has its own view"
         eye = draw_numbers(camera.place, random)
     target = _target(plan, arrangement, random)
     lens = Intrinsics(

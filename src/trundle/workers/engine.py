@@ -12,7 +12,7 @@ from .progress import Progress
 def run_job(
     job: Job[T],
     rows: Iterator[int],
-    take: Callable[[JobResult[T]], bool],
+    receive: Callable[[JobResult[T]], bool],
     *,
     count: int,
     progress: Progress,
@@ -25,7 +25,7 @@ def run_job(
     Args:
         job: what to do with each row.
         rows: numbers of the rows.
-        take: takes an outcome, and returns True if it is ok.
+        receive: called with each outcome, returns True if it is ok.
         count: number of the rows; 0: nothing is started.
         progress: of the whole; it is closed at the end.
         workers: see `run_rows`.
@@ -39,7 +39,7 @@ def run_job(
         if count:
             for outcome in run_rows(job, rows, count=count, workers=workers, address=address, is_ending=is_ending):
                 if outcome is not None:
-                    progress.add(is_ok=take(outcome))
+                    progress.add(is_ok=receive(outcome))
                 progress.show()
     finally:
         progress.close()

@@ -219,3 +219,48 @@ def test_a_plan_that_names_what_is_not_there_is_refused(objects: str, said: str,
     with pytest.raises(DescriptionError) as caught:
         pictures(tmp_path, f"{HEAD}objects: {objects}\n")
     assert str(caught.value).startswith(said)
+
+
+EYE = """<model name="rover"><pose>-2 0 0.2 0 0 0</pose><static>1</static><link name="head"><pose>0 0 0.5 0 0 0</pose>
+<sensor name="eye" type="camera"><pose>0.1 0 0 0 0.2 0</pose><camera><horizontal_fov>0.9</horizontal_fov>
+<image><width>200</width><height>120</height></image><clip><near>0.05</near><far>30</far></clip></camera></sensor>
+</link></model>"""
+OF_THE_ROVER = """\
+world: world.sdf
+count: 2
+camera: rover/eye
+objects: {box: {model: box.sdf, position: [0, 0, 0.2]}}
+"""
+
+
+def _rover(folder: Path, text: str = OF_THE_ROVER) -> AnnotatedPicture:
+    (folder / "world.sdf").write_text(WORLD.replace("</world>", f"{EYE}</world>"))
+    (folder / "box.sdf").write_text(BOX)
+    return picture_maker(read_dataset_plan(text, file="plan.yaml", folder=folder)).make(0)
+
+
+def test_a_robot_s_own_camera_makes_the_pictures(tmp_path: Path) -> None:
+    """Its place, image size and field of view are the sensor's, and what is written agrees with the pixels."""
+    picture = _rover(tmp_path)
+
+    assert picture.rgb.shape == (120, 200, 3)
+    camera = picture.annotation.camera
+    assert camera.world_from_camera[:3] == pytest.approx((-1.9, 0, 0.7))
+    assert camera.fx == pytest.approx(100 / np.tan(0.45))
+    corners = project(picture, box_corners(only(picture).box_3d))
+    rows, columns = np.nonzero(picture.instances)
+    assert corners[:, 0].min() == pytest.approx(columns.min(), abs=1.5)
+    assert corners[:, 0].max() == pytest.approx(columns.max() + 1, abs=1.5)
+    assert corners[:, 1].max() == pytest.approx(rows.max() + 1, abs=1.5)
+
+
+@pytest.mark.parametrize(
+    ("changed", "by", "said"),
+    [
+        ("rover/eye", "rover/ear", "plan.yaml:3: error: there is no camera 'rover/ear'; cameras: rover/eye"),
+        ("count: 2", "count: 2\nsize: [64, 48]", "the size of the pictures is that of the camera's sensor"),
+    ],
+)
+def test_a_camera_that_is_not_there_is_refused(tmp_path: Path, changed: str, by: str, said: str) -> None:
+    with pytest.raises(DescriptionError, match=said):
+        _rover(tmp_path, OF_THE_ROVER.replace(changed, by))

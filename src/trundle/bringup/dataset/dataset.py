@@ -57,7 +57,7 @@ def make_dataset(
         TrundleError: the plan cannot be drawn, or its pictures not be written.
     """
     check_workers(workers)
-    picture_maker(plan)  # a plan with errors is refused here, once, not by each process
+    plan = picture_maker(plan).plan  # a plan with errors is refused here, once, not by each process
     path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
     job = Job(make=partial(_picture_writer, plan, path))
     with lock_folder(path), stop_flag() as stop:
@@ -67,7 +67,7 @@ def make_dataset(
         progress = Progress(plan.count, plan.count - len(missing), what="pictures")
         failed: dict[int, str] = {}
 
-        def take(outcome: JobResult[str]) -> bool:
+        def add_outcome(outcome: JobResult[str]) -> bool:
             reason = outcome.reason if outcome.failure is not None else outcome.value
             if reason:
                 failed[outcome.row] = reason
@@ -76,7 +76,7 @@ def make_dataset(
         run_job(
             job,
             iter(missing),
-            take,
+            add_outcome,
             count=len(missing),
             progress=progress,
             workers=workers,

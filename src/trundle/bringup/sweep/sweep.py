@@ -89,7 +89,7 @@ def sweep(
         left = len(rows) - results.done
         progress = Progress(len(rows), results.done)
 
-        def take(outcome: JobResult[Trial]) -> bool:
+        def add_outcome(outcome: JobResult[Trial]) -> bool:
             result = _kept(outcome, folder)
             results.add(result)
             return result.status == "ok"
@@ -98,7 +98,7 @@ def sweep(
             run_job(
                 job,
                 results.missing(),
-                take,
+                add_outcome,
                 count=left,
                 progress=progress,
                 workers=workers,
