@@ -24,9 +24,9 @@ export function TwistSection({ page, body, onCommit }: TwistProps): JSX.Element 
   useEffect(() => {
     const timer = setInterval(() => {
       const pose = page.world.pose(body);
-      const time = page.world.state.peek()?.time_ns ?? 0;
+      const time = page.world.poseTime; // the clock's own is up to 0.1 s older
       if (pose === null) return;
-      const sample = { time: time / 1e9, position: pose.position.clone(), orientation: pose.orientation.clone() };
+      const sample = { time, position: pose.position.clone(), orientation: pose.orientation.clone() };
       setBefore((samples) => (samples.at(-1)?.time === sample.time ? samples : [...samples.slice(-1), sample]));
     }, 2 * REFRESH);
     return () => clearInterval(timer);

@@ -56,6 +56,10 @@ export class WorldFeed implements SimulatedWorld {
     return this.files.faults;
   }
 
+  get poseTime(): number {
+    return Number(this.poses.time) / 1e9;
+  }
+
   pose(body: number): Transform | null {
     return this.poses.pose(body);
   }
