@@ -10,7 +10,7 @@ NPM    := $(BIN)/python web/npm.py
 CLIENT := src/trundle/page/client/index.html
 WEB    := $(shell find web -path web/node_modules -prune -o -path web/test -prune -o -type f -print)
 
-.PHONY: demo test test-all check tidy format docs bench load dist system clean help
+.PHONY: demo test test-all check tidy format docs film bench load dist system clean help
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
@@ -82,6 +82,9 @@ format: $(READY)  ## rewrite the code in house style
 
 docs: $(READY)  ## the site, in out/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
+
+film: $(READY)  ## docs/page.webp and docs/page.png: the RP2W driven through its room (needs Chromium)
+	cd docs && ../$(BIN)/python -m generate.film
 
 bench: $(READY)  ## figures, as ratios against a peer in the same run
 	$(BIN)/python -m bench
