@@ -13,6 +13,7 @@ BENCHES = (
     "step",
     "sweep",
     "environments",
+    "gpu",
     "robots",
     "hooks",
     "contacts",

@@ -9,7 +9,8 @@ class Row:
     """One figure."""
 
     name: str
-    value: float
+    value: float | None
+    """None: not measured; the unit says why."""
     unit: str
     against: str
     """Peer, measured in the same run; empty: none."""
@@ -22,4 +23,5 @@ def print_table(rows: Sequence[Row]) -> None:
     width = max(len(row.name) for row in rows)
     for row in rows:
         peer = "" if row.ratio is None else f"   {row.ratio:.3g} of {row.against}"
-        print(f"{row.name:<{width}}  {row.value:>12,.4g} {row.unit:<9}{peer}")
+        value = "–" if row.value is None else f"{row.value:,.4g}"
+        print(f"{row.name:<{width}}  {value:>12} {row.unit:<9}{peer}")

@@ -12,12 +12,13 @@ if not PAGES:
     pytest.skip("the documentation is not part of the sdist", allow_module_level=True)
 REASONS = Counter(
     {
+        "a GPU": 1,  # tests/gym/test_gpu.py has it
         "a terminal": 1,
         "docker": 2,
         "minutes, to set everything up": 1,
         "stable-baselines3": 1,  # tests/gym has it
         "the cart, which is built by hand above": 1,  # tests/page/test_user_builds_a_cart.py builds it
-        "the net": 5,
+        "the net": 6,
         "the tutorial's files": 1,  # tests/system/test_smartcar.py has them
     }
 )

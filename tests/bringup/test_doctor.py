@@ -35,6 +35,24 @@ def test_the_machine_has_what_tests_need() -> None:
     assert "C++ nodes and plugins cannot be compiled" in checks["compiler"].cost
 
 
+def test_the_full_mujoco_beside_mujoco_core_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("trundle.bringup.doctor.machine.version", "4.0.1".format)
+
+    checks = {check.name: check for check in machine_checks({"PATH": ""})}
+
+    assert (checks["mujoco"].state, checks["mujoco"].found) == ("problem", "mujoco-core 4.0.1 and mujoco 4.0.1")
+    assert "pip uninstall mujoco mujoco-core && pip install mujoco-core==4.0.1" in checks["mujoco"].cost
+
+
+def test_the_gpu_is_named_or_what_it_lacks() -> None:
+    gpu = {check.name: check for check in machine_checks({"PATH": ""})}["gpu"]
+
+    if gpu.state == "ok":
+        assert gpu.found.startswith("cuda")
+    else:
+        assert gpu.cost.startswith("many worlds at once are stepped by the processors: ")
+
+
 def test_a_terminal_that_is_not_utf_8_is_named(capsys: pytest.CaptureFixture[str]) -> None:
     checks = {check.name: check for check in machine_checks({"PATH": ""})}
     assert "no TERM" in checks["terminal"].found

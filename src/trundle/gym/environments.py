@@ -1,10 +1,12 @@
 """Environments from any description."""
 
 import os
-from typing import TYPE_CHECKING, Unpack
+import warnings
+from typing import TYPE_CHECKING, Literal, Unpack
 
 from trundle.bringup.loaded_simulation import LoadedSimulation, load_simulation
 from trundle.diagnostics import UsageError
+from trundle.physics import NoGpuError, find_gpu
 
 from .single_env import SimulationEnv
 from .vector_env import SimulationVectorEnv
@@ -13,6 +15,7 @@ from .worlds import Task, TaskArguments, Worlds
 if TYPE_CHECKING:
     from trundle.description import Model, World
 
+_DEVICES = ("cpu", "cuda")
 _RENDER_MODES = (None, "rgb_array")
 
 
@@ -44,33 +47,48 @@ def make_vec(
     *,
     num_envs: int,
     threads: int | None = None,
+    device: Literal["cpu", "cuda"] = "cpu",
     render_mode: str | None = None,
     camera: str | None = None,
     **task: Unpack[TaskArguments],
 ) -> SimulationVectorEnv:
-    """Make a Gymnasium vector environment of many worlds, stepped by threads of this process.
+    """Make a Gymnasium vector environment of many worlds, stepped by threads of this process or on a GPU.
 
     Args:
         file: as `trundle.load` takes it.
         num_envs: number of worlds.
         threads: None: one for each core.
+        device: "cuda" steps on an NVIDIA GPU, in single precision; without one a warning says so, and the threads do.
         render_mode: see `make`.
         camera: see `make`.
         task: see `make`.
 
     Raises:
-        TrundleError: the file cannot be read, or a name in it does not exist.
+        TrundleError: the file cannot be read, a name in it does not exist, or the GPU cannot step this world.
     """
     _check_render_mode(render_mode)
+    gpu = _gpu_of(device)
     if num_envs < 1:
         raise UsageError(f"num_envs={num_envs}: at least one world is needed")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    worlds = Worlds(_load(file), Task(**task), rows=num_envs, threads=threads or cores or 1)
+    worlds = Worlds(_load(file), Task(**task), rows=num_envs, threads=threads or cores or 1, gpu=gpu)
     return SimulationVectorEnv(worlds, render_mode=render_mode, camera=camera)
 
 
 def _load(file: "str | os.PathLike[str] | Model | World") -> LoadedSimulation:
     return load_simulation(os.fspath(file) if isinstance(file, str | os.PathLike) else file)
+
+
+def _gpu_of(device: str) -> str | None:
+    if device not in _DEVICES:
+        raise UsageError(f"device={device!r}: worlds are stepped on {' or '.join(map(repr, _DEVICES))}")
+    if device == "cpu":
+        return None
+    try:
+        return find_gpu()
+    except NoGpuError as error:
+        warnings.warn(f"device='cuda': {error}; the worlds are stepped by the CPU", stacklevel=3)
+        return None
 
 
 def _check_render_mode(mode: str | None) -> None:

@@ -1,5 +1,7 @@
 """Makers of the ready environments, as Gymnasium calls them."""
 
+from typing import Literal
+
 from .environments import make, make_vec
 from .ready_tasks import READY
 from .single_env import SimulationEnv
@@ -17,9 +19,12 @@ def make_ready_vec(
     name: str,
     num_envs: int = 1,
     threads: int | None = None,
+    device: Literal["cpu", "cuda"] = "cpu",
     render_mode: str | None = None,
     camera: str | None = None,
 ) -> SimulationVectorEnv:
     """Make many worlds of a ready environment; see `trundle.gym.make_vec`."""
     file, task = READY[name]
-    return make_vec(file, num_envs=num_envs, threads=threads, render_mode=render_mode, camera=camera, **task)
+    return make_vec(
+        file, num_envs=num_envs, threads=threads, device=device, render_mode=render_mode, camera=camera, **task
+    )

@@ -63,7 +63,9 @@ class Step(Struct, frozen=True):
 class Worlds:
     """States of one world and their task."""
 
-    def __init__(self, simulation: LoadedSimulation, task: Task, *, rows: int, threads: int) -> None:
+    def __init__(
+        self, simulation: LoadedSimulation, task: Task, *, rows: int, threads: int, gpu: str | None = None
+    ) -> None:
         """Set up the rows; `reset` begins their episodes.
 
         Args:
@@ -71,13 +73,14 @@ class Worlds:
             task: to learn.
             rows: number of worlds.
             threads: number of threads.
+            gpu: see `Engine.batch`.
 
         Raises:
             UsageError: a name in the task does not exist, or a setting is not possible.
         """
         self.task = task
         self.steps = _steps_of(task.period_s, simulation.step_ns)
-        batch = simulation.engine.batch(rows, threads=threads)
+        batch = simulation.engine.batch(rows, threads=threads, gpu=gpu)
         self.states = WorldStates(simulation, batch)
         actions = task.actions if isinstance(task.actions, Sequence) else [task.actions]
         bound = [action.bind(self.states) for action in actions]

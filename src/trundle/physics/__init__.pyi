@@ -23,3 +23,6 @@ from .step.surface_motion import LinkGrip as LinkGrip
 from .step.surface_motion import SurfaceMotion as SurfaceMotion
 from .step.surface_motion import TrackMotion as TrackMotion
 from .step.surface_motion import WheelGrip as WheelGrip
+from .step.warp.device import NoGpuError as NoGpuError
+from .step.warp.device import find_gpu as find_gpu
+from .step.warp.limits import gpu_limits as gpu_limits

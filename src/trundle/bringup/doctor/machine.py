@@ -5,8 +5,11 @@ import platform
 import shutil
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
+
+from trundle.physics import NoGpuError, find_gpu
 
 from .check import Check
 
@@ -32,6 +35,7 @@ def machine_checks(environment: Mapping[str, str]) -> Iterator[Check]:
         is_there = find_spec(module) is not None
         yield Check(name=extra, state="ok" if is_there else "missing", found=module if is_there else "not installed",
                     cost="" if is_there else cost)  # fmt: skip
+    yield _gpu()
     path = environment.get("PATH", os.defpath)
     yield _first(
         "compiler",
@@ -49,9 +53,21 @@ def _mujoco() -> Check:
         found = version("mujoco-core")
     except PackageNotFoundError:
         return Check(name="mujoco", state="problem", found="not installed", cost="nothing can be simulated")
+    with suppress(PackageNotFoundError):
+        both = f"mujoco-core {found} and mujoco {version('mujoco')}"
+        cost = f"they write the same files: pip uninstall mujoco mujoco-core && pip install mujoco-core=={found}"
+        return Check(name="mujoco", state="problem", found=both, cost=cost)
     if found == _BAD_MUJOCO:
         return Check(name="mujoco", state="problem", found=found, cost="its contacts are wrong; install 4.0.1 or newer")
     return Check(name="mujoco", state="ok", found=found)
+
+
+def _gpu() -> Check:
+    try:
+        return Check(name="gpu", state="ok", found=find_gpu())
+    except NoGpuError as error:
+        cost = f"many worlds at once are stepped by the processors: {error}"
+        return Check(name="gpu", state="missing", found="none for physics", cost=cost)
 
 
 def _first(name: str, candidates: tuple[str, ...], find: Callable[[str], str | None], cost: str) -> Check:

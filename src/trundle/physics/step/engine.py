@@ -286,11 +286,25 @@ class Engine:
 
         return restore
 
-    def batch(self, rows: int, *, threads: int) -> "Batch":
-        """Return rows to step at once, each a state of this world."""
+    def batch(self, rows: int, *, threads: int, gpu: str | None = None) -> "Batch":
+        """Return rows to step at once, each a state of this world.
+
+        Args:
+            rows: number of states.
+            threads: number of threads.
+            gpu: device of `find_gpu` that steps them; None: the threads do.
+
+        Raises:
+            UsageError: the GPU cannot step this world.
+        """
+        actuated = self._laws.is_active
+        if gpu is not None:
+            from .warp.gpu_batch import GpuBatch
+
+            return GpuBatch(self.compiled, rows, threads, actuated=actuated, max_speed=MAX_SPEED, device=gpu)
         from .batch import Batch
 
-        return Batch(self.compiled, rows, threads, actuated=self._laws.is_active, max_speed=MAX_SPEED)
+        return Batch(self.compiled, rows, threads, actuated=actuated, max_speed=MAX_SPEED)
 
     def world_row(self) -> "WorldRow":
         """Return the current state as a row of a batch, without initial penetrations."""

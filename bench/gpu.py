@@ -1,0 +1,67 @@
+"""4,096 RP2Ws and 4,096 differential robots on a GPU, beside the processors of the same machine.
+
+Times are of the clock; steps of all worlds count. Where there is no GPU the rows say so.
+"""
+
+import os
+import statistics
+import time
+from pathlib import Path
+
+import numpy as np
+
+import trundle
+import trundle.packages
+from bench.table import Row
+from trundle.physics import Batch, NoGpuError, find_gpu
+
+_WORLDS = 4096
+_STEPS = 100
+_PAIRS = 5
+_ROBOTS = {
+    "RP2W": (Path(__file__).parents[1] / "examples/rp2w", ("chassis_left_wheel", "chassis_right_wheel")),
+    "differential robots": (
+        Path(trundle.packages.__file__).parent / "worlds/drive_to_goal.world",
+        ("left_joint", "right_joint"),
+    ),
+}
+_SPEED = 2.0
+"""[rad/s] Of driven wheels."""
+
+
+def run() -> list[Row]:
+    """Alternate GPU and processors."""
+    try:
+        gpu = find_gpu()
+    except NoGpuError as error:
+        return [Row(f"{_WORLDS:,} {name} on a GPU", None, f"no GPU here: {error}", "", None) for name in _ROBOTS]
+    rows: list[Row] = []
+    for name, (file, wheels) in _ROBOTS.items():
+        batches = [_driven(file, wheels, device) for device in (gpu, None)]
+        pairs = [[_rate(batch) for batch in batches] for _ in range(_PAIRS)]
+        value = statistics.median(ours for ours, _ in pairs)
+        ratio = statistics.median(ours / theirs for ours, theirs in pairs)
+        peer = f"{os.cpu_count()} processors"
+        rows.append(Row(f"{_WORLDS:,} {name} on a GPU", value, "worlds × steps/s", peer, ratio))
+    return rows
+
+
+def _driven(file: Path, wheels: tuple[str, str], device: str | None) -> Batch:
+    sim = trundle.load(str(file))
+    batch = sim.engine.batch(_WORLDS, threads=os.cpu_count() or 1, gpu=device)
+    start = sim.engine.world_row()
+    for row in range(_WORLDS):
+        batch.write_row(row, start)
+    names = sim.engine.compiled.joint_names
+    for wheel in wheels:
+        joint = next(i for i, name in enumerate(names) if name.endswith(f"::{wheel}"))
+        (axis,) = sim.engine.compiled.joint_axes[joint]
+        batch.command_velocity(axis, np.full(_WORLDS, _SPEED), 2.0)
+    batch.step(_STEPS)
+    return batch
+
+
+def _rate(batch: Batch) -> float:
+    began = time.perf_counter()
+    batch.step(_STEPS)
+    return _WORLDS * _STEPS / (time.perf_counter() - began)

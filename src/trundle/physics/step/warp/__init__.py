@@ -1,0 +1,1 @@
+"""Batches of worlds on a GPU, by MuJoCo on NVIDIA Warp."""

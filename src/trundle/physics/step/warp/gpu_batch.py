@@ -1,0 +1,61 @@
+"""Batch of states that a GPU steps; poses, twists and resets are computed by this machine's processors."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from ...compile.compiled_world import CompiledWorld
+from ..batch import Batch
+from .stepper import GpuStepper
+
+_INPUTS = {
+    "qpos": mujoco.mjtState.mjSTATE_QPOS,
+    "qvel": mujoco.mjtState.mjSTATE_QVEL,
+    "qacc_warmstart": mujoco.mjtState.mjSTATE_WARMSTART,
+    "ctrl": mujoco.mjtState.mjSTATE_CTRL,
+    "qfrc_applied": mujoco.mjtState.mjSTATE_QFRC_APPLIED,
+    "xfrc_applied": mujoco.mjtState.mjSTATE_XFRC_APPLIED,
+}
+
+
+class GpuBatch(Batch):
+    """Rows of one world in single precision; as `Batch`, but not equal to it to the bit."""
+
+    def __init__(
+        self, compiled: CompiledWorld, rows: int, threads: int, *, actuated: bool, max_speed: float, device: str
+    ) -> None:
+        """Reserve the rows.
+
+        Args:
+            compiled: the world.
+            rows: number of states.
+            threads: number of threads that compute poses.
+            actuated: see `Batch`.
+            max_speed: see `Batch`.
+            device: as Warp calls it.
+
+        Raises:
+            UsageError: the GPU cannot step the world; says why.
+        """
+        super().__init__(compiled, rows, threads, actuated=actuated, max_speed=max_speed)
+        self._max_speed = max_speed
+        self._stepper_on_gpu = GpuStepper(compiled, self._workers[0][0], rows, device)
+
+    def step(self, count: int, *, chosen: NDArray[np.bool_] | None = None) -> None:
+        """See `Batch`."""
+        chosen = self._all if chosen is None else chosen
+        stable = self._advance(count, chosen) if count else chosen
+        super().step(0, chosen=chosen)
+        self.unstable[chosen] = ~stable[chosen]
+
+    def _advance(self, count: int, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Step the states of chosen rows; return the stable ones among them."""
+        inputs = {name: self._part(part) for name, part in _INPUTS.items()}
+        inputs["xfrc_applied"] = inputs["xfrc_applied"].reshape(len(self.states), -1, 6)
+        after = self._stepper_on_gpu.step(count, inputs, self._max_efforts, self._rates)
+        stable = chosen & np.isfinite(after["qpos"]).all(axis=1)
+        stable &= (np.abs(after["qvel"]) < self._max_speed).all(axis=1)
+        for name, values in after.items():
+            self._part(_INPUTS[name])[stable] = values[stable]
+        self._part(mujoco.mjtState.mjSTATE_TIME)[stable] += count * self._compiled.model.opt.timestep
+        return stable

@@ -1,0 +1,106 @@
+"""Stepper: states of one world on a GPU."""
+
+import copy
+
+import mujoco
+import mujoco_warp
+import numpy as np
+import warp as wp
+from numpy.typing import NDArray
+
+from trundle.diagnostics import TrundleError, UsageError
+
+from ...compile.compiled_world import CompiledWorld
+from ...compile.law_tables import find_table
+from .kernels import drive
+from .limits import gpu_limits, gpu_model
+
+_Array = NDArray[np.float64]
+_CONTACTS_PER_PAIR, _MOST_CONTACTS = 8, 256
+_ROWS_PER_CONTACT = 3
+_OVERFLOWS = ("NEFC", "NJMAX_NNZ", "BROADPHASE", "NARROWPHASE", "CCD", "HFIELD", "EPA_HORIZON")
+
+
+class GpuStepper:
+    """Worlds in the memory of a GPU, in single precision."""
+
+    def __init__(self, compiled: CompiledWorld, model: mujoco.MjModel, worlds: int, device: str) -> None:
+        """Bring a model to the GPU, and compile what steps it, which takes minutes the first time on a machine.
+
+        Args:
+            compiled: the world.
+            model: copy of its model, in which nothing sleeps.
+            worlds: number of states.
+            device: as Warp calls it.
+
+        Raises:
+            UsageError: a law of the world, or a part of its model, is not known there.
+        """
+        limits = gpu_limits(compiled)
+        if limits:
+            raise UsageError("\n".join(["a GPU cannot step this world; use device='cpu':", *limits]))
+        model = copy.copy(model)
+        gpu_model(model)
+        contacts = min(_CONTACTS_PER_PAIR * max(model.npair, model.ngeom), _MOST_CONTACTS)
+        rows = model.nv + model.ntendon + 2 * model.njnt + 6 * model.neq + _ROWS_PER_CONTACT * contacts
+        self._device = device
+        wp.config.log_level = wp.LOG_WARNING
+        with wp.ScopedDevice(device):
+            try:
+                self._model = mujoco_warp.put_model(model, batch_sizes={"tendon_frictionloss": worlds})
+            except (NotImplementedError, ValueError) as error:
+                raise UsageError(f"a GPU cannot step this world; use device='cpu': {error}") from None
+            self._model.opt.warn_overflow = 0
+            self._data = mujoco_warp.make_data(model, nworld=worlds, nconmax=contacts, njmax=rows)
+            self._motors = wp.array(find_table(model, "motors")[:, [0, 2]].astype(np.int32), dtype=int, ndim=2)
+            self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
+            self._rates = wp.zeros((worlds, model.ntendon), dtype=float)
+            self._h = float(model.opt.timestep)
+            self._model.callback.control = self._drive
+            mujoco_warp.step(self._model, self._data)
+            with wp.ScopedCapture() as capture:
+                mujoco_warp.step(self._model, self._data)
+            self._graph = capture.graph
+
+    def _drive(self, _model: object, data: "mujoco_warp.Data") -> None:
+        efc = data.efc
+        rows = [efc.type, efc.id, efc.pos, efc.margin, efc.vel]
+        wp.launch(
+            drive,
+            dim=(data.nworld, data.njmax),
+            inputs=[self._h, self._motors, self._stops, self._rates, data.ctrl, data.qpos, data.nefc, *rows],
+            outputs=[efc.aref],
+        )
+
+    def step(self, count: int, before: dict[str, _Array], max_efforts: _Array, rates: _Array) -> dict[str, _Array]:
+        """Step all worlds.
+
+        Args:
+            count: number of steps.
+            before: (worlds, …) qpos, qvel, qacc_warmstart, ctrl, qfrc_applied, and (worlds, bodies, 6) xfrc_applied.
+            max_efforts: (worlds, motors)
+            rates: (worlds, motors)
+
+        Returns:
+            qpos, qvel and qacc_warmstart afterwards.
+
+        Raises:
+            TrundleError: there are more contacts than were reserved.
+        """
+        with wp.ScopedDevice(self._device):
+            self._model.tendon_frictionloss.assign(max_efforts.astype(np.float32))
+            self._rates.assign(rates.astype(np.float32))
+            for name, values in before.items():
+                getattr(self._data, name).assign(values.astype(np.float32))
+            for _ in range(count):
+                wp.capture_launch(self._graph)
+            after = {name: getattr(self._data, name).numpy() for name in ("qpos", "qvel", "qacc_warmstart")}
+            overflow = int(np.bitwise_or.reduce(self._data.overflow.numpy()))
+        if overflow & sum(int(mujoco_warp.OverflowType[name]) for name in _OVERFLOWS):
+            raise TrundleError("a world has more contacts than the GPU has room for; use device='cpu'")
+        return {name: values.astype(np.float64) for name, values in after.items()}
+
+
+def _stops(model: mujoco.MjModel) -> _Array:
+    """Return (joints, 2) stiffness and damping of the constraint rows of limits."""
+    return -model.jnt_solref / model.jnt_solimp[:, 1:2]

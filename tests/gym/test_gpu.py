@@ -1,0 +1,69 @@
+"""Vector environments on a GPU; Warp's CPU device stands for one."""
+
+from importlib.util import find_spec
+
+import gymnasium
+import numpy as np
+import pytest
+
+from trundle.bringup.loaded_simulation import load_simulation
+from trundle.diagnostics import UsageError
+from trundle.gym.ready_tasks import READY
+from trundle.gym.vector_env import SimulationVectorEnv
+from trundle.gym.worlds import Task, Worlds
+from trundle.physics import NoGpuError, find_gpu
+
+NAME = "Trundle/CartPole-v0"
+
+
+def _has_gpu() -> bool:
+    try:
+        find_gpu()
+    except NoGpuError:
+        return False
+    return True
+
+
+def test_without_a_gpu_a_warning_says_so_and_the_cpu_steps() -> None:
+    if _has_gpu():
+        pytest.skip("there is a GPU")
+    with pytest.warns(UserWarning, match="device='cuda': .*; the worlds are stepped by the CPU"):
+        envs = gymnasium.make_vec(NAME, num_envs=2, device="cuda")
+    cpu = gymnasium.make_vec(NAME, num_envs=2)
+    envs.action_space.seed(0)
+    actions = envs.action_space.sample()
+
+    assert np.array_equal(envs.reset(seed=0)[0], cpu.reset(seed=0)[0])
+    assert np.array_equal(envs.step(actions)[0], cpu.step(actions)[0])
+
+
+def test_an_unknown_device_is_refused() -> None:
+    with pytest.raises(UsageError, match="device='tpu': worlds are stepped on 'cpu' or 'cuda'"):
+        gymnasium.make_vec(NAME, num_envs=2, device="tpu")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    find_spec("warp") is None or find_spec("mujoco_warp") is None,
+    reason="mujoco-warp is not installed: trundle doctor says how",
+)
+def test_episodes_go_as_on_the_cpu_with_falls_and_resets() -> None:
+    file, task = READY[NAME]
+    cpu, gpu = (
+        SimulationVectorEnv(Worlds(load_simulation(str(file)), Task(**task), rows=4, threads=1, gpu=device))
+        for device in (None, "cpu")
+    )
+    cpu.action_space.seed(1)
+    ends = 0
+
+    first, second = cpu.reset(seed=3)[0], gpu.reset(seed=3)[0]
+
+    for _ in range(60):
+        assert second == pytest.approx(first, abs=1e-3)
+        # Towards one side for a while, so that poles fall.
+        actions = np.sign(cpu.action_space.sample()[:1]) * np.full_like(cpu.action_space.sample(), 5.0)
+        first, _, terminated, *_ = cpu.step(actions)
+        second, _, others, *_ = gpu.step(actions)
+        assert np.array_equal(terminated, others)
+        ends += int(terminated.sum())
+    assert ends > 0

@@ -1,0 +1,227 @@
+"""Batches on a GPU: what it cannot step, and states beside those of the CPU.
+
+Warp runs here on its CPU device: the same kernels, without a GPU. Single precision has 6e-8; errors grow with time.
+"""
+
+from collections.abc import Callable
+from importlib.metadata import packages_distributions
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import trundle
+import trundle.packages
+from trundle.diagnostics import UsageError
+from trundle.physics import Batch, NoGpuError, find_gpu, gpu_limits
+from trundle.simulation import Simulation
+
+WORLDS = Path(trundle.packages.__file__).parent / "worlds"
+DEVICE = "cpu"
+HAS_WARP = find_spec("warp") is not None and find_spec("mujoco_warp") is not None
+needs_warp = pytest.mark.skipif(not HAS_WARP, reason="mujoco-warp is not installed: trundle doctor says how")
+SHAPE = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
+INERTIA = "<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia>"
+FLOOR = (
+    '<model name="floor"><static>1</static><link name="l"><collision name="c"><geometry><plane><normal>0 0 1</normal>'
+    "</plane></geometry><surface>{}</surface></collision></link></model>"
+)
+
+
+@pytest.fixture
+def box(tmp_path: Path) -> Callable[..., Simulation]:
+    """Load a box above a floor."""
+
+    def load(surface: str = "", link: str = "", pose: str = "0 0 0.3 0.2 0.3 0") -> Simulation:
+        file = tmp_path / "box.world"
+        file.write_text(
+            f'<sdf version="1.6"><world name="w">{FLOOR.format(surface)}<model name="box"><pose>{pose}</pose>'
+            f'<link name="l">{link}<inertial><mass>1</mass>{INERTIA}</inertial><collision name="c">{SHAPE}'
+            f"<surface>{surface}</surface></collision></link></model></world></sdf>"
+        )
+        return trundle.load(str(file))
+
+    return load
+
+
+@pytest.mark.parametrize(
+    ("surface", "link", "sentence"),
+    [
+        (
+            "<bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>0</threshold></bounce>",
+            "",
+            "contacts bounce (<restitution_coefficient>): ",
+        ),
+        (
+            "<friction><ode><mu>1</mu><mu2>0.5</mu2></ode></friction>",
+            "",
+            "contacts have two different frictions (<mu>, <mu2>): ",
+        ),
+        (
+            "<friction><ode><slip1>0.1</slip1></ode></friction>",
+            "",
+            "contacts slip under load (<slip1>, <slip2>): ",
+        ),
+        (
+            "<contact><ode><min_depth>0.01</min_depth></ode></contact>",
+            "",
+            "contacts are soft at first (<min_depth>, <kp>, <kd>): ",
+        ),
+        (
+            "",
+            "<velocity_decay><linear>0.01</linear></velocity_decay>",
+            "links lose a part of their speed at each step (<velocity_decay>): box::l",
+        ),
+    ],
+)
+def test_laws_that_a_gpu_lacks_are_named(box, surface, link, sentence) -> None:
+    (found,) = gpu_limits(box(surface, link).engine.compiled)
+
+    assert found.startswith(sentence)
+    assert "box::l" in found
+
+
+@pytest.mark.parametrize("name", ["arm_reach", "cart_pole", "drive_to_goal"])
+def test_ready_worlds_have_no_such_law(name) -> None:
+    assert gpu_limits(trundle.load(str(WORLDS / f"{name}.world")).engine.compiled) == []
+
+
+def test_one_package_owns_mujoco() -> None:
+    """The full `mujoco`, which mujoco-warp requires, would write the same files."""
+    assert set(packages_distributions()["mujoco"]) == {"mujoco-core"}
+
+
+def test_without_a_gpu_a_sentence_says_why() -> None:
+    if HAS_WARP and _has_cuda():
+        assert find_gpu().startswith("cuda")
+        return
+    with pytest.raises(NoGpuError, match="NVIDIA GPU" if HAS_WARP else "--no-deps mujoco-warp"):
+        find_gpu()
+
+
+def _has_cuda() -> bool:
+    import warp
+
+    return bool(warp.is_cuda_available())
+
+
+@needs_warp
+@pytest.mark.slow
+def test_a_world_with_a_law_that_a_gpu_lacks_is_refused(box) -> None:
+    sim = box("<friction><ode><mu>1</mu><mu2>0.5</mu2></ode></friction>")
+
+    with pytest.raises(UsageError, match="use device='cpu':\ncontacts have two different frictions"):
+        sim.engine.batch(2, threads=1, gpu=DEVICE)
+
+
+def _on_both(sim: Simulation, rows: int) -> tuple[Batch, Batch]:
+    cpu, gpu = (sim.engine.batch(rows, threads=1, gpu=device) for device in (None, DEVICE))
+    for row in range(rows):
+        for batch in (cpu, gpu):
+            batch.write_row(row, sim.engine.world_row())
+    return cpu, gpu
+
+
+def _apart(cpu: Batch, gpu: Batch) -> float:
+    """Return the largest difference of poses [m or 1]; a quaternion and its negative are the same."""
+    signs = np.sign((cpu.poses[..., 3:] * gpu.poses[..., 3:]).sum(axis=-1, keepdims=True))
+    turned = np.abs(cpu.poses[..., 3:] - signs * gpu.poses[..., 3:])
+    return float(max(np.abs(cpu.poses[..., :3] - gpu.poses[..., :3]).max(), turned.max()))
+
+
+@needs_warp
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("world", "kind", "largest", "bound"),
+    [
+        # A pole that falls doubles an error every 0.2 s.
+        ("cart_pole", "effort", 5.0, 2e-5),
+        ("arm_reach", "velocity", 2.0, 1e-4),
+        ("arm_reach", "position", 1.0, 1e-4),
+    ],
+)
+def test_driven_joints_move_as_on_the_cpu(world, kind, largest, bound) -> None:
+    sim = trundle.load(str(WORLDS / f"{world}.world"))
+    cpu, gpu = _on_both(sim, 3)
+    axes = [0] if kind == "effort" else [0, 1]
+    start = cpu.poses.copy()
+    random = np.random.default_rng(0)
+
+    for _ in range(5):
+        for axis in axes:
+            values = random.uniform(-largest, largest, 3)
+            for batch in (cpu, gpu):
+                if kind == "effort":
+                    batch.command_effort(axis, values)
+                else:
+                    command = batch.command_velocity if kind == "velocity" else batch.command_position
+                    command(axis, values, np.inf)
+        for batch in (cpu, gpu):
+            batch.step(20)
+
+    assert np.abs(cpu.poses - start).max() > 0.01
+    assert not gpu.unstable.any()
+    assert _apart(cpu, gpu) < bound
+    assert gpu.time_s == pytest.approx(cpu.time_s)
+
+
+@needs_warp
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("world", "wheels", "torque", "steps", "way", "bound"),
+    [
+        # Wheels that spin up at once slide for a moment, in which the CPU keeps them down; steps of 10 ms, of 1 ms.
+        (WORLDS / "drive_to_goal.world", ("left_joint", "right_joint"), 5.0, 200, 0.5, 0.02),
+        ("model://rp2w", ("chassis_left_wheel", "chassis_right_wheel"), 2.0, 1200, 0.25, 0.003),
+    ],
+)
+def test_wheeled_robots_drive_as_on_the_cpu(world, wheels, torque, steps, way, bound) -> None:
+    sim = trundle.load(str(world))
+    cpu, gpu = _on_both(sim, 2)
+    start = cpu.poses.copy()
+    compiled = sim.engine.compiled
+    joints = [compiled.joint_names.index(name) for name in compiled.joint_names if name.endswith(wheels)]
+
+    for joint, speed in zip(joints, (4.0, 3.0), strict=True):
+        (axis,) = compiled.joint_axes[joint]
+        for batch in (cpu, gpu):
+            batch.command_velocity(axis, np.full(2, speed), torque)
+    for batch in (cpu, gpu):
+        batch.step(steps)
+
+    assert np.abs(cpu.poses - start)[..., :3].max() > way
+    assert _apart(cpu, gpu) < bound
+
+
+@needs_warp
+@pytest.mark.slow
+def test_a_box_falls_onto_the_floor_and_rests_as_on_the_cpu(box) -> None:
+    cpu, gpu = _on_both(box(), 2)
+
+    for batch in (cpu, gpu):
+        batch.step(1500)
+
+    # It comes to rest on a face; where it slid to depends on each bounce off an edge.
+    assert cpu.poses[:, 1, 2] == pytest.approx([0.1, 0.1], abs=1e-4)
+    assert gpu.poses[:, 1, 2] == pytest.approx(cpu.poses[:, 1, 2], abs=1e-4)
+    assert np.abs(gpu.twists).max() < 1e-3
+    assert _apart(cpu, gpu) < 0.02
+    assert np.array_equal(gpu.poses[0], gpu.poses[1])
+
+
+@needs_warp
+@pytest.mark.slow
+def test_rows_that_are_not_chosen_stay_and_an_unstable_one_keeps_its_state() -> None:
+    sim = trundle.load(str(WORLDS / "cart_pole.world"))
+    _, gpu = _on_both(sim, 3)
+    gpu.command_effort(0, np.full(3, 5.0))
+    gpu.states[2, 1] = np.nan
+    before = gpu.states.copy()
+
+    gpu.step(20, chosen=np.array([True, False, True]))
+
+    assert gpu.unstable.tolist() == [False, False, True]
+    assert gpu.time_s.tolist() == pytest.approx([20 * sim.step_ns / 1e9, 0.0, 0.0])
+    assert np.array_equal(gpu.states[1:], before[1:], equal_nan=True)
+    assert not np.array_equal(gpu.states[0], before[0])
