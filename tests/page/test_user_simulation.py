@@ -216,10 +216,10 @@ def test_the_world_s_tree_finds_shows_and_hides(user: SceneUser) -> None:
 
 @pytest.mark.slow
 def test_what_is_recorded_can_be_played(user: SceneUser, heights: Heights, folder: Path) -> None:
+    before = _at_rest(user, heights)
     _bar(user, "Record").click()
     recording = user.page.get_by_role("banner").get_by_role("button", name="Recording")
     recording.wait_for()
-    before = _at_rest(user, heights)
     _bar(user, "Play").click()
     user.until(lambda: heights[-1][0] > before + 10**9)
     recording.click()

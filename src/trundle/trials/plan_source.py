@@ -18,7 +18,7 @@ class PlanSource(NamedTuple):
     text: str
     """YAML."""
     file: str
-    """Its name in messages."""
+    """Name of the file in messages."""
     folder: Path
     """Base of relative paths."""
 
