@@ -144,9 +144,7 @@ void bind(const std::vector<std::uintptr_t>& addresses) {
 #undef TRUNDLE_BIND
 }
 
-mjtNum steady_s() {
-  return std::chrono::duration<mjtNum>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+mjtNum steady_s() { return std::chrono::duration<mjtNum>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void set_timers(bool on) { *mujoco.time = on ? steady_s : nullptr; }
 
