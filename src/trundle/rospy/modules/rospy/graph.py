@@ -59,7 +59,7 @@ class _Log(NodeLog):
 
     def _write(self, level: str, text: str) -> None:
         logging.getLogger("rospy.internal").log(_LEVELS.get(level, logging.CRITICAL), "%s", text)
-        if level == "error":  # such as a name that the master refuses
+        if text.startswith("unable to register"):  # a name that the master refuses
             core.logfatal("%s", text)
         if "keeps trying" in text and LEVELS[level] >= LEVELS["warn"]:
             master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
