@@ -58,7 +58,7 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   const world = new WorldFeed(connection, scene, frames, fixedFrame);
   const views: ViewList = new ViewList(scene, (target) => targetPose(page, target));
   const editor = first.kind !== "simulation" || first.view_only ? null : makeEditor(world, () => shell);
-  const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered, editor });
+  const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered, editor, looksOnly: first.view_only });
   const displays: DisplayStore = new DisplayStore({ connection: view, names, frames, scene, undo, views, tools });
   const drive = new Drive({
     connection,

@@ -24,6 +24,8 @@ export interface ToolContext {
   readonly hovered: Signal<Selection | null>;
   /** Null where no world can be changed. */
   readonly editor: WorldEditor | null;
+  /** True for a person who may only look: nothing in the scene can be pressed. */
+  readonly looksOnly: boolean;
 }
 
 export abstract class BaseTool implements Tool {

@@ -49,7 +49,7 @@ export class Interact extends BaseTool {
     if (input.control && input.button !== 1 && this.pulled?.begin(input) === true) return true;
     const event = this.eventOf(input);
     this.pressed = event.pick;
-    const target = event.pick === null ? null : pointerTargetOf(event.pick.object);
+    const target = this.targetOf(event.pick);
     if (target?.down(event) !== true) return false;
     this.dragged = target;
     return true;
@@ -76,9 +76,14 @@ export class Interact extends BaseTool {
     this.waiting = null;
     if (input === null || input.button >= 0) return;
     const pick = this.context.scene.pick(input.x, input.y);
-    this.setHovered(pick === null ? null : pointerTargetOf(pick.object));
+    this.setHovered(this.targetOf(pick));
     const selection = selectionOf(pick);
     this.context.hovered.value = selection?.kind === "link" ? selection : null;
+  }
+
+  /** What reacts to the pointer there; null: nothing, or the person only looks. */
+  private targetOf(pick: Pick | null): PointerTarget | null {
+    return pick === null || this.context.looksOnly ? null : pointerTargetOf(pick.object);
   }
 
   private setHovered(target: PointerTarget | null): void {

@@ -19,7 +19,7 @@ const scene = new ThreeScene(host);
 const views = new ViewList(scene, () => null);
 const connection = new FakeConnection();
 const selection = signal<Selection | null>(null);
-const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered: signal(null), editor: null });
+const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered: signal(null), editor: null, looksOnly: false });
 const input = new SceneInput(scene, views, (event) => tools.pointer(event));
 scene.grid.value = true;
 

@@ -12,7 +12,7 @@ import { FakeConnection } from "../fake_connection";
 import { FakeScene } from "../fake_page";
 
 /** A scene whose pixel (x, y) is the point (x / 100, y / 100) of the ground. */
-function setUp() {
+function setUp(looksOnly = false) {
   const picks = new Map<string, Pick>();
   const boxes: PictureBox[] = [];
   const labels: { text: string }[] = [];
@@ -44,7 +44,7 @@ function setUp() {
   const selection = signal<Selection | null>(null);
   const hovered = signal<Selection | null>(null);
   const views = { focus: (point: Vector3) => void focused.push(point) };
-  const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered, editor: null });
+  const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered, editor: null, looksOnly });
   const point = (kind: PointerInput["kind"], x: number, y: number, button = 0): boolean =>
     tools.pointer({ x, y, button, shift: false, control: false, kind });
   const drag = (...places: readonly (readonly [number, number])[]): void => {
@@ -188,6 +188,23 @@ test("Interact hands the pointer to objects that have handlers", () => {
   tools.use("rviz/MoveCamera");
 
   expect(heard).toEqual(["over", "down 2", "move 200 2", "up", "out"]);
+});
+
+test("Interact leaves objects that have handlers alone for a person who only looks", () => {
+  const { point, picks, ticks } = setUp(true);
+  const heard: string[] = [];
+  const note = (what: string) => () => void heard.push(what);
+  const target: PointerTarget = { hover: note("hover"), down: () => heard.push("down") > 0, move: note("move"), up: note("up") };
+  const marker = new Group();
+  marker.userData["pointerTarget"] = target;
+  picks.set("1 1", pickOf(marker));
+
+  point("move", 1, 1, -1);
+  for (const tick of ticks) tick();
+  expect(point("down", 1, 1)).toBe(false);
+  point("up", 200, 1);
+
+  expect(heard).toEqual([]);
 });
 
 test("Focus Camera looks at the point that is clicked", () => {
