@@ -150,6 +150,7 @@ def test_a_scan_is_shown_by_one_click_and_its_properties_edited(graph: Graph, no
     user.set("Topic", "/far")
     graph.until(lambda: far.has_subscribers and not near.has_subscribers)
     user.until_area(RED, 2 * 0.1**2, within=0.25)
+    user.page.get_by_role("treeitem").filter(has_text="Global Options").first.click()  # so that the press selects, too
     user.page.get_by_role("checkbox", name="Show LaserScan").uncheck()
     graph.until(lambda: not far.has_subscribers)
     user.until_area(RED, 0.0)
