@@ -25,13 +25,15 @@ _SOFTWARE_GL = (
 
 
 def pytest_configure() -> None:
-    """Make tests repeatable, and reset SIGINT, so that programs they start get Ctrl-C in background jobs, too."""
+    """Make tests repeatable, and reset signals that programs would inherit as ignored from background jobs or nohup."""
     # Tests are the same on each run and on a slow machine; `--hypothesis-profile default` draws new examples.
     quiet = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
     settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=quiet)
     settings.load_profile("steady")
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 @pytest.fixture(autouse=True)
