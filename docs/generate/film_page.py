@@ -12,7 +12,7 @@ from playwright.sync_api import Error, sync_playwright
 CHROMIUM = "/usr/bin/chromium"
 SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 SIZE = (1440, 900)
-"""Of the page [px]."""
+"""Width and height of the browser's window [px]."""
 PATIENCE_MS = 300_000
 KNOB_REACH_PX = 32
 _TIME = "header .read:not(.rtf) b"

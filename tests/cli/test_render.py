@@ -243,7 +243,7 @@ DROP = """<sdf version="1.6"><world name="w">
 
 @pytest.mark.slow
 def test_a_film_of_a_camera_is_in_simulated_time(tmp_path: Path) -> None:
-    """What falls 4 m ahead is f g t² / (2 · 4 m) pixels lower after t."""
+    """A body that falls 4 m in front of a camera of focal length f is f g t² / (2 · 4 m) pixels lower after t."""
     world, out = tmp_path / "drop.world", tmp_path / "eye.mp4"
     world.write_text(DROP)
 
