@@ -1,9 +1,12 @@
 """A person looks where the time of a simulated second goes."""
 
+import io
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from PIL import Image
 from tests.bringup.simulation_page.worlds import BOX, CAMERA, model, world
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
@@ -61,3 +64,25 @@ def test_camera_plugin_and_waiting_have_their_share(chromium: Any, tmp_path: Pat
         assert "m::idler" in (bar.get_attribute("aria-label") or "")
         user.page.get_by_role("img", name="Real-time factor over the last").wait_for()
         user.close()
+
+
+@pytest.mark.parametrize(("panel", "head"), [("Performance", ".data th"), ("Timeline", ".timeline .ruler")])
+def test_the_head_of_a_panel_is_drawn_in_the_panel_alone(chromium: Any, panel: str, head: str) -> None:
+    """Chromium drew heads that stick to the top a second time, as a band across the scene."""
+    with running_page("run", "rp2w_at_home.world", "--port", "0", environment={}) as url:
+        page = chromium.new_page(viewport={"width": 1440, "height": 900}, color_scheme="dark")
+        page.set_default_timeout(60_000)
+        page.goto(url)
+        page.get_by_label("Connected").first.wait_for()
+        page.wait_for_timeout(3000)
+        page.keyboard.press("Control+K")
+        page.keyboard.type(f"Open {panel}")
+        page.get_by_role("option", name=f"Open {panel}").first.click()
+        page.locator(head).first.wait_for()
+        page.wait_for_timeout(6000)  # it came with a later picture
+        dock = page.locator(".dock").bounding_box()
+        disc = page.locator(".drive").first.bounding_box()
+        picture = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))
+        scene = picture[90 : int(disc["y"]) - 40, int(dock["x"]) + 4 : int(dock["x"] + dock["width"]) - 4]
+        assert (scene.max(axis=2) < 40).mean(axis=1).max() < 0.5  # the room is bright, the panels are dark
+        page.close()
