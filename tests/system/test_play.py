@@ -62,8 +62,11 @@ def test_a_run_whose_recording_is_removed_fails(start, until, tmp_path) -> None:
     folder.mkdir()
     file.write_text('<sdf version="1.6"><model name="m"><pose>0 0 2 0 0 0</pose><link name="a"/></model></sdf>')
     running = start("run", str(file), "--headless", "--no-ros", "--record", str(folder / "run.log"))
-    until("the recording to begin", lambda: (folder / "run.log").exists() and (folder / "run.log").stat().st_size)
+    log = folder / "run.log"
+    until(
+        "two states to be recorded", lambda: log.exists() and log.stat().st_size and len(read_state_log(log).times) > 1
+    )
     shutil.rmtree(folder)
 
     assert running.process.wait(60) == 1
-    assert f"recording failed: {folder}/run.log: No such file or directory" in running.output()
+    assert f"recording failed: {log}: No such file or directory" in running.output()
