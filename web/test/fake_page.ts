@@ -50,7 +50,9 @@ export class FakeWorld implements SimulatedWorld {
   readonly joints = signal<readonly JointState[]>([]);
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
-  readonly poseTime = 12.48;
+  onPoses(): () => void {
+    return () => undefined;
+  }
   pose(): { position: Vector3; orientation: Quaternion } {
     return { position: new Vector3(-0.004, 0.211, 0.089), orientation: new Quaternion(0, 0, Math.sin(0.0035), 1).normalize() };
   }

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 
-export const REFRESH = 100; // ms
+const REFRESH = 100; // ms
 
 /** A value that is read again ten times a second. */
 export function useSampled<T>(read: () => T): T {

@@ -146,8 +146,8 @@ export interface SimulatedWorld {
   readonly shown: ShownParts;
   /** Names (`model` or `model::link`) that are hidden. */
   readonly hidden: Signal<ReadonlySet<string>>;
-  /** Time of the newest poses [s]. */
-  readonly poseTime: number;
+  /** Call a function with the time [s] of poses as they come; returns how to end it. */
+  onPoses(call: (time: number) => void): () => void;
   /** Newest pose of a body in the world; null before the first. */
   pose(body: number): Transform | null;
   object(body: number): Object3D | null;

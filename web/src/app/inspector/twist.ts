@@ -2,6 +2,8 @@
 
 import { Quaternion, type Vector3 } from "three";
 
+const WINDOW = 0.2; // s
+
 export interface StampedPose {
   /** [s] */
   readonly time: number;
@@ -25,6 +27,24 @@ export function twistOf(first: StampedPose, second: StampedPose): Twist | null {
   const sine = Math.hypot(turn.x, turn.y, turn.z);
   const scale = (sine < 1e-9 ? 2 : (2 * Math.atan2(sine, turn.w)) / sine) / seconds;
   return { linear: [x, y, z], angular: [turn.x * scale, turn.y * scale, turn.z * scale] };
+}
+
+/** Poses of the last moments. */
+export class MotionSamples {
+  private samples: StampedPose[] = [];
+
+  /** Take a pose, later than those before unless time went back. */
+  add(pose: StampedPose): void {
+    const isRecent = ({ time }: StampedPose): boolean => time < pose.time && time >= pose.time - WINDOW;
+    const recent = this.samples.filter(isRecent);
+    this.samples = [...(recent.length > 0 ? recent : this.samples.slice(-1)), pose];
+  }
+
+  /** The mean twist of the last moments; null before the second pose. */
+  twist(): Twist | null {
+    const [first, last] = [this.samples[0], this.samples.at(-1)];
+    return first === undefined || last === undefined ? null : twistOf(first, last);
+  }
 }
 
 /** Roll, pitch and yaw [rad] of R = Rz(yaw) Ry(pitch) Rx(roll), as URDF and SDF have them. */

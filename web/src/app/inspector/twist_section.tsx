@@ -1,13 +1,13 @@
 /** Section with the twist of a body, of which each number can be typed where it can be set. */
 
 import type { JSX } from "preact";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo } from "preact/hooks";
 
 import { fixed } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
 import type { Page } from "../page";
-import { REFRESH } from "../sampled";
-import { twistOf, type StampedPose, type Twist } from "./twist";
+import { useSampled } from "../sampled";
+import { MotionSamples, type Twist } from "./twist";
 import { withNumber } from "../world/edits";
 
 const STILL: Twist = { linear: [0, 0, 0], angular: [0, 0, 0] };
@@ -20,20 +20,17 @@ interface TwistProps {
 }
 
 export function TwistSection({ page, body, onCommit }: TwistProps): JSX.Element {
-  const [before, setBefore] = useState<readonly StampedPose[]>([]);
-  useEffect(() => {
-    const timer = setInterval(() => {
-      const pose = page.world.pose(body);
-      const time = page.world.poseTime; // the clock's own is up to 0.1 s older
-      if (pose === null) return;
-      const sample = { time, position: pose.position.clone(), orientation: pose.orientation.clone() };
-      setBefore((samples) => (samples.at(-1)?.time === sample.time ? samples : [...samples.slice(-1), sample]));
-    }, 2 * REFRESH);
-    return () => clearInterval(timer);
-  }, [page, body]);
-  const [first, second] = before;
-  const isMoving = page.world.state.value?.paused !== true;
-  const twist = first === undefined || second === undefined || !isMoving ? null : twistOf(first, second);
+  const samples = useMemo(() => new MotionSamples(), [page, body]);
+  useEffect(
+    () =>
+      page.world.onPoses((time) => {
+        const pose = page.world.pose(body);
+        if (pose !== null) samples.add({ time, ...pose });
+      }),
+    [page, body, samples],
+  );
+  const measured = useSampled(() => samples.twist());
+  const twist = page.world.state.value?.paused === true ? null : measured;
   const now = twist ?? STILL;
   const commit = (part: keyof Twist) =>
     onCommit === undefined ? null : (index: number, value: number): void => onCommit({ ...now, [part]: withNumber(now[part], index, value) }, now);

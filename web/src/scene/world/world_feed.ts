@@ -30,6 +30,7 @@ export class WorldFeed implements SimulatedWorld {
   private readonly placement: WorldPlacement;
   private readonly sky = new Sky();
   private readonly lines = new WorldLines();
+  private readonly poseListeners = new Set<(time: number) => void>();
   private readonly stops: (() => void)[] = [];
   private collisionsAsked = new AbortController();
   private collisions: { readonly url: string; readonly model: GlbModel } | null = null;
@@ -56,8 +57,9 @@ export class WorldFeed implements SimulatedWorld {
     return this.files.faults;
   }
 
-  get poseTime(): number {
-    return Number(this.poses.time) / 1e9;
+  onPoses(call: (time: number) => void): () => void {
+    this.poseListeners.add(call);
+    return () => this.poseListeners.delete(call);
   }
 
   pose(body: number): Transform | null {
@@ -94,7 +96,7 @@ export class WorldFeed implements SimulatedWorld {
     on("trundle/state", (payload) => {
       this.state.value = parse(payload) as WorldState;
     });
-    on("trundle/poses", (payload) => this.onPoses(payload));
+    on("trundle/poses", (payload) => this.takePoses(payload));
     on("trundle/lines", (payload) => {
       const lines = readLines(payload);
       if (lines === null) return;
@@ -156,10 +158,11 @@ export class WorldFeed implements SimulatedWorld {
     this.scene.invalidate();
   }
 
-  private onPoses(payload: DataView): void {
+  private takePoses(payload: DataView): void {
     const manifest = this.manifest.peek();
     if (manifest === null || !this.poses.apply(payload, manifest.generation)) return;
     this.placement.remember(manifest);
+    for (const call of this.poseListeners) call(Number(this.poses.time) / 1e9);
     this.lighting.invalidate();
     this.scene.invalidate();
   }
