@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.scene_user import rviz_text
 
 from trundle.page import GraphAddress, JointSlider, PageServer, RvizFile, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 
 AXE = Path(__file__).parents[2] / "web/node_modules/axe-core/axe.min.js"
@@ -27,7 +27,7 @@ RVIZ = rviz_text(
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+    needs_client,
     pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed in web/node_modules"),
 ]
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 
 from trundle.page import GraphAddress, PageServer, Session
 from trundle.page_address import PageAddress
 
 ROOT = Path(__file__).parents[2]
-CLIENT = ROOT / "src/trundle/page/client/index.html"
 AXE = ROOT / "web/node_modules/axe-core/axe.min.js"
 TIMEOUT_MS = 60_000
 LOOKS = [
@@ -22,11 +22,7 @@ LOOKS = [
     pytest.param(("dark", 390, 844), id="phone"),
 ]
 
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.slow,
-    pytest.mark.skipif(not CLIENT.is_file(), reason="the page's client is not built"),
-]
+pytestmark = [pytest.mark.browser, pytest.mark.slow, needs_client]
 
 
 @pytest.fixture(scope="module", params=LOOKS)

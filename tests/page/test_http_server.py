@@ -10,6 +10,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page_client import ProtocolClient
 from websockets.exceptions import InvalidStatus
 from websockets.typing import Origin
@@ -174,7 +175,7 @@ def test_a_workers_policy_lets_it_connect_to_nothing() -> None:
     assert policy["default-src"] == ["'none'"]
 
 
-@pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+@needs_client
 @pytest.mark.parametrize("encoding", ["gzip, deflate", "identity"])
 def test_scripts_are_sent_compressed_to_who_takes_that(page: PageServer, encoding: str) -> None:
     """They may be kept for ever, since their names change with them."""

@@ -10,15 +10,12 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 from tests.graphs import running_graph
+from tests.page.built_client import needs_client
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 OUT = Path(__file__).parents[2] / "out" / "look"
 PHONE = {"width": 390, "height": 844}

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
 from trundle.page import ClockState, GraphAddress, JointSlider, PageServer, Session, TimelineSpan
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 from trundle.ros import Node, Option, ReconfigureServer
 
-pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+pytestmark = needs_client
 
 SESSION = Session(
     title="t",

@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 from tests.graphs import PATIENCE_S, Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 
-pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+pytestmark = needs_client
 
 
 @pytest.fixture(scope="module")

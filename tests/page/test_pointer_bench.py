@@ -4,13 +4,9 @@ from typing import Any
 
 import pytest
 from bench.page_pointer import measure
+from tests.page.built_client import needs_client
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 
 def test_hovering_selecting_and_dragging_are_measured(chromium: Any) -> None:

@@ -2,17 +2,16 @@
 
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.test_driving import Robot
 
 from trundle.page import GraphAddress, PageServer, RvizFile, SaveRviz, Session
 from trundle.page_address import PageAddress
 
-CLIENT = Path(__file__).parents[2] / "src/trundle/page/client/index.html"
 TIMEOUT_MS = 60_000
 RVIZ = """Visualization Manager:
   Displays:
@@ -25,11 +24,7 @@ _SMALL = """[...document.querySelectorAll("button:not(.grab)")]
     .filter((one) => one.offsetParent && one.getBoundingClientRect().height < 44).map((one) => one.outerHTML)"""
 """Targets of a phone that are too small to press; the sheet's handle reaches beyond its own box."""
 
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.slow,
-    pytest.mark.skipif(not CLIENT.is_file(), reason="the page's client is not built"),
-]
+pytestmark = [pytest.mark.browser, pytest.mark.slow, needs_client]
 
 
 @pytest.fixture(scope="module")

@@ -4,18 +4,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.test_bag import START, TEXT, S, text
 
 from trundle.page import BagFile, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 from trundle.ros import BagMessage, create_bag
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 
 def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:

@@ -8,17 +8,14 @@ from typing import Any
 
 import pytest
 from tests.graphs import running_graph
+from tests.page.built_client import needs_client
 from tests.page.cart_builder import CartBuilder
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
 import trundle
-from trundle.page.client_files import CLIENT
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 WORLD = """<sdf version="1.6"><world name="yard"><include><uri>model://ground_plane</uri></include></world></sdf>"""
 

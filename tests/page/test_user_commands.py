@@ -5,15 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "window.md"
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><link name="base"><collision name="c">{BOX}

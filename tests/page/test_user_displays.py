@@ -6,15 +6,15 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.scene_user import SceneUser, rviz_text
 from tests.page.sensor_messages import COLOURS, MAP, TWIST, cloud, covariance, depth, point, pose, ring
 
 from trundle.page import GraphAddress, PageServer, RvizFile, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 from trundle.ros import Node, Publisher
 
-pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+pytestmark = needs_client
 
 HEADER = {"frame_id": "map"}
 GREEN, RED, WHITE = (0, 255, 0), (255, 0, 0), (255, 255, 255)

@@ -9,15 +9,15 @@ from urllib.parse import urlsplit
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.test_driving import Robot
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 
-pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+pytestmark = needs_client
 
 FAKE_PAD = """window.pad = {
   index: 0, id: "Pad", connected: true, mapping: "standard", axes: [0, 0, 0, 0], buttons: []

@@ -7,16 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.graphs import running_graph
+from tests.page.built_client import needs_client
 from tests.page.scene_user import SceneUser
 from tests.system.browser import running_page
 from tests.video_file import Frame, read_video
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 DISTANCE_M, SPEED, RATE_HZ = 2.0, 0.25, 10
 WIDTH_PX = 160

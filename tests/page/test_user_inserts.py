@@ -6,17 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS, Point
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
 import trundle
-from trundle.page.client_files import CLIENT
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 _GEOMETRY = "<geometry><box><size>{}</size></box></geometry>"
 _RED = "<material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material>"

@@ -4,16 +4,12 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 
 def _box(name: str, place: str, size: str, *, static: bool = False) -> str:

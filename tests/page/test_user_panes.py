@@ -8,16 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS
 from tests.page.test_user_views import BLUE, GREEN, RED, WIDTH_M, WORLD, Looker
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 Box = dict[str, float]
 
 

@@ -6,15 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 BOX = "<geometry><box><size>0.6 0.6 0.4</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><pose>0 0 0.2 0 0 0</pose><static>1</static>

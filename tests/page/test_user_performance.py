@@ -8,15 +8,11 @@ import numpy as np
 import pytest
 from PIL import Image
 from tests.bringup.simulation_page.worlds import BOX, CAMERA, model, world
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 PLUGIN = """import time
 from trundle.plugins import Plugin
 class Busy(Plugin):

@@ -9,16 +9,13 @@ import numpy as np
 import pytest
 from PIL import Image, ImageColor
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 SMALL, LARGE = "/small/point/x", "/large/point/x"
 SECONDS = 20

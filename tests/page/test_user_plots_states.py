@@ -9,15 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 from lxml import etree
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 BOX = "<geometry><box><size>0.5 0.5 0.5</size></box></geometry>"
 ROD = """<link name="rod"><pose>0 0 2 0 0 0</pose><inertial><pose>0.5 0 0 0 0 0</pose></inertial></link>
 <joint name="hinge" type="revolute"><parent>world</parent><child>rod</child><axis><xyz>0 1 0</xyz></axis></joint>"""

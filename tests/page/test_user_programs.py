@@ -5,16 +5,13 @@ from typing import Any
 
 import pytest
 from tests.graphs import running_graph
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 PANELS = {
     "rqt_bag": "Timeline",

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
@@ -19,13 +20,9 @@ from trundle.bringup.recorded_run import open_recording
 from trundle.cli import main
 from trundle.diagnostics import Diagnostics
 from trundle.page import PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 WORLD = """<sdf version="1.6"><world name="w">
 <light name="sun" type="directional"><direction>-0.4 0.3 -0.9</direction><diffuse>0.9 0.9 0.9 1</diffuse></light>
 <model name="floor"><static>1</static><link name="l"><visual name="v">

@@ -6,16 +6,13 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.scene_user import SceneUser
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 MINE = "mine, and not to be lost"
 

@@ -8,16 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
 import trundle
-from trundle.page.client_files import CLIENT
 
-pytestmark = [
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-    pytest.mark.slow,
-]
+pytestmark = [needs_client, pytest.mark.slow]
 
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="yard">

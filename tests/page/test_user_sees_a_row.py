@@ -4,18 +4,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
 from trundle.bringup.sweep.trial import runner_of
-from trundle.page.client_files import CLIENT
 from trundle.trials import RowResult, Rows, load_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 BOX = """<link name="link"><inertial><mass>1</mass><inertia><ixx>0.007</ixx><iyy>0.007</iyy><izz>0.007</izz>
 <ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>

@@ -7,16 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.page.built_client import needs_client
 from tests.page.scene_user import PX_PER_M
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 Picture = NDArray[np.uint8]
 Mask = NDArray[np.bool_]

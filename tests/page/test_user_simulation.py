@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS, SceneUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
 from trundle.ros import Node
 from trundle.simulation import read_state_log
 
-pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+pytestmark = needs_client
 
 STEP_NS = 10_000_000
 HEIGHT = 2.0

@@ -10,18 +10,15 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.scene_user import PX_PER_M, VIEW_CANVAS, SceneUser, rviz_text
 from tests.video_file import read_video
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.client_files import CLIENT
 from trundle.page.session import RvizFile
 from trundle.page_address import PageAddress
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 SQUARE = {"Class": "rviz/Marker", "Name": "Cube", "Enabled": True, "Marker Topic": "/square"}
 GREEN = (0, 255, 0)

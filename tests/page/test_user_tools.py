@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
 from tests.page.scene_user import PX_PER_M, VIEW_CANVAS, SceneUser, rviz_text
 
 from trundle.page import GraphAddress, PageServer, RvizFile, Session
-from trundle.page.client_files import CLIENT
 from trundle.page_address import PageAddress
 from trundle.ros import Node
 
-pytestmark = pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make")
+pytestmark = needs_client
 
 RVIZ = rviz_text(
     {"Class": "rviz/InteractiveMarkers", "Name": "Handles", "Enabled": True, "Update Topic": "/handles/update"},

@@ -9,15 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from tests.page.built_client import needs_client
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.slow, needs_client]
 
 FOV, NEAR_M, WIDTH_M = 1.2, 1.9, 0.4
 """The camera's horizontal field of view [rad], and the distance and width of the face that it sees [m]."""

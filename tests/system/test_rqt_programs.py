@@ -7,16 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [pytest.mark.browser, pytest.mark.slow, needs_client]
 
 ARM = """<robot name="r"><link name="base"/><link name="arm"/><joint name="shoulder" type="revolute">
 <parent link="base"/><child link="arm"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="20" velocity="1"/>

@@ -1,0 +1,7 @@
+"""The mark of tests that open the built client."""
+
+import pytest
+
+from trundle.page.client_files import CLIENT
+
+needs_client = pytest.mark.skipif(not (CLIENT / "index.html").is_file(), reason="the page's client is not built: make")
