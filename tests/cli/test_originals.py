@@ -106,6 +106,31 @@ def test_gz_sdf_checks_and_prints(home: Path, capsys: pytest.CaptureFixture[str]
     assert main(["--as", "gz", "sdf", "-k", "none.sdf"]) == 1
 
 
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("gz", 255),
+        ("gz help", 0),
+        ("gz help model", 0),
+        ("gz --versions", 255),
+        ("gz stop", 255),
+        ("rostopic", 64),
+        ("rostopic help", 64),
+        ("rosbag", 0),
+        ("rosbag help info", 0),
+        ("rosmsg", 0),
+    ],
+)
+def test_help_is_printed_where_the_originals_print_it(line: str, code: int, capsys: pytest.CaptureFixture[str]) -> None:
+    """gz of Gazebo 11 by its source, tools/gz.cc; the others as Debian's, tried beside these."""
+    assert main(["--as", *line.split()]) == code
+    printed = capsys.readouterr()
+    helped, other = (printed.err, printed.out) if line.startswith("gz") else (printed.out, printed.err)
+    asked = [line.split()[0], *line.split()[2:]]
+    assert (f"usage: {' '.join(asked)} " in helped, other) == (True, "")
+    assert all(name in helped for name in {"gz": ["sdf", "model"], "rostopic": ["echo", "pub"]}.get(line, []))
+
+
 def test_an_unknown_name_is_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--as", "rosmake"]) == 2
     assert "expected one of" in capsys.readouterr().err

@@ -19,6 +19,7 @@ from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, parse_arguments
 
 from .originals import ORIGINALS
+from .originals.whole_help import EXIT_CODES, print_whole_help
 from .quiet_imports import quiet_imports
 
 COMMANDS: dict[str, str] = {
@@ -124,6 +125,10 @@ def _run_original(arguments: Sequence[str]) -> int:
     if name == "exec" and words and arguments[1:2] in (["-h"], ["--help"]):  # which exec would pass on to the node
         print(f"usage: {program} [ARGUMENTS]\n\nexamples:\n  {program}\n\nOpen {program}'s panel of the page.")
         return EXIT_OK
+    if program in EXIT_CODES:
+        code = print_whole_help(program, arguments[1:], make_parser(name, program=program))
+        if code is not None:
+            return code
     try:
         code = _run(name, [*words, *arguments[1:]], program=f"trundle {name}" if words else program)
     except KeyboardInterrupt:
