@@ -16,6 +16,9 @@ from tests.rospy.programs import DEBIAN, environment
 _DEBIAN_HAS = {
     "actionlib_goals.py",
     "actionlib_simple.py",
+    "graph_of_nodes.py",
+    "launch_files.py",
+    "substitution_args.py",
     "tf2_core.py",
     "tf2_printed.py",
     "tf_buffer.py",

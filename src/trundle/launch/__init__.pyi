@@ -14,3 +14,4 @@ from .plan import ParamValue as ParamValue
 from .reader import read_arguments as read_arguments
 from .reader import read_launch as read_launch
 from .reader import read_launch_text as read_launch_text
+from .values import convert_value as convert_value

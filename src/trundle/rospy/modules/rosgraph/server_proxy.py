@@ -14,8 +14,9 @@ _TIMEOUT_S = 60.0
 class ServerProxy:
     """Calls a server's methods as its own."""
 
-    def __init__(self, uri: str) -> None:
+    def __init__(self, uri: str, *, timeout_s: float = _TIMEOUT_S) -> None:
         self._uri = uri
+        self._timeout_s = timeout_s
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
@@ -24,7 +25,7 @@ class ServerProxy:
         def call(*arguments: Any) -> Any:
             try:
                 given = [unwrap_bytes(each) for each in arguments]
-                return wrap_bytes(blocking_call(self._uri, name, *given, timeout_s=_TIMEOUT_S))
+                return wrap_bytes(blocking_call(self._uri, name, *given, timeout_s=self._timeout_s))
             except FaultError as error:
                 from xmlrpc.client import Fault
 

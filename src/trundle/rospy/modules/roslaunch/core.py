@@ -1,4 +1,4 @@
-"""Nodes and processes."""
+"""Masters, parameters and processes; nodes and machines by their old place."""
 
 import os
 import signal
@@ -6,9 +6,17 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from typing import Any
 
 import rosgraph
-from rosgraph.names import make_global_ns
+from rosgraph.names import canonicalize_name
+from rosgraph.network import parse_http_host_and_port
+
+from .machine import Machine as Machine
+from .machine import is_machine_local as is_machine_local
+from .machine import local_machine as local_machine
+from .node import Node as Node
+from .node import Test as Test
 
 DEFAULT_MASTER_PORT = 11311
 _STOP_S = (15.0, 2.0)
@@ -26,47 +34,33 @@ class Master:
         self.type = type_ or "rosmaster"
         self.uri = uri or rosgraph.get_master_uri() or ""
 
+    def get_host(self) -> str:
+        """Host's name or address."""
+        return parse_http_host_and_port(self.uri)[0]
+
+    def get_port(self) -> int:
+        """Port."""
+        return parse_http_host_and_port(self.uri)[1]
+
     def is_running(self) -> bool:
         """True if it answers."""
         return rosgraph.is_master_online(self.uri)
 
 
-class Node:
-    """A node to start."""
+class Param:
+    """A parameter to set."""
 
-    def __init__(
-        self,
-        package: str,
-        node_type: str,
-        name: str | None = None,
-        namespace: str = "/",
-        machine_name: str | None = None,
-        args: str = "",
-        respawn: bool = False,
-        respawn_delay: float = 0.0,
-        remap_args: Sequence[tuple[str, str]] | None = None,
-        env_args: Sequence[tuple[str, str]] | None = None,
-        output: str | None = None,
-        cwd: str | None = None,
-        launch_prefix: str | None = None,
-        required: bool = False,
-        filename: str = "<unknown>",
-    ) -> None:
-        self.package = package
-        self.type = node_type
-        self.name = name
-        self.namespace = make_global_ns(namespace or "/")
-        self.machine_name = machine_name
-        self.args = args or ""
-        self.respawn = respawn
-        self.respawn_delay = respawn_delay
-        self.remap_args = list(remap_args or ())
-        self.env_args = list(env_args or ())
-        self.output = output or "log"
-        self.cwd = cwd
-        self.launch_prefix = launch_prefix
-        self.required = required
-        self.filename = filename
+    def __init__(self, key: str, value: Any) -> None:
+        self.key = canonicalize_name(key)
+        self.value = value
+
+    __hash__ = None  # pyright: ignore[reportAssignmentType] - it changes
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Param) and (self.key, self.value) == (other.key, other.value)
+
+    def __repr__(self) -> str:
+        return f"{self.key}={self.value}"
 
 
 class Process:
