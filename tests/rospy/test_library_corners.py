@@ -170,8 +170,8 @@ for data in (base64.b64encode(pickle.dumps({"x": Evil()})).decode(), "!!", base6
     ("statement", "said"),
     [
         ("import moveit_commander", "follow_joint_trajectory"),
-        ("from PyKDL import Chain", "cannot import name 'Chain'"),
-        ("import PyKDL; PyKDL.Chain", "python3-pykdl"),
+        ("from PyKDL import ChainIdSolver_RNE", "cannot import name 'ChainIdSolver_RNE'"),
+        ("import PyKDL; PyKDL.ChainIdSolver_RNE", "python3-pykdl"),
     ],
 )
 def test_what_is_missing_is_named_with_a_way_out(statement: str, said: str, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Differences of poses over time, and what two values have in common."""
 
 from .frame import Frame
+from .joint_arrays import JntArray
 from .numbers import EPSILON
 from .rotation import Rotation
 from .screws import Twist, Wrench
@@ -41,6 +42,6 @@ def Equal(a, b, eps=EPSILON):
 
 
 def SetToZero(value):
-    """Set a Vector, Twist or Wrench to zero, in place."""
-    for index in range(value.size):
+    """Set a Vector, Twist, Wrench or JntArray to zero, in place."""
+    for index in range(value.rows() if isinstance(value, JntArray) else value.size):
         value[index] = 0.0

@@ -1,0 +1,76 @@
+"""Forward kinematics of a chain."""
+
+from .frame import Frame
+from .joint import Joint
+
+_SIZE_MISMATCH, _OUT_OF_RANGE = -4, -6
+"""KDL's numbers of errors."""
+
+
+class _Solver:
+    def __init__(self, chain):
+        self._chain = chain
+
+    def updateInternalDataStructures(self):
+        """Do nothing: the chain is read each time."""
+
+    def _posed(self, q, count):
+        """Segments with the value of their joints, 0 for fixed ones."""
+        used = 0
+        for number in range(count):
+            segment = self._chain.getSegment(number)
+            is_moving = segment.getJoint().getType() != Joint.Fixed
+            yield segment, is_moving, q[used] if is_moving else 0.0
+            used += is_moving
+
+    def _fault(self, q, count):
+        """Number of an error; 0 if there is none."""
+        if q.rows() != self._chain.getNrOfJoints():
+            return _SIZE_MISMATCH
+        return _OUT_OF_RANGE if count > self._chain.getNrOfSegments() else 0
+
+
+class ChainFkSolverPos_recursive(_Solver):
+    """Pose of the tip, or of a segment on the way."""
+
+    def JntToCart(self, q_in, p_out, segmentNr=-1):
+        """Write the pose after a count of segments into `p_out`, a Frame or a list of Frames; all segments with -1.
+
+        Returns:
+            0, or the negative number of an error.
+        """
+        count = self._chain.getNrOfSegments() if segmentNr < 0 else segmentNr
+        if fault := self._fault(q_in, count):
+            return fault
+        pose, poses = Frame(), []
+        for segment, _, value in self._posed(q_in, count):
+            pose = pose * segment.pose(value)
+            poses.append(pose)
+        if isinstance(p_out, list):
+            p_out[:] = poses
+        else:
+            p_out.M, p_out.p = pose.M, pose.p
+        return 0
+
+
+class ChainJntToJacSolver(_Solver):
+    """Jacobian of the tip, in the axes of the chain's base."""
+
+    def JntToJac(self, q_in, jac, seg_nr=-1):
+        """Write the Jacobian after a count of segments; all segments with -1.
+
+        Returns:
+            0, or the negative number of an error.
+        """
+        count = self._chain.getNrOfSegments() if seg_nr < 0 else seg_nr
+        if (fault := self._fault(q_in, count)) or jac.columns() != self._chain.getNrOfJoints():
+            return fault or _SIZE_MISMATCH
+        pose, column = Frame(), 0
+        for segment, is_moving, value in self._posed(q_in, count):
+            tip = pose * segment.pose(value)
+            jac.changeRefPoint(tip.p - pose.p)
+            if is_moving:
+                jac.setColumn(column, pose.M * segment.twist(value, 1.0))
+                column += 1
+            pose = tip
+        return 0
