@@ -1,6 +1,6 @@
 """The page's server: CPU of relaying clouds of a million points to a client, and of moving robots.
 
-The peer of the relay is a process that copies the same bytes from one socket to another. Times are of the servers' CPU.
+The peer is a process that copies the same bytes from one socket to another. Times are of the servers' CPU.
 """
 
 import io
@@ -25,7 +25,7 @@ from trundle.ros import Core, GraphLoop
 
 _POINTS, _POINT_BYTES = 1_000_000, (16, 32)
 _RATE_HZ, _MESSAGES, _PAIRS = 5.0, 15, 3
-_ROBOTS, _LINKS, _POSES_HZ, _POSES_S = 50, 12, 30.0, 10.0
+_ROBOTS, _LINKS, _POSE_BYTES, _POSES_HZ, _POSES = 50, 12, 32, 30.0, 300
 _KEY = "AAAAAAAAAAAAAAAAAAAAAA=="
 
 
@@ -34,7 +34,7 @@ def run() -> list[Row]:
     if not os.path.exists("/proc/self/stat"):
         return []  # the CPU of other processes is not known here
     rows = [_relay_row(size * _POINTS) for size in _POINT_BYTES]
-    return [*rows, Row("50 robots at 30 Hz, page's server", _poses_share(), "% of core", "", None)]
+    return [*rows, _poses_row()]
 
 
 def _relay_row(size: int) -> Row:
@@ -61,15 +61,9 @@ def _page_cpu(size: int) -> float:
 
 def _relay_cpu(size: int) -> float:
     """CPU of a plain relay for one cloud [s]."""
-    with (
-        socket.create_server(("127.0.0.1", 0)) as inward,
-        socket.create_server(("127.0.0.1", 0)) as outward,
-        process(_relay, inward.getsockname()[1], outward.getsockname()[1]) as relay,
-    ):
-        source, sink = inward.accept()[0], outward.accept()[0]
-        with source, sink:
-            threading.Thread(target=_feed, args=(source, size), daemon=True).start()
-            return _cpu_per_message(relay.recv(), lambda count: _discard(sink, count * size))
+    with _running_relay() as (process_id, source, sink):
+        threading.Thread(target=_feed, args=(source, size, _RATE_HZ, _MESSAGES + 3), daemon=True).start()
+        return _cpu_per_message(process_id, lambda count: _discard(sink, count * size))
 
 
 def _cpu_per_message(process_id: int, receive: Callable[[int], None]) -> float:
@@ -80,21 +74,50 @@ def _cpu_per_message(process_id: int, receive: Callable[[int], None]) -> float:
     return (cpu_s(process_id) - before) / _MESSAGES
 
 
+def _poses_row() -> Row:
+    pairs = [(_poses_share(), _poses_relay_share()) for _ in range(_PAIRS)]
+    share, ratio = statistics.median(own for own, _ in pairs), statistics.median(own / peer for own, peer in pairs)
+    return Row("50 robots at 30 Hz, page's server", share, "% of core", "a socket relay", ratio)
+
+
 def _poses_share() -> float:
     """CPU of the page's server while bodies move, in percent of a core."""
     rows = np.random.default_rng(0).normal(size=(_ROBOTS * _LINKS, 7))
     with PageServer.start(Session(title="b", kind="simulation"), at=PageAddress(port=0)) as page:
         page.set_world({"generation": 1, "files": []}, {})
         receive = subscribe(page.url, "trundle/poses", 100)
-        reader = threading.Thread(target=receive, args=(round(_POSES_HZ * _POSES_S),))
+        reader = threading.Thread(target=receive, args=(_POSES,))
         reader.start()
         started, before = time.monotonic(), cpu_s(page.process_id)
-        for number in range(round(_POSES_HZ * _POSES_S)):
+        for number in range(_POSES):
             page.put_poses(number, rows + number)
             time.sleep(max(0.0, started + number / _POSES_HZ - time.monotonic()))
         share = (cpu_s(page.process_id) - before) / (time.monotonic() - started)
     reader.join()
     return 100.0 * share
+
+
+def _poses_relay_share() -> float:
+    """CPU of a plain relay of as many bytes, in percent of a core."""
+    size = _ROBOTS * _LINKS * _POSE_BYTES
+    with _running_relay() as (process_id, source, sink):
+        started, before = time.monotonic(), cpu_s(process_id)
+        threading.Thread(target=_feed, args=(source, size, _POSES_HZ, _POSES), daemon=True).start()
+        _discard(sink, _POSES * size)
+        return 100.0 * (cpu_s(process_id) - before) / (time.monotonic() - started)
+
+
+@contextmanager
+def _running_relay() -> Generator[tuple[int, socket.socket, socket.socket]]:
+    """Run a relay; yield the number of its process, and the sockets that it reads from and writes to."""
+    with (
+        socket.create_server(("127.0.0.1", 0)) as inward,
+        socket.create_server(("127.0.0.1", 0)) as outward,
+        process(_relay, inward.getsockname()[1], outward.getsockname()[1]) as relay,
+    ):
+        source, sink = inward.accept()[0], outward.accept()[0]
+        with source, sink:
+            yield relay.recv(), source, sink
 
 
 def subscribe(url: str, topic: str, least: int) -> Callable[[int], None]:
@@ -147,13 +170,13 @@ def _discard(sock: socket.socket, count: int) -> None:
         count -= sock.recv_into(buffer, min(count, len(buffer)))
 
 
-def _feed(sock: socket.socket, size: int) -> None:
-    """Send messages at their rate."""
+def _feed(sock: socket.socket, size: int, rate_hz: float, count: int) -> None:
+    """Send messages at a rate."""
     message = bytes(size)
-    for _ in range(_MESSAGES + 3):
-        started = time.monotonic()
+    started = time.monotonic()
+    for number in range(count):
         sock.sendall(message)
-        time.sleep(max(0.0, started + 1 / _RATE_HZ - time.monotonic()))
+        time.sleep(max(0.0, started + (number + 1) / rate_hz - time.monotonic()))
 
 
 def _relay(pipe: Connection, inward: int, outward: int) -> None:

@@ -7,13 +7,9 @@ from typing import Protocol
 
 from .channel import Channel
 from .connection import Connection
+from .poll_timing import PollTiming
 from .protocol import CONTROL_CAPABILITIES, ENCODING, WARNING, time_message
 
-_FRAME_S = 0.032
-"""Wait after a poll that brought something: a little less than the owner's period, 33 ms."""
-_RETRY_S = 0.005
-_MAX_RETRIES = 3
-"""Short waits in a row; an owner from which nothing came by then has nothing to say."""
 _TIME_PERIOD_S = 0.05
 _DROPS_PERIOD_S = 1.0
 _TIME = "time"
@@ -145,16 +141,15 @@ class Hub:
 
     async def run(self) -> None:
         """Poll what is due while there are clients, in step with the owner: soon after it wrote, and seldom between."""
-        retries = 0
+        timing = PollTiming()
         while True:
             await self._has_clients.wait()
             started = time.monotonic()
             is_new = [part.poll(started, self.now_ns()) for part in self.polled]
             self._send_time(started)
             self._send_drops(started)
-            retries = 0 if any(is_new) else min(retries + 1, _MAX_RETRIES)
-            period_s = _RETRY_S if 0 < retries < _MAX_RETRIES else _FRAME_S
-            await asyncio.sleep(max(0.0, started + period_s - time.monotonic()))
+            wait_s = timing.wait_s(started, is_new=any(is_new))
+            await asyncio.sleep(max(0.0, started + wait_s - time.monotonic()))
 
     def _send_time(self, now_s: float) -> None:
         now_ns = self.now_ns()

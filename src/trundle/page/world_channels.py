@@ -152,7 +152,7 @@ class PosesChannel(RowsChannel):
 
     def _encode(self, bodies: NDArray[np.intp]) -> Sequence[Buffer]:
         header = ARRAY_HEADER.pack(self._time_ns, self._generation, len(bodies))
-        poses = self._rows[bodies][:, _XYZ_XYZW].astype("<f4")
+        poses = self._rows.astype("<f4").take(bodies, axis=0).take(_XYZ_XYZW, axis=1)  # faster than by index
         return (header + bodies.astype("<u4").tobytes() + poses.tobytes(),)
 
 
