@@ -38,7 +38,7 @@ VIEW = {
     "Field of View": 0.7854,
 }
 CURVES = ("rp2w::chassis_left_wheel.velocity", "rp2w::chassis_right_wheel.velocity")
-ROUTE = ((2.3, 1.0, 0.0), (1.7, 0.8, 0.9), (0.6, 1.0, 0.0), (1.6, 0.8, 0.9), (0.6, 0.9, 0.0))
+ROUTE = ((0.5, 1.0, 0.0), (0.8, 1.0, 0.7), (0.8, 1.0, 0.0), (2.8, 0.85, -0.8), (1.5, 1.0, 0.0))
 """Seconds, and shares of the greatest velocities: forwards, to the left."""
 
 
