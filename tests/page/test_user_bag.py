@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
-from tests.page.test_bag import START, TEXT, S, text
+from tests.page.test_bag import MAP, START, TEXT, S, text
 
 from trundle.page import BagFile, PageServer, Session
 from trundle.page_address import PageAddress
@@ -42,4 +42,31 @@ def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
         user.page.get_by_role("treeitem", name="data word 4").wait_for()
         user.page.get_by_role("banner").get_by_role("button", name="Play", exact=True).click()
         user.page.get_by_role("treeitem", name="data word 6").wait_for()
+        user.close()
+
+
+def test_each_topic_has_a_lane_from_the_index(chromium: Any, tmp_path: Path) -> None:
+    """Of a bag of ten seconds, of which nothing was played or shown yet; a click in the ruler goes to a band's time."""
+    path = tmp_path / "lanes.bag"
+    with create_bag(path) as writer:
+        writer.write(BagMessage(MAP, START, text("map")))
+        for tick in (*range(41), *range(80, 101)):
+            writer.write(BagMessage(TEXT, START + tick * S // 10, text(str(tick))))
+    playing = BagFile(path=str(path), speed=1.0, paused=True)
+    with PageServer.start(Session(title="lanes", kind="bag"), at=PageAddress(port=0), bag=playing) as server:
+        user = PanelUser(chromium, server.url)
+        user.open("Timeline")
+        lane = user.page.get_by_role("group", name="/text", exact=True)
+        lane.locator(".band").first.wait_for()
+        left, width = lane.evaluate("e => [e.getBoundingClientRect().left, e.clientWidth]")
+        spans = lane.locator(".band").evaluate_all("all => all.map(e => e.getBoundingClientRect().toJSON())")
+        covered = [
+            any(band["left"] <= left + width * share <= band["right"] + 3 for band in spans)
+            for share in (0.101, 0.301, 0.5, 0.7, 0.901)
+        ]
+        assert covered == [True, True, False, False, True]
+        rare = user.page.get_by_role("group", name="/map", exact=True)
+        assert rare.locator(".band").count() == 1
+        assert rare.locator(".band").bounding_box()["width"] < 0.01 * width
+        user.page.get_by_title("/text: 62 messages").wait_for()
         user.close()

@@ -225,6 +225,10 @@ def test_what_is_recorded_can_be_played(user: SceneUser, heights: Heights, folde
     recording.click()
     _bar(user, "Record").wait_for()
     _bar(user, "Pause").click()
+    user.open("Timeline")
+    lane = user.page.get_by_role("group", name="Recorded", exact=True)
+    kept = user.page.get_by_role("group", name="Kept", exact=True)
+    assert 0 < lane.locator(".band").bounding_box()["width"] < kept.locator(".band").bounding_box()["width"]
     _at_rest(user, heights)
 
     [file] = folder.glob("recorded/*/state.log")

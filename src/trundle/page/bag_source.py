@@ -10,6 +10,7 @@ import numpy as np
 from trundle.diagnostics import TrundleError
 from trundle.ros import BagConnection, BagMessage, BagReader
 
+from .bag_lanes import LanesChannel
 from .bag_reader import BagCursor, is_kept
 from .channel import Channel, Client
 from .hub import Hub
@@ -82,7 +83,7 @@ class BagSource:
         self._topics: dict[str, BagTopic] = {}
         for connection in bag.connections:
             self._topics.setdefault(connection.topic, BagTopic(connection))
-        hub.add_channels([self._state, *self._topics.values()])
+        hub.add_channels([self._state, LanesChannel(bag.path), *self._topics.values()])
         self._cursor = BagCursor(bag)
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="trundle-bag")
         self._reading: asyncio.Task[None] | None = None

@@ -19,6 +19,7 @@ SERIES = "trundle/series"
 PERFORMANCE = "trundle/performance"
 DROPS = "trundle/drops"
 PEOPLE = "trundle/people"
+LANES = "trundle/lanes"
 
 ARRAY_HEADER = struct.Struct("<QII")
 """Time [ns], generation of the world, rows: before the poses, (bodies, 7) f64, the joints, (joints, 3) f64, and the

@@ -5,10 +5,12 @@ import struct
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
+from mcap.writer import IndexType
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import (
@@ -27,6 +29,7 @@ from trundle.ros import (
     open_bag,
     recover_messages,
 )
+from trundle.ros.bags import mcap
 
 FORMATS = [
     *[("x.bag", compression) for compression in ("none", "bz2", "lz4")],
@@ -71,6 +74,37 @@ def test_what_is_written_is_read(messages: Messages, tmp_path: Path, name: str, 
 
 
 @pytest.mark.parametrize(("name", "compression"), FORMATS)
+def test_times_are_read_from_the_index(
+    messages: Messages, tmp_path: Path, name: str, compression: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without reading a message."""
+    written = list(_stream(messages, 200))
+    with create_bag(tmp_path / name, compression=compression, chunk_bytes=2000) as out:
+        for message in written:
+            out.write(message)
+    with open_bag(tmp_path / name) as bag:
+        monkeypatch.setattr(type(bag), "messages", None)
+        assert bag.stamps_ns() == _times_of(written)
+
+
+def test_times_of_a_file_without_message_indexes_are_those_of_its_messages(
+    messages: Messages, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kinds = IndexType.CHUNK | IndexType.ATTACHMENT | IndexType.METADATA
+    monkeypatch.setattr(mcap, "Writer", partial(mcap.Writer, index_types=kinds))
+    written = list(_stream(messages, 20))
+    with create_bag(tmp_path / "x.mcap") as out:
+        for message in written:
+            out.write(message)
+    with open_bag(tmp_path / "x.mcap") as bag:
+        assert bag.stamps_ns() == _times_of(written)
+
+
+def _times_of(written: list[BagMessage]) -> dict[str, list[int]]:
+    return {topic: [m.stamp_ns for m in written if m.connection.topic == topic] for topic in ("/a", "/b")}
+
+
+@pytest.mark.parametrize(("name", "compression"), FORMATS)
 def test_a_bag_cut_off_anywhere_gives_what_was_flushed(
     messages: Messages, tmp_path: Path, name: str, compression: str
 ) -> None:
@@ -109,7 +143,7 @@ def test_one_wrong_byte_is_never_a_traceback(messages: Messages, tmp_path: Path,
     whole = path.read_bytes()
     for at in [*range(120), *range(max(120, len(whole) - 900), len(whole), 5)]:
         path.write_bytes(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1 :])
-        for read in (lambda: list(recover_messages(path)), lambda: _all_of(path)):
+        for read in (lambda: list(recover_messages(path)), lambda: _all_of(path), lambda: _times_in(path)):
             with suppress(BagError):
                 read()
 
@@ -117,6 +151,11 @@ def test_one_wrong_byte_is_never_a_traceback(messages: Messages, tmp_path: Path,
 def _all_of(path: Path) -> list[BagMessage]:
     with open_bag(path) as bag:
         return list(bag.messages())
+
+
+def _times_in(path: Path) -> dict[str, list[int]]:
+    with open_bag(path) as bag:
+        return bag.stamps_ns()
 
 
 def test_what_is_no_bag_is_said(tmp_path: Path) -> None:

@@ -5,13 +5,15 @@ import { useRef } from "preact/hooks";
 
 import { canControl } from "../app/looking";
 import { Button } from "../theme/button";
+import { count as messages } from "../theme/format";
 import { Select } from "../theme/select";
 import { StatusShape } from "../theme/status_shape";
 import { TextField } from "../theme/text_field";
 import { logState } from "./log/log_state";
 import { timeText } from "./messages/format";
 import type { Panel, PanelProps } from "./panel";
-import { rulerTimes, timelineState, type Mark, type Span, type TimelineState } from "./timeline/timeline_state";
+import { Bands, Lane, type ShareProps } from "./timeline/lane";
+import { rulerTimes, timelineState, type Mark, type TimelineState } from "./timeline/timeline_state";
 import { useShown, useTick } from "./use";
 
 const PERIOD = 250; // ms
@@ -24,7 +26,7 @@ function Timeline({ page }: PanelProps): JSX.Element {
   useTick(PERIOD, useShown(root));
   const span = state.span();
   if (span === null) return <div class="empty" ref={root}>There is no timeline: neither a simulation runs nor a recording plays.</div>;
-  const topics = [...state.lanes.keys()].sort();
+  const { kind } = page.session;
   const entries = logState(page).entries.value.filter(({ level, time }) => time !== null && time >= span.start && time <= span.end && level !== "Info" && level !== "Debug");
   const share = (time: number): string => `${(100 * (time - span.start)) / Math.max(1e-9, span.end - span.start)}%`;
   return (
@@ -35,9 +37,21 @@ function Timeline({ page }: PanelProps): JSX.Element {
           <div class="lanename ruler" />
           <Ruler span={span} share={share} />
           <Head state={state} span={span} share={share} />
-          <Lane name={span.isSeekable ? "Recorded" : "Simulated"}>
-            <i class="band" style={{ left: 0, right: `calc(100% - ${share(span.known)})` }} />
-          </Lane>
+          {kind !== "bag" && (
+            <Lane name={!span.isSeekable ? "Simulated" : kind === "simulation" ? "Kept" : "Recorded"}>
+              <Bands bands={[[span.start, span.known]]} span={span} share={share} />
+            </Lane>
+          )}
+          {kind === "simulation" && (
+            <>
+              <Lane name="Recorded">
+                <Bands bands={state.recordings.bands} span={span} share={share} />
+              </Lane>
+              <Lane name="Drive">
+                <Bands weak bands={state.drives.bands} span={span} share={share} />
+              </Lane>
+            </>
+          )}
           <Lane name="Log">
             {entries.map(({ id, level, time, text }) => (
               <i key={id} class="event" title={text} style={{ left: share(time ?? 0) }}>
@@ -50,22 +64,15 @@ function Timeline({ page }: PanelProps): JSX.Element {
               <MarkFlag key={mark.id} state={state} mark={mark} left={share(mark.time)} />
             ))}
           </Lane>
-          {topics.map((topic) => (
-            <Lane key={topic} name={topic}>
-              {state.bands(topic).map(([start, end]) => (
-                <i key={start} class="band weak" style={{ left: share(start), right: `calc(100% - ${share(end)})` }} />
-              ))}
+          {state.lanes.all.map(({ topic, count, bands }) => (
+            <Lane key={topic} name={topic} title={count === null ? topic : `${topic}: ${messages(count, "message")}`}>
+              <Bands weak bands={bands} span={span} share={share} />
             </Lane>
           ))}
         </div>
       </div>
     </div>
   );
-}
-
-interface ShareProps {
-  readonly span: Span;
-  readonly share: (time: number) => string;
 }
 
 function Ruler({ span, share }: ShareProps): JSX.Element {
@@ -133,19 +140,6 @@ function Head({ state, span, share }: ShareProps & { readonly state: TimelineSta
         <span>{timeText(now)}</span>
       </div>
     </div>
-  );
-}
-
-function Lane({ name, children }: { readonly name: string; readonly children: JSX.Element | readonly JSX.Element[] }): JSX.Element {
-  return (
-    <>
-      <div class="lanename" title={name}>
-        {name}
-      </div>
-      <div class="lane" role="group" aria-label={name}>
-        {children}
-      </div>
-    </>
   );
 }
 

@@ -2,12 +2,14 @@
 
 import contextlib
 import os
+import struct
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Self
 
 from mcap.exceptions import McapError
+from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
@@ -20,6 +22,8 @@ _MAGIC = b"\x89MCAP0\r\n"
 """Start of a file, and its end unless recording was cut off."""
 _LARGEST = 2**30
 """Maximum record length [bytes]."""
+_INDEX_HEAD = struct.Struct("<BQHI")
+"""Opcode and length of a message index, its channel, the length of its entries: time [ns] and offset, 8 bytes each."""
 
 
 class McapReader:
@@ -53,6 +57,8 @@ class McapReader:
         statistics = summary.statistics
         self.counts = [statistics.channel_message_counts.get(id_, 0) for id_ in self._by_id]
         self.start_ns, self.end_ns = statistics.message_start_time, statistics.message_end_time
+        self._message_count = statistics.message_count
+        self._chunk_indexes = summary.chunk_indexes
         self.chunks: list[Chunk] = [
             Chunk(compression=c.compression or "none", size=c.uncompressed_size, compressed=c.compressed_size)
             for c in summary.chunk_indexes
@@ -70,10 +76,27 @@ class McapReader:
                     yield BagMessage(connection, message.log_time, message.data)
 
     def stamps_ns(self) -> dict[str, list[int]]:
-        """See `BagReader`."""
+        """See `BagReader`; read from the index, or from the messages where it lacks some."""
+        with _library_errors(self.path):
+            indexed = self._indexed_ns()
+        if sum(map(len, indexed.values())) == self._message_count:
+            return {topic: sorted(times) for topic, times in indexed.items()}
         stamps: dict[str, list[int]] = {}
         for message in self.messages():
             stamps.setdefault(message.connection.topic, []).append(message.stamp_ns)
+        return stamps
+
+    def _indexed_ns(self) -> dict[str, list[int]]:
+        """Topic → times in the index [ns], in the order of the file."""
+        stamps: dict[str, list[int]] = {}
+        for offset in sorted({at for chunk in self._chunk_indexes for at in chunk.message_index_offsets.values()}):
+            self._file.seek(offset)
+            head = self._file.read(_INDEX_HEAD.size)
+            opcode, _, channel_id, length = _INDEX_HEAD.unpack(head)
+            if opcode != Opcode.MESSAGE_INDEX or length > _LARGEST:
+                raise BagError(f"{self.path} is damaged: no index at byte {offset}")
+            entries = struct.iter_unpack("<QQ", self._file.read(length))
+            stamps.setdefault(self._by_id[channel_id].topic, []).extend(time_ns for time_ns, _ in entries)
         return stamps
 
     def close(self) -> None:

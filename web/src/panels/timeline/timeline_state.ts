@@ -6,6 +6,8 @@ import { canControl } from "../../app/looking";
 import type { Page } from "../../app/page";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
+import { Lanes } from "./lanes";
+import { Spells } from "./spells";
 
 export interface Mark {
   readonly id: number;
@@ -25,10 +27,7 @@ export interface Span {
 }
 
 const FUTURE = 1.2;
-const BUCKETS = 600;
 const PERIOD = 200; // ms between looks at what came
-/** Between two looks; what is longer is a jump [s]. */
-const LATE = 1;
 const NS = 1e9;
 
 export class TimelineState {
@@ -36,16 +35,16 @@ export class TimelineState {
   readonly fault = signal("");
   /** Where the pointer holds the head [s]; null: nowhere. */
   readonly scrub = signal<number | null>(null);
-  /** Times at which messages of a topic came, as numbers of buckets. */
-  readonly lanes = new Map<string, Set<number>>();
-  private readonly counts = new Map<string, number>();
-  private bucket = 0.25; // s
-  private lookedAt = -Infinity; // bucket
+  readonly lanes: Lanes;
+  /** When the robot was driven from this page, and when the simulation was recorded. */
+  readonly drives = new Spells();
+  readonly recordings = new Spells();
   private markCount = 0;
   private asked: number | null = null;
   private isAsking = false;
 
   constructor(private readonly page: Page) {
+    this.lanes = new Lanes(page.connection);
     setInterval(() => this.look(), PERIOD);
   }
 
@@ -99,45 +98,12 @@ export class TimelineState {
     this.marks.value = name === "" ? kept : [...kept, { ...mark, name }].sort((one, other) => one.time - other.time);
   }
 
-  /** Stretches of a lane [s], joined where they touch. */
-  bands(topic: string): readonly (readonly [number, number])[] {
-    const bands: [number, number][] = [];
-    for (const bucket of [...(this.lanes.get(topic) ?? [])].sort((one, other) => one - other)) {
-      const [start, end] = [bucket * this.bucket, (bucket + 1) * this.bucket];
-      const last = bands.at(-1);
-      if (last !== undefined && start - last[1] < this.bucket * 1.5) last[1] = end;
-      else bands.push([start, end]);
-    }
-    return bands;
-  }
-
-  /**
-   * Note which of the topics that something on the page shows had messages since the last look.
-   *
-   * Buckets may be shorter than the time between two looks: all of those between have what came.
-   */
   private look(): void {
     const span = this.span();
     if (span === null) return;
-    const wanted = span.isSeekable ? Math.max(0.05, (span.end - span.start) / BUCKETS) : 0.25;
-    if (wanted !== this.bucket) {
-      this.lanes.clear();
-      this.lookedAt = -Infinity;
-    }
-    this.bucket = wanted;
-    const at = Math.floor(this.now() / this.bucket);
-    const isLate = at > this.lookedAt && (at - this.lookedAt) * this.bucket <= LATE;
-    const first = isLate ? this.lookedAt + 1 : at;
-    this.lookedAt = at;
-    for (const topic of this.page.connection.topics.peek().keys()) {
-      const { count } = this.page.connection.statistics(topic);
-      const before = this.counts.get(topic) ?? 0;
-      this.counts.set(topic, count);
-      if (count <= before) continue;
-      const lane = this.lanes.get(topic) ?? new Set<number>();
-      for (let each = first; each <= at; each += 1) lane.add(each);
-      this.lanes.set(topic, lane);
-    }
+    this.lanes.look(span, this.now());
+    this.drives.note(this.page.drive.command.peek() !== null, span.known);
+    this.recordings.note((this.page.world.state.peek()?.recording ?? null) !== null, span.known);
   }
 
   private async ask(): Promise<void> {

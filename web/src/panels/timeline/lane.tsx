@@ -1,0 +1,48 @@
+/** A row of the timeline, and the stretches of time in it. */
+
+import type { JSX } from "preact";
+
+import type { Span } from "./timeline_state";
+
+export interface ShareProps {
+  readonly span: Span;
+  /** Place of a time [s] from the left, in percent. */
+  readonly share: (time: number) => string;
+}
+
+interface BandsProps extends ShareProps {
+  readonly weak?: boolean;
+  /** Beginning and end of each [s]. */
+  readonly bands: readonly (readonly [number, number])[];
+}
+
+/** Stretches of a lane, as far as they lie in the times that can be shown. */
+export function Bands({ weak = false, bands, span, share }: BandsProps): JSX.Element {
+  const seen = bands.filter(([start, end]) => end >= span.start && start <= span.end);
+  return (
+    <>
+      {seen.map(([start, end]) => (
+        <i key={start} class={weak ? "band weak" : "band"} style={{ left: share(Math.max(start, span.start)), right: `calc(100% - ${share(Math.min(end, span.end))})` }} />
+      ))}
+    </>
+  );
+}
+
+interface LaneProps {
+  readonly name: string;
+  readonly title?: string;
+  readonly children: JSX.Element | readonly JSX.Element[];
+}
+
+export function Lane({ name, title = name, children }: LaneProps): JSX.Element {
+  return (
+    <>
+      <div class="lanename" title={title}>
+        {name}
+      </div>
+      <div class="lane" role="group" aria-label={name}>
+        {children}
+      </div>
+    </>
+  );
+}

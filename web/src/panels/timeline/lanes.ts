@@ -1,0 +1,98 @@
+/** When each topic has messages: in a bag by its index (`trundle/lanes`), elsewhere as they come. */
+
+import { signal } from "@preact/signals";
+
+import type { Connection } from "../../protocol/connection";
+import type { Span } from "./timeline_state";
+
+/** A topic's messages over time. */
+export interface Lane {
+  readonly topic: string;
+  /** Messages in the whole bag; null: not known. */
+  readonly count: number | null;
+  /** Beginning and end of each stretch [s]. */
+  readonly bands: readonly (readonly [number, number])[];
+}
+
+/** Content of `trundle/lanes`. */
+export interface BagLanes {
+  readonly start_ns: number;
+  readonly bucket_ns: number;
+  /** First and last bucket of each stretch. */
+  readonly topics: Readonly<Record<string, { readonly count: number; readonly bands: readonly (readonly [number, number])[] }>>;
+}
+
+const BUCKETS = 600;
+/** Between two looks; what is longer is a jump [s]. */
+const LATE = 1;
+const NS = 1e9;
+
+export class Lanes {
+  /** Of a bag; null: none is played, or its index is not read yet. */
+  private readonly recorded = signal<readonly Lane[] | null>(null);
+  /** Buckets in which messages of a topic came. */
+  private readonly came = new Map<string, Set<number>>();
+  private readonly counts = new Map<string, number>();
+  private bucket = 0.25; // s
+  private lookedAt = -Infinity; // bucket
+
+  constructor(private readonly connection: Connection) {
+    connection.subscribeRaw("trundle/lanes", (payload) => {
+      this.recorded.value = lanesOf(JSON.parse(new TextDecoder().decode(payload)) as BagLanes);
+    });
+  }
+
+  /** By topic. */
+  get all(): readonly Lane[] {
+    return this.recorded.value ?? [...this.came.keys()].sort().map((topic) => ({ topic, count: null, bands: this.bands(topic) }));
+  }
+
+  /**
+   * Note which of the topics that something on the page shows had messages since the last look.
+   *
+   * Buckets may be shorter than the time between two looks: all of those between have what came.
+   */
+  look(span: Span, now: number): void {
+    const wanted = span.isSeekable ? Math.max(0.05, (span.end - span.start) / BUCKETS) : 0.25;
+    if (wanted !== this.bucket) {
+      this.came.clear();
+      this.lookedAt = -Infinity;
+    }
+    this.bucket = wanted;
+    const at = Math.floor(now / this.bucket);
+    const isLate = at > this.lookedAt && (at - this.lookedAt) * this.bucket <= LATE;
+    const first = isLate ? this.lookedAt + 1 : at;
+    this.lookedAt = at;
+    for (const topic of this.connection.topics.peek().keys()) {
+      const { count } = this.connection.statistics(topic);
+      const before = this.counts.get(topic) ?? 0;
+      this.counts.set(topic, count);
+      if (count <= before) continue;
+      const lane = this.came.get(topic) ?? new Set<number>();
+      for (let each = first; each <= at; each += 1) lane.add(each);
+      this.came.set(topic, lane);
+    }
+  }
+
+  /** Stretches of a lane [s], joined where they touch. */
+  private bands(topic: string): readonly (readonly [number, number])[] {
+    const bands: [number, number][] = [];
+    for (const bucket of [...(this.came.get(topic) ?? [])].sort((one, other) => one - other)) {
+      const [start, end] = [bucket * this.bucket, (bucket + 1) * this.bucket];
+      const last = bands.at(-1);
+      if (last !== undefined && start - last[1] < this.bucket * 1.5) last[1] = end;
+      else bands.push([start, end]);
+    }
+    return bands;
+  }
+}
+
+/** Lanes of a bag, by topic, in seconds. */
+export function lanesOf({ start_ns, bucket_ns, topics }: BagLanes): readonly Lane[] {
+  const time = (bucket: number): number => (start_ns + bucket * bucket_ns) / NS;
+  const names = Object.keys(topics).sort();
+  return names.map((topic) => {
+    const { count, bands } = topics[topic] ?? { count: 0, bands: [] };
+    return { topic, count, bands: bands.map(([first, last]) => [time(first), time(last + 1)] as const) };
+  });
+}

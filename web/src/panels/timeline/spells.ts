@@ -1,0 +1,28 @@
+/** Stretches of simulated time in which something went on, as a drive or a recording. */
+
+/** Most that are kept; the oldest go. */
+const MOST = 200;
+
+export class Spells {
+  private kept: [number, number][] = [];
+  private isOn = false;
+  private known = 0; // s
+
+  /** Beginning and end of each [s]. */
+  get bands(): readonly (readonly [number, number])[] {
+    return this.kept;
+  }
+
+  /** Note whether it goes on at a time [s]; what was noted after it is forgotten where time has begun again. */
+  note(isOn: boolean, known: number): void {
+    if (known < this.known) {
+      this.kept = this.kept.filter(([start]) => start < known).map(([start, end]) => [start, Math.min(end, known)]);
+      this.isOn = false;
+    }
+    this.known = known;
+    const last = this.kept.at(-1);
+    if (this.isOn && last !== undefined) last[1] = known;
+    else if (isOn) this.kept = [...this.kept, [known, known] as [number, number]].slice(-MOST);
+    this.isOn = isOn;
+  }
+}
