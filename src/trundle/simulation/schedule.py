@@ -43,6 +43,12 @@ class Schedule(Generic[WorldT]):
         """Return the name that a hook was registered with."""
         return next((each.name for each in self._hooks if each.hook is hook), None)
 
+    def rename_model(self, name: str, new: str) -> None:
+        """Rename the hooks that are named as parts of a model."""
+        for hook in self._hooks:
+            if hook.name is not None and hook.name.startswith(f"{name}::"):
+                hook.name = new + hook.name.removeprefix(name)
+
     def remove(self, hook: object) -> None:
         """Remove a hook."""
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]

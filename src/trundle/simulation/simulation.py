@@ -353,6 +353,7 @@ class Simulation:
         check_name_is_free(self.world, new)
         self._replace_world(with_model_renamed(self.world, name, new), was={new: handle})
         self.lines = {key.replace(f"{name}::", f"{new}::", 1): line for key, line in self.lines.items()}
+        self._schedule.rename_model(name, new)
 
     def attach(self, joint: Joint) -> JointHandle:
         """Attach a link to another or to the world in the current configuration; all poses stay.

@@ -1,5 +1,6 @@
 """Profile of a simulation, by a wall clock that only its parts move."""
 
+import time
 from pathlib import Path
 
 import pytest
@@ -150,6 +151,40 @@ def test_a_message_that_a_plugin_publishes_is_not_charged_to_the_plugin(tmp_path
         assert times_ms(profile.read()) == pytest.approx({"other: plugin": 10, "ros: Messages of plugins": 10})
         assert loop.publish_timer is None
     assert sim.profiler is None
+
+
+def test_parts_of_a_renamed_model_have_its_new_name(tmp_path: Path, clock: Clock) -> None:
+    imu = '<sensor name="imu" type="imu"><update_rate>10</update_rate></sensor>'
+    sim, (camera, _) = loaded(tmp_path, model("m", BOX + CAMERA + imu) + model("mm", BOX))
+    camera.listen(list[object]().append)
+    sim.add_hook(Work(clock), period_ns=100 * MS, name="mm::mine")
+    sim.rename("m", "cart")
+
+    with StrideProfile(sim, None) as profile:
+        sim.run(0.5)
+
+    names = {part.name for part in profile.read().parts if "::" in part.name}
+    assert names >= {"cart::l::cam", "mm::mine"}
+    assert not any(name.startswith("m::") for name in names)
+
+
+def test_the_graph_s_thread_is_measured_beside_the_parts(tmp_path: Path, clock: Clock) -> None:
+    sim, _ = loaded(tmp_path, FALLING)
+    with GraphLoop() as loop, StrideProfile(sim, loop, wall_ns=clock) as profile:
+        loop.run(_busy(0.02))
+        sim.run(0.1)
+        read = profile.read()
+
+    assert read.graph_s is not None
+    assert read.graph_s >= 0.02
+    assert "beside   graph's thread" in str(read)
+
+
+async def _busy(seconds: float) -> None:
+    """Compute for so much processor time."""
+    end = time.thread_time() + seconds
+    while time.thread_time() < end:
+        pass
 
 
 def test_the_python_api_has_the_profile_of_a_run(tmp_path: Path) -> None:

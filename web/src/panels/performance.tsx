@@ -61,6 +61,7 @@ function Head({ profile, factors, isPaused }: HeadProps): JSX.Element {
       <Figure name="Contacts" value={String(profile.contacts)} />
       <Figure name="Bodies" value={String(profile.bodies)} />
       <Figure name="Asleep" value={String(profile.asleep)} />
+      {profile.graph_s !== null && <Figure name="Graph's thread" value={fixed((100 * profile.graph_s) / profile.wall_s, 0)} unit="% of a core" />}
       {isPaused && <span class="dim">paused</span>}
     </dl>
   );

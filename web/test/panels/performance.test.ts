@@ -9,6 +9,7 @@ const PROFILE: Profile = {
   contacts: 4,
   bodies: 2,
   asleep: 0,
+  graph_s: null,
   parts: [
     { group: "waiting", name: "Waiting", wall_s: 1.2 },
     { group: "page", name: "Page", wall_s: 0.1 },

@@ -27,6 +27,8 @@ class Profile(Struct, frozen=True, kw_only=True):
     """Number of links of all models."""
     asleep: int
     """Number of resting trees of bodies, which the physics skips."""
+    graph_s: float | None
+    """Processor time of the graph's thread, which runs beside the simulation's; None: not known, or without ROS."""
     parts: tuple[ProfilePart, ...]
     """The most expensive first; their times add up to that of the interval."""
 
@@ -37,6 +39,9 @@ class Profile(Struct, frozen=True, kw_only=True):
 
     def __str__(self) -> str:
         head = f"{self.simulated_s:.3f} s simulated in {self.wall_s:.3f} s; ms per simulated second:"
-        parts = self.parts if self.simulated_s > 0 else ()
-        rows = (f"{1e3 * part.wall_s / self.simulated_s:10.3f}  {part.group:8} {part.name}" for part in parts)
-        return "\n".join([head, *rows])
+        if self.simulated_s <= 0:
+            return head
+        rows = [(part.wall_s, part.group, part.name) for part in self.parts]
+        if self.graph_s is not None:
+            rows.append((self.graph_s, "beside", "graph's thread"))
+        return "\n".join([head, *(f"{1e3 * s / self.simulated_s:10.3f}  {group:8} {name}" for s, group, name in rows)])

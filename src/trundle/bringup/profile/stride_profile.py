@@ -78,7 +78,17 @@ class StrideProfile:
         self._inner_ns = 0
         """Time charged already since the last lap [ns]."""
         self._begin = (self._simulation.simulated_ns, self._simulation.simulated_steps)
+        self._graph_begin_ns = self._graph_ns
         self._begin_ns = self._last_ns = self._wall_ns()
+
+    @property
+    def _graph_ns(self) -> int | None:
+        return None if self._loop is None else self._loop.processor_ns
+
+    def _graph_s(self) -> float | None:
+        """Processor time of the graph's thread since the beginning [s]."""
+        begin_ns, now_ns = self._graph_begin_ns, self._graph_ns
+        return None if begin_ns is None or now_ns is None else (now_ns - begin_ns) / NS_PER_S
 
     def lap(self, *parts: object) -> None:
         """Charge the time since the last lap to parts, in equal shares; see `trundle.simulation.Profiler`."""
@@ -121,6 +131,7 @@ class StrideProfile:
             contacts=simulation.engine.contact_count,
             bodies=len(simulation.engine.compiled.link_names),
             asleep=simulation.engine.asleep,
+            graph_s=self._graph_s(),
             parts=tuple(sorted(self._measured(), key=lambda part: -part.wall_s)),
         )
         self.restart()

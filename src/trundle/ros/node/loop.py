@@ -101,6 +101,13 @@ class GraphLoop:
         """True if the caller runs on the loop."""
         return threading.get_ident() == self._thread.ident
 
+    @property
+    def processor_ns(self) -> int | None:
+        """Processor time of the thread [ns]; None where the system does not measure it, or the thread has ended."""
+        if self._thread.ident is None or not self._thread.is_alive() or not hasattr(time, "pthread_getcpuclockid"):
+            return None
+        return time.clock_gettime_ns(time.pthread_getcpuclockid(self._thread.ident))
+
     def run(self, coroutine: Coroutine[object, object, _T], timeout_s: float | None = 30.0) -> _T:
         """Run a coroutine on the loop and wait for its result, from another thread.
 

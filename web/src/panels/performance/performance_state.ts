@@ -36,6 +36,8 @@ export interface Profile {
   readonly bodies: number;
   /** Resting trees of bodies, which the physics skips. */
   readonly asleep: number;
+  /** Processor time of the graph's thread, which runs beside the simulation's [s]; null: not known, or without ROS. */
+  readonly graph_s: number | null;
   readonly parts: readonly Part[];
 }
 
