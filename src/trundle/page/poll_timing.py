@@ -9,7 +9,7 @@ _RETRY_S = 0.005
 _MAX_RETRIES = 3
 """Short waits in a row; an owner from which nothing came by then has nothing to say."""
 _SHARE = 0.1
-"""Of a newer interval in the period."""
+"""Weight of a newer interval in the period."""
 
 
 class PollTiming:
