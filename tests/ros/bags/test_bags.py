@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from mcap.reader import SeekingReader
 from mcap.writer import IndexType
 from tests.ros.conftest import PATIENCE_S
 
@@ -98,6 +99,22 @@ def test_times_of_a_file_without_message_indexes_are_those_of_its_messages(
             out.write(message)
     with open_bag(tmp_path / "x.mcap") as bag:
         assert bag.stamps_ns() == _times_of(written)
+
+
+def test_indexes_that_overlap_are_damaged(messages: Messages, tmp_path: Path) -> None:
+    """Each could have the rest of the file as its entries: a small file would have more times than memory has room."""
+    path = tmp_path / "x.mcap"
+    with create_bag(path) as out:
+        for message in _stream(messages, 20):
+            out.write(message)
+    with path.open("r+b") as file:
+        summary = SeekingReader(file).get_summary()
+        assert summary is not None
+        first = min(summary.chunk_indexes[0].message_index_offsets.values())
+        file.seek(first + 11)  # opcode, length and channel
+        file.write((1000).to_bytes(4, "little"))
+    with open_bag(path) as bag, pytest.raises(BagError, match="damaged: no index at byte"):
+        bag.stamps_ns()
 
 
 def _times_of(written: list[BagMessage]) -> dict[str, list[int]]:

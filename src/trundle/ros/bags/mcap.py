@@ -89,11 +89,13 @@ class McapReader:
     def _indexed_ns(self) -> dict[str, list[int]]:
         """Topic → times in the index [ns], in the order of the file."""
         stamps: dict[str, list[int]] = {}
+        end, size = 0, os.fstat(self._file.fileno()).st_size
         for offset in sorted({at for chunk in self._chunk_indexes for at in chunk.message_index_offsets.values()}):
             self._file.seek(offset)
             head = self._file.read(_INDEX_HEAD.size)
             opcode, _, channel_id, length = _INDEX_HEAD.unpack(head)
-            if opcode != Opcode.MESSAGE_INDEX or length > _LARGEST:
+            is_behind_the_last, end = offset >= end, offset + _INDEX_HEAD.size + length
+            if opcode != Opcode.MESSAGE_INDEX or not is_behind_the_last or end > size:
                 raise BagError(f"{self.path} is damaged: no index at byte {offset}")
             entries = struct.iter_unpack("<QQ", self._file.read(length))
             stamps.setdefault(self._by_id[channel_id].topic, []).extend(time_ns for time_ns, _ in entries)
