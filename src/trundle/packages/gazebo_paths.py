@@ -47,9 +47,13 @@ class GazeboPaths:
         self._named_models = _paths(environment.get("GAZEBO_MODEL_PATH", ""))
         self._named_resources = _paths(environment.get("GAZEBO_RESOURCE_PATH", ""))
 
-    @cached_property
+    @property
     def model_folders(self) -> list[Path]:
-        """Model folders in Gazebo's order, then Trundle's."""
+        """Model folders in Gazebo's order, then Trundle's, then those that were added."""
+        return [*self._own_model_folders, *self._cache.added_models]
+
+    @cached_property
+    def _own_model_folders(self) -> list[Path]:
         return distinct_folders(
             [
                 self._home / ".gazebo" / "models",

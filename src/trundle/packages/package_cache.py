@@ -21,5 +21,7 @@ class PackageCache:
         """System packages; None: not searched yet."""
         self.skipped: dict[Path, str] = {}
         """Unreadable folders, with the reason."""
+        self.added_models: list[Path] = []
+        """Folders of models that were added to the model path."""
         self.exports: dict[Path, list[dict[str, str]]] = {}
         """Package folder → attributes of each exported <gazebo_ros>."""

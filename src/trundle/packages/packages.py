@@ -1,7 +1,7 @@
 """Resolution of package://, model://, file:// and relative URIs to paths."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
@@ -117,6 +117,16 @@ class Packages:
             raise UsageError(f"no model {_shown(name)!r}; {self._where_models_are()}")
         return folder
 
+    def add_models(self, folder: Path) -> None:
+        """Add a folder of models to the end of the model path, for `around` too."""
+        if folder not in self._cache.added_models:
+            self._cache.added_models.append(folder)
+
+    @property
+    def added_models(self) -> Sequence[Path]:
+        """Folders that `add_models` was given."""
+        return self._cache.added_models
+
     def models(self) -> Mapping[str, Path]:
         """Return the folder of every model by name, as `find_model` finds it."""
         return self._gazebo.models()
@@ -175,7 +185,13 @@ class Packages:
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
         is_named = root is not None and Confinement([root], wide=self._cache.wide).allows(path)
-        if not (self._in_own.allows(path) or is_named or self._in_ros.allows(path) or self._in_gazebo.allows(path)):
+        if not (
+            self._in_own.allows(path)
+            or is_named
+            or self._in_ros.allows(path)
+            or self._in_gazebo.allows(path)
+            or self._in_added.allows(path)
+        ):
             raise DescriptionError(
                 at,
                 f"{name} leads to {path}; a description reads only below its own folders, the packages and the "
@@ -201,6 +217,10 @@ class Packages:
     @cached_property
     def _in_gazebo(self) -> Confinement:
         return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders], wide=self._cache.wide)
+
+    @property
+    def _in_added(self) -> Confinement:
+        return Confinement(self._cache.added_models, wide=self._cache.wide)
 
     def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
         """Return the root folder of the URI's package or model, and the path."""

@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Protocol
 
 import msgspec
-from aiohttp import WSMessage, WSMsgType, web
+from aiohttp import MultipartReader, WSMessage, WSMsgType, web
+from aiohttp.http_exceptions import HttpProcessingError
 from multidict import CIMultiDictProxy
 
 from trundle.access import Access, PageRequest
+from trundle.diagnostics import UsageError
 
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
 from .connection import Connection
@@ -19,6 +21,7 @@ from .outbox import CLOSE, PONG, Outbox
 from .owner import PictureError
 from .protocol import SUBPROTOCOLS, TRUNDLE
 from .requests import RenderView
+from .view_only import REFUSAL
 from .world_requests import RenderModel
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
@@ -48,6 +51,10 @@ class Page(Protocol):
 
     async def render_model(self, model: RenderModel) -> bytes:
         """Return a picture of a model as PNG, or its shape as GLB; raises PictureError."""
+        ...
+
+    async def upload(self, parts: MultipartReader) -> list[str]:
+        """Receive a model and return the names of what can be inserted now; raises UsageError."""
         ...
 
     def join(self, outbox: Outbox, *, is_own: bool, is_view_only: bool) -> Connection:
@@ -80,6 +87,7 @@ class HttpServer:
         app.router.add_get("/camera.png", self._camera)
         app.router.add_get("/model.png", self._model_picture)
         app.router.add_get("/model.glb", self._model_shape)
+        app.router.add_post("/models", self._upload)
         app.router.add_get("/{path:.*}", self._root)
         runner = web.AppRunner(app, access_log=None, handle_signals=False)
         await runner.setup()
@@ -139,6 +147,17 @@ class HttpServer:
             raise web.HTTPNotFound(reason=" ".join(str(error).split())) from None
         headers = {"Cache-Control": "private, max-age=60"}
         return web.Response(body=drawn, content_type=media_type, headers=headers)
+
+    async def _upload(self, request: web.Request) -> web.StreamResponse:
+        if self._access.is_view_only(_page_request(request)):
+            return web.Response(status=403, text=f"{REFUSAL}\n", content_type=_TEXT)
+        try:
+            if request.content_type != "multipart/form-data":
+                raise UsageError("send the files of a model as a form")
+            names = await self._page.upload(await request.multipart())
+        except (UsageError, ValueError, HttpProcessingError) as error:
+            return web.Response(status=400, text=f"{' '.join(str(error).split())}\n", content_type=_TEXT)
+        return web.json_response({"models": names})
 
     async def _root(self, request: web.Request) -> web.StreamResponse:
         path = request.match_info["path"]

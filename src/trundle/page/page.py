@@ -1,12 +1,14 @@
 """The page: what clients and the owner say, sent to the part that it is for."""
 
 import asyncio
+import os
 import time
 from collections.abc import Callable, Coroutine, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
 import msgspec
+from aiohttp import MultipartReader
 
 from trundle.diagnostics import UsageError
 from trundle.ros import GraphLoop, MessageError, WallClock, open_bag
@@ -38,6 +40,7 @@ from .ros_graph import RosGraph
 from .rviz_saving import save_rviz
 from .session import Session
 from .session_channel import SessionChannel
+from .uploads import Uploads
 from .view_only import allows, allows_binary, allows_request
 from .wire import (
     AddFile,
@@ -50,6 +53,7 @@ from .wire import (
     SetWorld,
     Start,
     ToServer,
+    Uploaded,
 )  # fmt: skip
 from .world_channels import (
     BoxChannel,
@@ -82,6 +86,7 @@ class Page:
         self._plotted: dict[Connection, frozenset[str]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._model_pictures = asyncio.Semaphore(1)
+        self._uploads = Uploads(lambda folder: send(Uploaded(str(folder))), os.environ)
         self._session_channel = SessionChannel(self.session_json)
         self._people = PeopleChannel()
         self._world = WorldChannel()
@@ -110,7 +115,8 @@ class Page:
         await asyncio.gather(*parts)
 
     async def stop(self) -> None:
-        """Stop robots that are driven."""
+        """Stop robots that are driven, and remove what was uploaded."""
+        self._uploads.close()
         if self._graph is not None:
             await self._graph.stop()
 
@@ -192,6 +198,16 @@ class Page:
             raise PictureError("models are drawn where a world is simulated")
         async with self._model_pictures:
             return await self._owner.render(model)
+
+    async def upload(self, parts: MultipartReader) -> list[str]:
+        """Receive a model and return the names of what can be inserted now.
+
+        Raises:
+            UsageError: it is refused; the text says why.
+        """
+        if self._session.kind != "simulation":
+            raise UsageError("models are inserted where a world is simulated")
+        return await self._uploads.receive(parts)
 
     # -- for clients
 

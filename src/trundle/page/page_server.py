@@ -2,6 +2,7 @@
 
 import contextlib
 import queue
+import shutil
 import subprocess
 import sys
 import threading
@@ -53,6 +54,7 @@ from .wire import (
     SetWorld,
     Start,
     ToServer,
+    Uploaded,
     Watched,
     frame,
     from_server_decoder,
@@ -84,6 +86,7 @@ class PageServer:
         self._watched: frozenset[str] = frozenset()
         self._boxes: dict[str, Mailbox] = {}
         self._plotted: tuple[str, ...] = ()
+        self._uploads: Path | None = None
         self._generation = 0
         self._addresses = Served(url="", foxglove_url="", view_url="")
         self._threads = [
@@ -188,6 +191,11 @@ class PageServer:
     def plotted(self) -> tuple[str, ...]:
         """Values of the simulation that some client plots, as `PlotSeries` names them."""
         return self._plotted
+
+    @property
+    def uploads(self) -> Path | None:
+        """Folder of the models that people have uploaded, each a folder, until `close`; None: there are none."""
+        return self._uploads
 
     def requests(self, *, of_graph: bool | None = None) -> list[Request]:
         """Return the requests since the last call, oldest first; each is to be answered by `respond`.
@@ -299,6 +307,8 @@ class PageServer:
         boxes, self._boxes = self._boxes, {}  # first: two threads may close
         for box in boxes.values():
             box.unlink()
+        if self._uploads is not None:  # the server removes it, unless it was killed
+            shutil.rmtree(self._uploads.parent, ignore_errors=True)
 
     def __enter__(self) -> Self:
         return self
@@ -346,6 +356,8 @@ class PageServer:
                         self._watched = streams
                     case Plotted(series):
                         self._plotted = series
+                    case Uploaded(folder):
+                        self._uploads = Path(folder)
                     case Driven(topics):
                         if self._stop is not None:
                             self._stop.follow(topics)

@@ -128,6 +128,12 @@ class Plotted(msgspec.Struct, frozen=True, tag=True):
     series: tuple[str, ...]
 
 
+class Uploaded(msgspec.Struct, frozen=True, tag=True):
+    """A folder of uploaded models: each of its folders is one."""
+
+    folder: str
+
+
 class Driven(msgspec.Struct, frozen=True, tag=True):
     """Topics of velocity commands that some client drives with, each with its type."""
 
@@ -135,7 +141,7 @@ class Driven(msgspec.Struct, frozen=True, tag=True):
 
 
 ToServer: TypeAlias = SetSession | SetNotice | AddFile | SetWorld | OpenMailbox | Respond
-FromServer: TypeAlias = Served | Refused | Request | Watched | Plotted | Driven
+FromServer: TypeAlias = Served | Refused | Request | Watched | Plotted | Uploaded | Driven
 encoder = msgspec.msgpack.Encoder()
 start_decoder = msgspec.msgpack.Decoder(Start)
 to_server_decoder = msgspec.msgpack.Decoder(ToServer)

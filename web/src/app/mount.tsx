@@ -23,7 +23,7 @@ import { modelCommands } from "./world/model_edits";
 import { cameraCommands } from "./views/first_person";
 import { insertionCommands } from "./insert/insertion";
 import { listenForKeys, type CommandList } from "./commands";
-import { acceptDroppedRviz } from "./dialogs/open_rviz";
+import { acceptDroppedFiles } from "./dialogs/open_files";
 import type { Page } from "./page";
 import { pageCommands, panelCommands } from "./page_commands";
 import { splitCommands } from "./panes/split";
@@ -60,7 +60,7 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
   });
   shell.dock.load(panels).then(() => commands.add(...panelCommands(shell)), (error: unknown) => shell.notices.report("Panels", error instanceof Error ? error.message : String(error)));
   listenForKeys(commands);
-  acceptDroppedRviz(shell);
+  acceptDroppedFiles(shell);
   effect(() => {
     document.title = shell.robot.value ?? page.session.title;
   });

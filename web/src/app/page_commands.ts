@@ -4,7 +4,7 @@ import { toggleFirstPerson } from "./views/first_person";
 import { toggleFollowing } from "./views/following";
 import { frameSelection } from "./views/framing";
 import { canControl } from "./looking";
-import { chooseRviz } from "./dialogs/open_rviz";
+import { chooseRviz } from "./dialogs/open_files";
 import type { Command } from "./page";
 import { download, rvizFile, save } from "./displays/rviz_foot";
 import type { Shell } from "./shell";

@@ -70,7 +70,7 @@ export interface RequestAnswer {
   /** Text of a world. */
   readonly sdf?: string;
   /** Models that can be inserted. */
-  readonly models?: readonly { readonly name: string; readonly title: string; readonly description: string }[];
+  readonly models?: readonly { readonly name: string; readonly title: string; readonly description: string; readonly uploaded: boolean }[];
   /** A replay of the last minutes. */
   readonly html?: string;
   /** What a saved world does not hold. */

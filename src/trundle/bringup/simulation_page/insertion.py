@@ -107,9 +107,12 @@ class Insertion:
 
 
 def list_models(packages: Packages) -> list[Json]:
-    """Return folder, title and description of every model that can be inserted, by title."""
-    models = [{"name": name, **_config(folder)} for name, folder in packages.models().items()]
-    return sorted(models, key=lambda each: (each["title"].lower(), each["name"]))
+    """Return folder, title and description of every model that can be inserted, uploaded ones first, then by title."""
+    models = [
+        {"name": name, **_config(folder), "uploaded": folder.parent in packages.added_models}
+        for name, folder in packages.models().items()
+    ]
+    return sorted(models, key=lambda each: (not each["uploaded"], each["title"].lower(), each["name"]))
 
 
 def _config(folder: Path) -> Json:

@@ -167,6 +167,8 @@ class SimulationPage:
         """Handle the requests since the last call; return True if the simulation is paused now."""
         self._performance.begin_page()
         requests = self._page.requests(of_world=True)
+        if self._server.uploads is not None:
+            self._contents.packages.add_models(self._server.uploads)
         for request in requests:
             if isinstance(request.action, RenderView):
                 self._draw(request.id, request.action)

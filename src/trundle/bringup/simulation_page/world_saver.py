@@ -80,16 +80,27 @@ class WorldSaver:
         if request.file is not None and file.exists() and not request.replace:
             return {"exists": request.file}
         saved = save_world(world, file=file, packages=self._packages, seed=seed)
-        lost = {"lost": saved.lost[:_MAX_LOST]}
+        sdf, uploaded = name_uploads(saved.sdf.decode(), self._packages)
+        lost = {"lost": (*uploaded, *saved.lost)[:_MAX_LOST]}
         if request.file is None:
-            return {"sdf": saved.sdf.decode(), **lost}
-        if not write_file(self._root, file, saved.sdf, replace=request.replace):
+            return {"sdf": sdf, **lost}
+        if not write_file(self._root, file, sdf.encode(), replace=request.replace):
             return {"exists": request.file}
         return {"file": request.file, **lost}
 
     def close(self) -> None:
         """Stop after the world that is being saved."""
         self._thread.shutdown(wait=False, cancel_futures=True)
+
+
+def name_uploads(sdf: str, packages: Packages) -> tuple[str, list[str]]:
+    """Return a world with files of uploaded models as model:// URIs, and what of them it needs."""
+    needed: list[str] = []
+    for folder in packages.added_models:
+        sdf = sdf.replace(f"file://{folder.resolve()}/", "model://")
+        names = sorted(each.name for each in folder.iterdir() if f"model://{each.name}/" in sdf)
+        needed += [f"the files of the uploaded model {name!r}: put its folder on GAZEBO_MODEL_PATH" for name in names]
+    return sdf, needed
 
 
 def find_target(root: Path, name: str) -> Path:

@@ -12,6 +12,7 @@ import { PictureDialog } from "./picture_dialog";
 import { SaveDialog } from "./save_dialog";
 import { SaveWorld } from "./save_world";
 import type { Shell } from "../shell";
+import { UploadDialog } from "./upload_dialog";
 import { LinkDialog } from "./view_link_dialog";
 
 export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | null {
@@ -24,6 +25,7 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   if (dialog === "help") return <Help shell={shell} />;
   if (dialog === "picture") return <PictureDialog shell={shell} />;
   if (dialog === "link") return <LinkDialog shell={shell} />;
+  if (dialog === "upload") return <UploadDialog shell={shell} />;
   if (dialog === "save") return <SaveDialog shell={shell} />;
   if (dialog === "save_world") return <SaveWorld shell={shell} />;
   if (dialog === "save_model") return <SaveModel shell={shell} />;

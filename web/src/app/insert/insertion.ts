@@ -8,6 +8,7 @@ import type { Insertable } from "../../tools/insertable";
 import { findModel } from "../views/framing";
 import type { Command, Selection } from "../page";
 import type { Shell } from "../shell";
+import { ModelUpload } from "./model_upload";
 import { canEdit, type Fields } from "../world/edits";
 
 /** A model of the model path, as the server lists it. */
@@ -24,8 +25,10 @@ export class Insertion {
   /** Null before the server has answered. */
   readonly models = signal<readonly ModelEntry[] | null>(null);
   readonly asked = signal<AskedCode | null>(null);
+  readonly upload: ModelUpload;
 
   constructor(private readonly shell: Shell) {
+    this.upload = new ModelUpload(shell);
     const { insert, current } = shell.page.tools;
     if (insert === null) return;
     insert.onPlace = (thing, point) => void this.place(thing, point);
@@ -103,6 +106,7 @@ export function insertionCommands(shell: Shell): readonly Command[] {
     run,
   });
   return [
+    { id: "upload_model", title: "Upload a model", group: "Simulation", run: () => shell.insertion.upload.open() },
     command("insert.place", "Put what is being inserted into the middle of the view", "Enter", () => insert.placeInMiddle()),
     command("insert.leave", "Insert nothing", "Escape", () => shell.page.tools.use("rviz/Interact")),
   ];

@@ -4,6 +4,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
+import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
 import type { Insertable } from "../../tools/insertable";
 import { InsertButton } from "./button";
@@ -37,10 +38,13 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
           </InsertButton>
         ))}
       </div>
-      <label class="field find">
-        <Icon name="find" />
-        <input type="search" placeholder="Search the models" aria-label="Search the models" onInput={(event) => (search.value = event.currentTarget.value)} />
-      </label>
+      <div class="search">
+        <label class="field find">
+          <Icon name="find" />
+          <input type="search" placeholder="Search the models" aria-label="Search the models" onInput={(event) => (search.value = event.currentTarget.value)} />
+        </label>
+        <Button icon="upload" label="Upload a model" onClick={() => insertion.upload.open()} />
+      </div>
       <div class="scroll models" role="group" aria-label="Models">
         {found.length === 0 && <p class="empty">{said}</p>}
         {found.map((model) => (
@@ -52,18 +56,19 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
 }
 
 function ModelButton({ shell, model }: { readonly shell: Shell; readonly model: ModelEntry }): JSX.Element {
-  const { name, title, description } = model;
+  const { name, title, description, uploaded } = model;
+  const version = uploaded ? shell.insertion.upload.count.value : 0;
   return (
     <InsertButton shell={shell} thing={{ kind: "model", name, title }} class="model" tip={description === "" ? title : `${title}: ${description}`}>
-      <Picture name={name} />
+      <Picture key={version} name={name} version={version} />
       <span>{title}</span>
     </InsertButton>
   );
 }
 
 /** The server's picture of a model, asked for once it is seen. */
-function Picture({ name }: { readonly name: string }): JSX.Element {
+function Picture({ name, version }: { readonly name: string; readonly version: number }): JSX.Element {
   const failed = useSignal(false);
   if (failed.value) return <Icon name="model" />;
-  return <img src={`model.png?model=${encodeURIComponent(name)}`} alt="" loading="lazy" draggable={false} onError={() => (failed.value = true)} />;
+  return <img src={`model.png?model=${encodeURIComponent(name)}&version=${version}`} alt="" loading="lazy" draggable={false} onError={() => (failed.value = true)} />;
 }

@@ -1,6 +1,10 @@
-/** Opens an .rviz file of the person's machine: chosen, or dropped onto the page. */
+/** Opens files of the person's machine: an .rviz file that is chosen, or what is dropped onto the page. */
 
+import { droppedModel } from "../insert/model_files";
 import type { Shell } from "../shell";
+import { canEdit } from "../world/edits";
+
+const RVIZ = /\.(rviz|ya?ml)$/i;
 
 /** Let the person choose a file. */
 export function chooseRviz(shell: Shell): void {
@@ -9,8 +13,8 @@ export function chooseRviz(shell: Shell): void {
   input.click();
 }
 
-/** Take files that are dropped onto the page; returns how to stop. */
-export function acceptDroppedRviz(shell: Shell): () => void {
+/** Take files that are dropped onto the page, models where they can be inserted; returns how to stop. */
+export function acceptDroppedFiles(shell: Shell): () => void {
   const events = new AbortController();
   const hasFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") === true;
   const over = (event: DragEvent): void => {
@@ -19,7 +23,13 @@ export function acceptDroppedRviz(shell: Shell): () => void {
   const drop = (event: DragEvent): void => {
     if (!hasFile(event)) return;
     event.preventDefault();
-    void open(shell, event.dataTransfer?.files[0]);
+    const { dataTransfer: carried } = event;
+    const file = carried?.files[0];
+    if (carried !== null && file !== undefined && canEdit(shell) && !RVIZ.test(file.name)) {
+      const { upload } = shell.insertion;
+      upload.open();
+      void upload.send(droppedModel(carried));
+    } else void open(shell, file);
   };
   addEventListener("dragover", over, { signal: events.signal });
   addEventListener("drop", drop, { signal: events.signal });

@@ -1,0 +1,66 @@
+"""Files of an upload as they are written below a folder: names, number and size are bounded."""
+
+import re
+from pathlib import Path
+from typing import BinaryIO
+
+from trundle.diagnostics import UsageError
+
+MAX_FILES = 2000
+MAX_BYTES = 512 * 1024 * 1024
+"""Of one upload, unpacked."""
+_MAX_DEPTH = 16
+_PART = re.compile(r'[^\x00-\x1f\x7f<>:"|?*\\/]{1,120}')
+"""Name of a file or folder on every system, which device names and what ends in a dot or a blank are not."""
+_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+_SHOWN = 80
+
+
+class UploadTree:
+    """Folder that takes the files of one upload."""
+
+    def __init__(self, root: Path, *, max_bytes: int = MAX_BYTES) -> None:
+        """Write below an empty folder, at most `max_bytes`."""
+        self.root = root
+        self._left_bytes = min(max_bytes, MAX_BYTES)
+        self._names: set[str] = set()
+
+    def create(self, name: str) -> BinaryIO | None:
+        """Create the file of a relative path with slashes; None: it is hidden, and not kept.
+
+        Raises:
+            UsageError: the path is absolute, leads out of the folder, or is none on some system.
+            OSError: it cannot be created.
+        """
+        parts = [part for part in name.split("/") if part != "."]
+        if not is_portable(parts):
+            raise UsageError(f"{name[:_SHOWN]!r} is no path of a file in a model's folder")
+        if any(part.startswith(".") or part == "__MACOSX" for part in parts):
+            return None
+        if len(self._names) >= MAX_FILES:
+            raise UsageError(f"it has more than {MAX_FILES} files")
+        if (folded := "/".join(parts).casefold()) in self._names:
+            raise UsageError(f"{name[:_SHOWN]!r} is in it twice")
+        self._names.add(folded)
+        path = self.root.joinpath(*parts)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return path.open("xb")
+
+    def write(self, file: BinaryIO, content: bytes) -> None:
+        """Write a piece of a file.
+
+        Raises:
+            UsageError: the upload is too large.
+            OSError: it cannot be written.
+        """
+        self._left_bytes -= len(content)
+        if self._left_bytes < 0:
+            raise UsageError(f"it is too large: a model has at most {MAX_BYTES // 2**20} MiB, all of a run 2 GiB")
+        file.write(content)
+
+
+def is_portable(parts: list[str]) -> bool:
+    """True for names of folders and a file that every system can have."""
+    return 0 < len(parts) <= _MAX_DEPTH and all(
+        _PART.fullmatch(part) and not part.endswith((" ", ".")) and not _DEVICE.fullmatch(part) for part in parts
+    )

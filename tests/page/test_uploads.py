@@ -1,0 +1,133 @@
+"""Upload of models over HTTP: kept until the page ends, and refused to those who may not."""
+
+import http.client
+import io
+import json
+import uuid
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import urlsplit
+from zipfile import ZipFile
+
+import pytest
+from tests.page_client import ProtocolClient
+
+from trundle.page import PageServer, Session
+from trundle.page_address import PageAddress
+
+CONFIG = "<model><name>{}</name><sdf version='1.6'>model.sdf</sdf></model>"
+
+
+def zipped(files: dict[str, str]) -> bytes:
+    """Return a .zip of texts by name."""
+    data = io.BytesIO()
+    with ZipFile(data, "w") as packed:
+        for name, text in files.items():
+            packed.writestr(name, text)
+    return data.getvalue()
+
+
+CART = zipped({"cart/model.config": CONFIG.format("A cart"), "cart/model.sdf": "<sdf/>"})
+
+
+def _post(url: str, files: dict[str, bytes], *, kind: str = "multipart/form-data", **fields: str) -> tuple[int, str]:
+    """Send a form as a browser does; return status and body."""
+    boundary, parts = uuid.uuid4().hex, urlsplit(url)
+    body = b"".join(
+        f'--{boundary}\r\nContent-Disposition: form-data; name="{name}"; filename="f"\r\n'
+        f"Content-Type: application/octet-stream\r\n\r\n".encode()
+        + content
+        + b"\r\n"
+        for name, content in files.items()
+    )
+    connection = http.client.HTTPConnection(parts.netloc, timeout=60)
+    headers = {"Content-Type": f"{kind}; boundary={boundary}"} | {name.title(): text for name, text in fields.items()}
+    connection.request("POST", f"/models?{parts.query}", body + f"--{boundary}--\r\n".encode(), headers)
+    answer = connection.getresponse()
+    status, text = answer.status, answer.read().decode().strip()
+    connection.close()
+    return status, text
+
+
+def _uploads(page: PageServer) -> Path:
+    """Return the folder, of which the owner hears before the upload is answered."""
+    with ProtocolClient(page.url) as client:
+        client.send("trundle/request", id=1, request="models")
+        client.until(page.requests)
+    assert page.uploads is not None
+    return page.uploads
+
+
+def test_an_archive_becomes_a_model_and_another_of_its_name_takes_its_place(page: PageServer) -> None:
+    assert _post(page.url, {"cart.zip": CART}, origin=page.url) == (200, json.dumps({"models": ["cart"]}))
+    folder = _uploads(page)
+    assert sorted(each.name for each in (folder / "cart").iterdir()) == ["model.config", "model.sdf"]
+    files = {"cart/model.config": CONFIG.encode(), "cart/model.sdf": b"<sdf></sdf>", "cart/meshes/w.stl": b"solid"}
+    assert _post(page.url, files) == (200, json.dumps({"models": ["cart"]}))
+    assert (folder / "cart/model.sdf").read_bytes() == b"<sdf></sdf>"
+    assert (folder / "cart/meshes/w.stl").read_bytes() == b"solid"
+    assert [each.name for each in folder.parent.parent.glob("trundle-upload-*")] == []
+
+
+def test_a_single_file_is_a_model(page: PageServer) -> None:
+    assert _post(page.url, {"my wagon.urdf": b"<robot/>"}) == (200, json.dumps({"models": ["my wagon"]}))
+    assert "my wagon.urdf" in (_uploads(page) / "my wagon" / "model.config").read_text()
+
+
+@pytest.mark.parametrize(
+    ("files", "reason"),
+    [
+        ({"cart.zip": zipped({"readme.txt": ""})}, "no model.config, .sdf or .urdf in it"),
+        ({"cart.zip": b"PK"}, "the archive is damaged"),
+        ({"cart.zip": zipped({"../model.sdf": ""})}, "is no path of a file"),
+        ({"../cart.sdf": b""}, "is no path of a file"),
+        ({"ground_plane/model.config": b"", "ground_plane/m.sdf": b""}, "is on the model path already"),
+        ({".hidden": b""}, "no model.config"),
+        ({}, "no file was sent"),
+    ],
+)
+def test_a_refusal_says_why_and_keeps_nothing(page: PageServer, files: dict[str, bytes], reason: str) -> None:
+    _post(page.url, {"cart.zip": CART})
+    before = sorted(_uploads(page).parent.rglob("*"))
+    status, said = _post(page.url, files)
+    assert (status, reason in said) == (400, True), said
+    assert sorted(_uploads(page).parent.rglob("*")) == before
+
+
+def test_a_body_that_is_no_form_is_refused(page: PageServer) -> None:
+    assert _post(page.url, {"cart.zip": CART}, kind="text/plain")[0] == 400
+    for broken in ("multipart/form-data", "multipart/form-data; boundary=other"):
+        connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=60)
+        connection.request("POST", "/models", b"nonsense\r\n" * 1000, {"Content-Type": broken})
+        assert connection.getresponse().status == 400
+        connection.close()
+
+
+def test_who_only_looks_and_foreign_pages_upload_nothing(page: PageServer) -> None:
+    files = {"intruder.zip": zipped({"intruder/model.config": "", "intruder/model.sdf": ""})}
+    assert _post(page.view_url, files) == (403, "this link only allows looking")
+    for origin in ("http://evil.example", "null"):
+        assert _post(page.url, files, origin=origin)[0] == 403
+    assert _post(page.url, files, host="evil.example")[0] == 403
+    assert _post(page.url, {"cart.zip": CART})[0] == 200
+    assert not (_uploads(page) / "intruder").exists()
+
+
+@pytest.fixture
+def graph_page() -> Iterator[PageServer]:
+    with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0, needs_token=True)) as page:
+        yield page
+
+
+def test_without_a_simulation_or_the_token_nothing_is_taken(graph_page: PageServer) -> None:
+    assert _post(graph_page.url, {"cart.zip": CART}) == (400, "models are inserted where a world is simulated")
+    assert _post(graph_page.url.partition("?")[0], {"cart.zip": CART})[0] == 403
+    assert graph_page.uploads is None
+
+
+def test_all_is_removed_when_the_page_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    with PageServer.start(Session(title="t", kind="simulation"), at=PageAddress(port=0)) as page:
+        assert _post(page.url, {"cart.zip": CART})[0] == 200
+        assert list(tmp_path.glob("trundle-models-*/models/cart/model.sdf")) != []
+    assert list(tmp_path.glob("trundle-models-*")) == []

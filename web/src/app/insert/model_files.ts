@@ -1,0 +1,67 @@
+/** Files of a model on the person's machine: chosen, or dropped onto the page. */
+
+/** A file, and its path from the folder that was chosen. */
+export interface ModelFile {
+  readonly path: string;
+  readonly file: File;
+}
+
+const MOST_FILES = 2000;
+/** As the server takes of one model [B]. */
+const MOST_BYTES = 512 * 1024 * 1024;
+
+/** Let the person choose a file, or a folder with all that is in it. */
+export function chooseModel(what: "file" | "folder", take: (files: readonly ModelFile[]) => void): void {
+  const input = Object.assign(document.createElement("input"), { type: "file" });
+  if (what === "folder") input.webkitdirectory = true;
+  else input.accept = ".zip,.sdf,.urdf";
+  input.addEventListener("change", () => take([...(input.files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }))));
+  input.click();
+}
+
+/** Files and folders that are dropped; what is carried can be read during the event alone. */
+export function droppedModel(carried: DataTransfer): Promise<readonly ModelFile[]> {
+  const entries = [...carried.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
+  const files = [...carried.files].map((file) => ({ path: file.name, file }));
+  return entries.some(({ isDirectory }) => isDirectory) ? filesBelow(entries) : Promise.resolve(files);
+}
+
+async function filesBelow(entries: readonly FileSystemEntry[]): Promise<readonly ModelFile[]> {
+  const found: ModelFile[] = [];
+  const waiting = [...entries];
+  for (let entry = waiting.pop(); entry !== undefined && found.length <= MOST_FILES; entry = waiting.pop()) {
+    const { fullPath: path } = entry;
+    if (entry.isDirectory) waiting.push(...(await entriesOf(entry as FileSystemDirectoryEntry)));
+    else found.push({ path: path.replace(/^\//, ""), file: await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject)) });
+  }
+  return found;
+}
+
+/** What is in a folder, of which a reader returns a part at a time. */
+async function entriesOf(folder: FileSystemDirectoryEntry): Promise<readonly FileSystemEntry[]> {
+  const reader = folder.createReader();
+  const all: FileSystemEntry[] = [];
+  for (;;) {
+    const some = await new Promise<readonly FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+    if (some.length === 0 || all.length > MOST_FILES) return all;
+    all.push(...some);
+  }
+}
+
+/** Name of what was chosen: of the file, or of the folder. */
+export function titleOf(files: readonly ModelFile[]): string {
+  return files[0]?.path.split("/")[0] ?? "";
+}
+
+/** Send a model to the server; returns the names of the models in it, or throws a sentence. */
+export async function sendModel(files: readonly ModelFile[]): Promise<readonly string[]> {
+  if (files.length === 0) throw new Error("there is no file in it");
+  if (files.length > MOST_FILES) throw new Error(`it has more than ${MOST_FILES} files`);
+  if (files.reduce((sum, { file }) => sum + file.size, 0) > MOST_BYTES) throw new Error(`it is too large: a model has at most ${MOST_BYTES / 2 ** 20} MiB`);
+  const form = new FormData();
+  for (const { path, file } of files) form.append(path, file);
+  const answer = await fetch(`models${location.search}`, { method: "POST", body: form });
+  if (!answer.ok) throw new Error((await answer.text()).trim());
+  const { models } = (await answer.json()) as { readonly models: readonly string[] };
+  return models;
+}

@@ -1,0 +1,48 @@
+/** The upload of a model, after which it is among those to insert. */
+
+import { signal } from "@preact/signals";
+
+import { sentence } from "../../panels/use";
+import type { Shell } from "../shell";
+import { sendModel, titleOf, type ModelFile } from "./model_files";
+
+export class ModelUpload {
+  /** What is being sent; null: nothing is. */
+  readonly title = signal<string | null>(null);
+  readonly fault = signal("");
+  /** Uploads so far; pictures of those before are old. */
+  readonly count = signal(0);
+
+  constructor(private readonly shell: Shell) {}
+
+  open(): void {
+    this.fault.value = "";
+    this.shell.dialog.value = "upload";
+  }
+
+  /** Upload files; what is wrong is said by the dialog. */
+  async send(chosen: Promise<readonly ModelFile[]> | readonly ModelFile[]): Promise<void> {
+    if (this.title.peek() !== null) return;
+    this.fault.value = "";
+    this.title.value = "";
+    try {
+      const files = await chosen;
+      this.title.value = titleOf(files);
+      this.end(await sendModel(files));
+    } catch (error) {
+      const title = this.title.peek() ?? "";
+      this.fault.value = title === "" ? sentence(error) : `${title}: ${sentence(error)}`;
+    } finally {
+      this.title.value = null;
+    }
+  }
+
+  private end(names: readonly string[]): void {
+    const { dialog, insertion, layout, notices } = this.shell;
+    this.count.value += 1;
+    dialog.value = null;
+    notices.report("Models", `${names.join(", ")} can be inserted`, "ok");
+    layout.open("insert");
+    insertion.list();
+  }
+}
