@@ -54,6 +54,22 @@ def test_what_cannot_be_written_leaves_what_was_there(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["folder"]
 
 
+@pytest.mark.parametrize("has_links", [True, False])
+def test_a_new_file_takes_no_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, has_links: bool) -> None:
+    """On a disk with hard links and on one without."""
+
+    def refuse(*_: object) -> None:
+        raise OSError
+
+    if not has_links:
+        monkeypatch.setattr(os, "link", refuse)
+    write_atomically(tmp_path / "a", "mine", replace=False)
+    with pytest.raises(FileExistsError):
+        write_atomically(tmp_path / "a", "yours", replace=False)
+    assert (tmp_path / "a").read_text() == "mine"
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
 @pytest.mark.skipif(not DEV_FULL.is_char_device(), reason="this system has no /dev/full")
 def test_a_full_disk_is_one_sentence(model: str) -> None:
     words = [sys.executable, "-m", "trundle", "check", model]

@@ -7,25 +7,30 @@ from pathlib import Path
 from .diagnostics import UsageError
 
 
-def write_atomically(path: Path, content: str | bytes) -> None:
+def write_atomically(path: Path, content: str | bytes, *, replace: bool = True) -> None:
     """Write bytes, or a text as UTF-8; an existing file keeps its content until the new one is on disk.
 
     Permissions and symbolic links are kept; pipes and devices such as /dev/stdout are written directly.
 
     Raises:
         UsageError: it cannot be written.
+        FileExistsError: it is there, and `replace` is False.
     """
     data = content if isinstance(content, bytes) else content.encode()
     try:
         if path.exists() and not path.is_file():
             path.write_bytes(data)
         else:
-            _replace(path.resolve(), data)
+            _write(path.resolve(), data, replace=replace)
+    except FileExistsError:
+        if not replace:
+            raise
+        raise UsageError(f"cannot write {path}: another program writes it") from None
     except OSError as error:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
-def _replace(path: Path, data: bytes) -> None:
+def _write(path: Path, data: bytes, *, replace: bool) -> None:
     half = path.with_name(f".{path.name}.part")
     try:
         half.unlink(missing_ok=True)  # left by a killed program, or a link placed by another user
@@ -33,7 +38,22 @@ def _replace(path: Path, data: bytes) -> None:
             if path.exists():
                 shutil.copymode(path, half)
             file.write(data)
-        os.replace(half, path)
+        if replace:
+            os.replace(half, path)
+        else:
+            _move_new(half, path)
     except OSError:
         half.unlink(missing_ok=True)
         raise
+
+
+def _move_new(half: Path, path: Path) -> None:
+    """Move a file to a name that no other one has."""
+    try:
+        os.link(half, path)
+        half.unlink()
+    except FileExistsError:
+        raise
+    except OSError:  # a disk without hard links
+        path.touch(exist_ok=False)
+        os.replace(half, path)

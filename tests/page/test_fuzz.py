@@ -33,7 +33,7 @@ OPERATIONS: list[dict[str, Any]] = [
     {"op": "trundle/release", "topic": "/cmd_vel"},
     {"op": "trundle/request", "id": 1, "request": "step", "count": 1},
     {"op": "trundle/request", "id": 1, "request": "definition", "type": "std_msgs/String"},
-    {"op": "trundle/request", "id": 1, "request": "save_rviz_as", "name": "no/folder.rviz", "text": ""},
+    {"op": "trundle/request", "id": 1, "request": "save_rviz_as", "file": "../none.rviz", "text": ""},
 ]  # fmt: skip
 VALUES: list[Any] = [
     None, True, -1, 0, 2**31, 2**32, 2**64, 2**70, 1e308, -0.5, "", "/", "~", "//", "é\u0000", "x" * 2000, [], {}, [[]],

@@ -31,14 +31,14 @@ def client(folder: Path) -> Iterator[ProtocolClient]:
 
 def _save(client: ProtocolClient, name: str, text: str = TEXT, **more: Any) -> dict[str, Any]:
     count = len(client.jsons)
-    client.send("trundle/request", id=count, request="save_rviz_as", name=name, text=text, **more)
+    client.send("trundle/request", id=count, request="save_rviz_as", file=name, text=text, **more)
     client.until(lambda: client.jsons[count:] and client.last("trundle/response")["id"] == count)
     return client.last("trundle/response")
 
 
-@pytest.mark.parametrize("name", ["car.rviz", "rviz/car.rviz", ".car.rviz", "ein Wägelchen.rviz"])
+@pytest.mark.parametrize("name", ["car.rviz", "rviz/car.rviz", "new/folder/car (1).rviz", "ein Wägelchen.rviz"])
 def test_it_is_written_where_it_is_asked_for(client: ProtocolClient, folder: Path, name: str) -> None:
-    assert _save(client, name)["saved"] is True
+    assert _save(client, name)["file"] == name
     assert (folder / name).read_text() == TEXT
 
 
@@ -47,9 +47,9 @@ def test_a_file_that_is_there_is_replaced_only_when_that_is_asked_for(client: Pr
     path.write_text("mine")
     path.chmod(0o600)
 
-    assert _save(client, "mine.rviz")["saved"] is False
+    assert _save(client, "mine.rviz")["exists"] == "mine.rviz"
     assert path.read_text() == "mine"
-    assert _save(client, "mine.rviz", replace=True)["saved"] is True
+    assert _save(client, "mine.rviz", replace=True)["file"] == "mine.rviz"
     assert (path.read_text(), path.stat().st_mode & 0o777) == (TEXT, 0o600)
 
 
@@ -57,23 +57,24 @@ def test_a_file_that_is_there_is_replaced_only_when_that_is_asked_for(client: Pr
 def test_nothing_is_written_elsewhere(client: ProtocolClient, folder: Path, replace: bool) -> None:
     outside = folder.parent / "outside.rviz"
     outside.write_text("mine")
+    (folder / "file").touch()
     for link, target in (("link.rviz", outside), ("out", folder.parent)):
         if not (folder / link).is_symlink():
             (folder / link).symlink_to(target)
     refusals = {
-        "../outside.rviz": "not below the folder",
-        "rviz/../../outside.rviz": "not below the folder",
-        str(outside): "not below the folder",
-        "link.rviz": "not below the folder",
-        "out/outside.rviz": "not below the folder",
-        "out/new.rviz": "not below the folder",
-        "none/car.rviz": "there is no folder none",
-        "car.yaml": "ends with .rviz",
-        "car.rviz\n.rviz": "ends with .rviz",
-        "car\0.rviz": "ends with .rviz",
-        "rviz/.rviz": "ends with .rviz",
-        "": "ends with .rviz",
-        "x" * 300 + ".rviz": "cannot write",
+        "../outside.rviz": "below the folder",
+        "rviz/../../outside.rviz": "below the folder",
+        str(outside): "below the folder",
+        "link.rviz": "a link leads elsewhere",
+        "out/outside.rviz": "a link leads elsewhere",
+        "out/new.rviz": "a link leads elsewhere",
+        "file/car.rviz": "file is no folder",
+        "car.yaml": "ends in .rviz",
+        "car.rviz\n.rviz": "below the folder",
+        "car\0.rviz": "below the folder",
+        "rviz/.rviz": "below the folder",
+        "": "not a request",
+        "x" * 200 + ".rviz": "below the folder",
     }
     before = sorted(folder.parent.rglob("*"))
 
@@ -90,5 +91,5 @@ def test_a_folder_and_a_loop_of_links_are_no_files(client: ProtocolClient, folde
     if not (folder / "loop.rviz").is_symlink():
         (folder / "loop.rviz").symlink_to("loop.rviz")
 
-    assert _save(client, "folder.rviz", replace=replace)["error"] == "folder.rviz is a folder"
-    assert _save(client, "loop.rviz", replace=replace).get("saved") is not True
+    assert _save(client, "folder.rviz", replace=replace)["error"] == "folder.rviz: this is no file; choose another name"
+    assert _save(client, "loop.rviz", replace=replace).get("file") is None

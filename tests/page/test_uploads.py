@@ -78,7 +78,7 @@ def test_a_single_file_is_a_model(page: PageServer) -> None:
     ("files", "reason"),
     [
         ({"cart.zip": zipped({"readme.txt": ""})}, "no model.config, .sdf or .urdf in it"),
-        ({"cart.zip": b"PK"}, "the archive is damaged"),
+        ({"cart.zip": b"PK"}, "the archive cannot be unpacked"),
         ({"cart.zip": zipped({"../model.sdf": ""})}, "is no path of a file"),
         ({"../cart.sdf": b""}, "is no path of a file"),
         ({"ground_plane/model.config": b"", "ground_plane/m.sdf": b""}, "is on the model path already"),

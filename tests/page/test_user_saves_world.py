@@ -96,6 +96,7 @@ def test_no_file_is_replaced_unasked(user: PanelUser, folder: Path) -> None:
     dialog.get_by_label("File").press("Enter")
     dialog.get_by_text("yard.sdf is there already. Replace it?").wait_for()
     assert (folder / "yard.sdf").read_text() == WORLD
+    dialog.get_by_label("File").press("Enter")  # replaces nothing
     dialog.get_by_role("button", name="Replace").click()
     user.page.get_by_role("status").get_by_text("saved as yard.sdf").wait_for()
     assert trundle.load(str(folder / "yard.sdf")).world.physics.gravity == (0.0, 0.0, -2.5)

@@ -43,8 +43,6 @@ export class FakeConnection implements Connection {
   /** Texts of types' definitions. */
   readonly definitions = new Map<string, string>();
   readonly assets = new Map<string, ArrayBuffer>();
-  /** Files that were saved: name → text. */
-  readonly saved = new Map<string, string>();
   readonly answers = new Map<string, (request: RosMessage) => RosMessage>();
 
   readonly #subscribers = new Map<string, Set<Subscriber>>();
@@ -142,12 +140,6 @@ export class FakeConnection implements Connection {
   request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<RequestAnswer> {
     this.requests.push({ name, fields });
     return Promise.resolve({});
-  }
-
-  saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean> {
-    if (this.saved.has(name) && !replace) return Promise.resolve(false);
-    this.saved.set(name, text);
-    return Promise.resolve(true);
   }
 
   drive(topic: string, linear: number, angular: number): void {

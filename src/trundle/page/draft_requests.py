@@ -84,7 +84,7 @@ class RedoDraft(Action, frozen=True, tag="draft_redo"):
 
 
 class SaveDraft(Action, frozen=True, tag="draft_save"):
-    """Write model.sdf and model.config; answered with `folder`, or `exists` where files are in the way."""
+    """Write model.sdf and model.config; answered with the folder as `file`, or `exists` where files are in the way."""
 
     folder: FileName
     """Path below the folder where the simulation was started."""

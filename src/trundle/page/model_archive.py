@@ -40,8 +40,8 @@ def unpack(archive: Path, tree: UploadTree) -> None:
             for entry in packed.infolist():
                 if not entry.is_dir():
                     _unpack_entry(packed, entry, tree)
-    except (BadZipFile, zlib.error, struct.error, EOFError, ValueError, NotImplementedError) as error:
-        raise UsageError(f"the archive is damaged: {error}") from None
+    except (BadZipFile, zlib.error, struct.error, OSError, EOFError, ValueError, NotImplementedError) as error:
+        raise UsageError(f"the archive cannot be unpacked: {error}") from None
 
 
 def _unpack_entry(packed: ZipFile, entry: ZipInfo, tree: UploadTree) -> None:

@@ -11,6 +11,7 @@ import msgspec
 from aiohttp import MultipartReader
 
 from trundle.diagnostics import UsageError
+from trundle.output_folder import find_target, save_files
 from trundle.ros import GraphLoop, MessageError, WallClock, open_bag
 
 from .assets import Assets
@@ -37,7 +38,6 @@ from .protocol import (
 )  # fmt: skip
 from .requests import ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs
 from .ros_graph import RosGraph
-from .rviz_saving import save_rviz
 from .session import Session
 from .session_channel import SessionChannel
 from .uploads import Uploads
@@ -310,14 +310,13 @@ class Page:
             respond(client, client_id, str(error))
 
     async def _save_rviz(self, client: Connection, client_id: int | str, action: SaveRvizAs) -> None:
-        """Answer with whether it was saved: not where a file is there that may not be replaced."""
-        name, text, replace = action.name, action.text, action.replace
+        """Answer with `file`, or `exists` where a file is there that may not be replaced."""
         try:
-            saved = await asyncio.to_thread(save_rviz, Path.cwd(), name, text, replace=replace)
+            is_saved = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
         except UsageError as error:
             respond(client, client_id, str(error))
         else:
-            respond(client, client_id, saved=saved)
+            respond(client, client_id, **{"file" if is_saved else "exists": action.file})
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Have the bag or the owner do what a client asks for."""
@@ -333,3 +332,9 @@ class Page:
 
     def _update_watched(self) -> None:
         self._owner.set_watched(frozenset(topic for topic, box in self._boxes.items() if box.clients))
+
+
+def _save_rviz(root: Path, action: SaveRvizAs) -> bool:
+    """Write an .rviz file; False: it is there and may not be replaced."""
+    file = find_target(root, action.file, example="rviz/mine.rviz", suffixes=(".rviz",))
+    return save_files(root, {file: action.text}, replace=action.replace)

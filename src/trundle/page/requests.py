@@ -10,7 +10,7 @@ import msgspec
 
 from .draft_requests import DraftAction
 from .edit_requests import Action, EditAction
-from .world_requests import InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
+from .world_requests import FileName, InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
 
 _MAX_STEPS = 1_000_000
 _MAX_TEXT = 4_000_000
@@ -79,9 +79,9 @@ class SaveRviz(Action, frozen=True, tag="save_rviz"):
 
 
 class SaveRvizAs(Action, frozen=True, tag="save_rviz_as"):
-    """Save an .rviz file below the folder where Trundle was started; the server itself does it."""
+    """Save an .rviz file below the folder where Trundle was started, as `SaveWorld` does; the server itself does it."""
 
-    name: Annotated[str, msgspec.Meta(max_length=500)]
+    file: FileName
     text: Text
     replace: bool = False
     """True: a file of that name is replaced."""

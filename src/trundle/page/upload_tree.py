@@ -1,18 +1,15 @@
 """Files of an upload as they are written below a folder: names, number and size are bounded."""
 
-import re
 from pathlib import Path
 from typing import BinaryIO
 
 from trundle.diagnostics import UsageError
+from trundle.output_folder import is_portable
 
 MAX_FILES = 2000
 MAX_BYTES = 512 * 1024 * 1024
-"""Of one upload, unpacked."""
+"""Size of one upload, unpacked."""
 _MAX_DEPTH = 16
-_PART = re.compile(r'[^\x00-\x1f\x7f<>:"|?*\\/]{1,120}')
-"""Name of a file or folder on every system, which device names and what ends in a dot or a blank are not."""
-_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 _SHOWN = 80
 
 
@@ -33,7 +30,7 @@ class UploadTree:
             OSError: it cannot be created.
         """
         parts = [part for part in name.split("/") if part != "."]
-        if not is_portable(parts):
+        if not 0 < len(parts) <= _MAX_DEPTH or not all(map(is_portable, parts)):
             raise UsageError(f"{name[:_SHOWN]!r} is no path of a file in a model's folder")
         if any(part.startswith(".") or part == "__MACOSX" for part in parts):
             return None
@@ -57,10 +54,3 @@ class UploadTree:
         if self._left_bytes < 0:
             raise UsageError(f"it is too large: a model has at most {MAX_BYTES // 2**20} MiB, all of a run 2 GiB")
         file.write(content)
-
-
-def is_portable(parts: list[str]) -> bool:
-    """True for names of folders and a file that every system can have."""
-    return 0 < len(parts) <= _MAX_DEPTH and all(
-        _PART.fullmatch(part) and not part.endswith((" ", ".")) and not _DEVICE.fullmatch(part) for part in parts
-    )

@@ -10,10 +10,11 @@ from pathlib import Path, PurePosixPath
 from aiohttp import BodyPartReader, MultipartReader
 
 from trundle.diagnostics import UsageError
+from trundle.output_folder import is_portable
 from trundle.packages import Packages, is_stand_in
 
 from .model_archive import unpack
-from .upload_tree import MAX_BYTES, UploadTree, is_portable
+from .upload_tree import MAX_BYTES, UploadTree
 from .uploaded_model import find_models
 
 _MAX_RUN_BYTES = 4 * MAX_BYTES
@@ -73,7 +74,7 @@ class Uploads:
         models = find_models(root, PurePosixPath(first).stem)
         known = Packages(self._environment, start=Path.cwd()).models()
         for name in models:
-            if not is_portable([name]):
+            if not is_portable(name):
                 raise UsageError(f"{name!r} is no name of a folder")
             if name in known and not is_stand_in(known[name] / name):
                 raise UsageError(f"a model {name!r} is on the model path already; give its folder another name")

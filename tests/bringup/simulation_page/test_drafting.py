@@ -121,14 +121,14 @@ def test_an_empty_model_is_not_put_into_the_world(editor: Editor) -> None:
 def test_no_file_is_replaced_unasked(editor: Editor, tmp_path: Path) -> None:
     editor.ask(BeginDraft(model="crate"))
 
-    assert editor.ask(SaveDraft(folder="models/crate")) == {"folder": "models/crate"}
+    assert editor.ask(SaveDraft(folder="models/crate")) == {"file": "models/crate"}
     file = tmp_path / "models/crate/model.sdf"
     assert "<!-- of wood -->" in file.read_text()
     assert (tmp_path / "models/crate/model.config").is_file()
     editor.ask(SetField(part=(), field="@name", value="box"))
     assert editor.ask(SaveDraft(folder="models/crate")) == {"exists": "models/crate"}
     assert '<model name="crate">' in file.read_text()
-    assert editor.ask(SaveDraft(folder="models/crate", replace=True)) == {"folder": "models/crate"}
+    assert editor.ask(SaveDraft(folder="models/crate", replace=True)) == {"file": "models/crate"}
     assert '<model name="box">' in file.read_text()
     for name in ("../crate", "/tmp/crate", "models/.hidden"):
         assert "below the folder" in editor.ask(SaveDraft(folder=name))["error"]

@@ -49,8 +49,13 @@ def simulation(tmp_path: Path, environment: dict[str, str]) -> Simulation:
 
 
 @pytest.fixture
-def insertion(simulation: Simulation, tmp_path: Path, environment: dict[str, str]) -> Insertion:
-    contents = Contents(simulation, Packages(environment, start=tmp_path), environment)
+def packages(tmp_path: Path, environment: dict[str, str]) -> Packages:
+    return Packages(environment, start=tmp_path)
+
+
+@pytest.fixture
+def insertion(simulation: Simulation, packages: Packages, environment: dict[str, str]) -> Insertion:
+    contents = Contents(simulation, packages, environment)
     return Insertion(simulation, contents, lambda command: command(simulation))
 
 
@@ -72,7 +77,30 @@ def test_models_of_the_model_path_are_listed(insertion: Insertion, tmp_path: Pat
 
     models = insertion.handle(ListModels())["models"]
 
-    assert {"name": "crate", "title": "A crate", "description": "Of wood."} in models
+    assert {"name": "crate", "title": "A crate", "description": "Of wood.", "uploaded": False} in models
+
+
+def test_an_uploaded_model_comes_first_and_is_inserted(
+    insertion: Insertion, packages: Packages, simulation: Simulation, tmp_path: Path
+) -> None:
+    """Its text may read its own files, as that of every model does, and no others."""
+    _put_crate(tmp_path)
+    (tmp_path / "models").rename(tmp_path / "uploads")
+    insertion.handle(ListModels())
+    packages.add_models(tmp_path / "uploads")
+
+    first = insertion.handle(ListModels())["models"][0]
+    insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0)))
+
+    assert (first["name"], first["uploaded"]) == ("crate", True)
+    assert [model.name for model in simulation.models] == ["crate"]
+    secret = tmp_path / "secret.stl"
+    secret.write_text("solid")
+    mesh = f'<visual name="v"><geometry><mesh><uri>file://{secret}</uri></mesh></geometry></visual>'
+    text = CRATE.replace('<link name="body"/>', f'<link name="body">{mesh}</link>')
+    (tmp_path / "uploads/crate/model.sdf").write_text(text.format(""))
+    insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0)))
+    assert any("reads only below its own folders" in str(finding) for finding in simulation.report.findings)
 
 
 def test_a_model_stands_at_the_point_under_a_free_name(

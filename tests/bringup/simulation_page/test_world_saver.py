@@ -9,7 +9,7 @@ import pytest
 from tests.bringup.simulation_page.worlds import loaded, model
 
 from trundle.bringup.simulation_page.current_world import current_world
-from trundle.bringup.simulation_page.world_saver import WorldSaver, find_target
+from trundle.bringup.simulation_page.world_saver import WorldSaver, find_world
 from trundle.diagnostics import UsageError
 from trundle.packages import Packages
 from trundle.page import SaveWorld
@@ -29,7 +29,7 @@ Ask = Callable[[Path, SaveWorld], dict[str, Any]]
 def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / "dir.sdf").mkdir()
     with pytest.raises(UsageError):
-        find_target(tmp_path, name)
+        find_world(tmp_path, name)
 
 
 def test_links_that_lead_out_are_refused(tmp_path: Path) -> None:
@@ -40,8 +40,8 @@ def test_links_that_lead_out_are_refused(tmp_path: Path) -> None:
     (root / "out.sdf").symlink_to(outside / "there.sdf")
     for name in ("way/a.sdf", "way/deeper/a.sdf", "out.sdf"):
         with pytest.raises(UsageError, match="a link leads elsewhere"):
-            find_target(root, name)
-    assert find_target(root, "new/a b.world") == root / "new" / "a b.world"
+            find_world(root, name)
+    assert find_world(root, "new/a b.world") == root / "new" / "a b.world"
 
 
 @pytest.fixture

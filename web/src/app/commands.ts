@@ -59,7 +59,8 @@ export function listenForKeys(commands: CommandList): () => void {
     const keys = keysOf(event);
     const isPressedButton = event.key === " " && pressed !== null && event.target === pressed;
     const isTaken = keys !== "Ctrl K" && !isPressedButton && takesKeys(event.target, event.key);
-    if (event.defaultPrevented || isTaken || !commands.press(keys)) return;
+    const isAsked = document.querySelector("dialog[open]") !== null; // its button that was just disabled has lost the focus
+    if (event.defaultPrevented || isAsked || isTaken || !commands.press(keys)) return;
     event.preventDefault();
     isHeld = isPressedButton;
   };

@@ -63,9 +63,9 @@ export type ParameterValue = string | number | boolean | null | readonly Paramet
 /** What a request is answered with, by its kind. */
 export interface RequestAnswer {
   readonly definition?: string;
-  /** File that a world was saved as. */
+  /** File or folder that something was saved as. */
   readonly file?: string;
-  /** File that is in the way. */
+  /** File or folder that is in the way. */
   readonly exists?: string;
   /** Text of a world. */
   readonly sdf?: string;
@@ -75,12 +75,8 @@ export interface RequestAnswer {
   readonly html?: string;
   /** What a saved world does not hold. */
   readonly lost?: readonly string[];
-  /** True if an .rviz file was saved; false: one is in the way. */
-  readonly saved?: boolean;
   /** Address of a part of the model that is edited. */
   readonly part?: readonly string[];
-  /** Folder that a model was saved in. */
-  readonly folder?: string;
   /** Name of what was put into the world. */
   readonly name?: string;
   /** Programs that a model's plugins would run, if the person agrees. */
@@ -135,8 +131,6 @@ export interface Connection {
   fetchAsset(uri: string): Promise<ArrayBuffer>;
   /** A request to what started the page; rejects with its sentence. */
   request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<RequestAnswer>;
-  /** Save an .rviz file below the folder where Trundle was started; false: one of that name is there, and stays. */
-  saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean>;
   drive(topic: string, linear: number, angular: number): void;
   release(topic: string): void;
   /** Show the others what is selected here. */

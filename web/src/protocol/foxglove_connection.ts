@@ -111,10 +111,6 @@ export class FoxgloveConnection implements Connection {
     return this.#calls.request(name, fields);
   }
 
-  async saveRvizAs(name: string, text: string, replace: boolean): Promise<boolean> {
-    return (await this.#calls.request("save_rviz_as", { name, text, replace })).saved === true;
-  }
-
   drive(topic: string, linear: number, angular: number): void {
     this.#socket.send({ op: "trundle/drive", topic, linear, angular });
   }

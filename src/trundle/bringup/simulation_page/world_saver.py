@@ -4,20 +4,18 @@ import os
 import re
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
-from trundle.atomic_write import write_atomically
 from trundle.description import save_world
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.model import World
+from trundle.output_folder import find_target, save_files
 from trundle.packages import Packages
 from trundle.page import SaveWorld
 
 from .controls import reason_of
 
 _SUFFIXES = (".sdf", ".world")
-_PART = re.compile(r"\w[\w .+-]{0,99}")
-"""Name of a file or folder: neither hidden, nor `..`, nor with separators of any system."""
 _MAX_LOST = 20
 _MAX_WAITING = 4
 
@@ -76,17 +74,17 @@ class WorldSaver:
             self._waiting -= 1
 
     def _saved(self, request: SaveWorld, world: World, seed: int) -> dict[str, object]:
-        file = self._root / "world.sdf" if request.file is None else find_target(self._root, request.file)
-        if request.file is not None and file.exists() and not request.replace:
-            return {"exists": request.file}
+        name = request.file
+        file = self._root / "world.sdf" if name is None else find_world(self._root, name)
+        if name is not None and file.exists() and not request.replace:
+            return {"exists": name}
         saved = save_world(world, file=file, packages=self._packages, seed=seed)
         sdf, uploaded = name_uploads(saved.sdf.decode(), self._packages)
         lost = {"lost": (*uploaded, *saved.lost)[:_MAX_LOST]}
-        if request.file is None:
+        if name is None:
             return {"sdf": sdf, **lost}
-        if not write_file(self._root, file, sdf.encode(), replace=request.replace):
-            return {"exists": request.file}
-        return {"file": request.file, **lost}
+        is_saved = save_files(self._root, {file: sdf}, replace=request.replace)
+        return {"file": name, **lost} if is_saved else {"exists": name}
 
     def close(self) -> None:
         """Stop after the world that is being saved."""
@@ -98,63 +96,12 @@ def name_uploads(sdf: str, packages: Packages) -> tuple[str, list[str]]:
     needed: list[str] = []
     for folder in packages.added_models:
         sdf = sdf.replace(f"file://{folder.resolve()}/", "model://")
-        names = sorted(each.name for each in folder.iterdir() if f"model://{each.name}/" in sdf)
+        named = set(re.findall(r"model://([^/<\"']+)", sdf))
+        names = sorted(each.name for each in folder.iterdir() if each.name in named)
         needed += [f"the files of the uploaded model {name!r}: put its folder on GAZEBO_MODEL_PATH" for name in names]
     return sdf, needed
 
 
-def find_target(root: Path, name: str) -> Path:
-    """Return the file of a name from the page, below a folder.
-
-    Raises:
-        UsageError: it leads elsewhere, or is no name for a world.
-    """
-    parts = name.split("/")
-    if not all(map(is_file_name, parts)):
-        raise UsageError(
-            f"{name!r}: a world is saved below the folder where Trundle was started; write a name such as "
-            "worlds/mine.sdf, of letters, digits, blanks and . _ + -"
-        )
-    if PurePosixPath(name).suffix not in _SUFFIXES:
-        raise UsageError(f"{name!r}: the name of a world ends in {' or '.join(_SUFFIXES)}")
-    target = root.joinpath(*parts)
-    check_inside(root, target)
-    return target
-
-
-def is_file_name(part: str) -> bool:
-    """True for the name of a file or folder that can be written on any system."""
-    return _PART.fullmatch(part) is not None and not part.endswith((" ", "."))
-
-
-def check_inside(root: Path, target: Path) -> None:
-    """Refuse a file that a link leads out of the root, or that is none."""
-    folder = target.parent
-    while not os.path.lexists(folder):
-        folder = folder.parent
-    inside = Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(root))
-    if not inside or target.is_symlink():
-        raise UsageError(f"{target.relative_to(root)}: a link leads elsewhere; choose another name")
-    if not folder.is_dir() or (target.exists() and not target.is_file()):
-        raise UsageError(f"{target.relative_to(root)}: this is no file; choose another name")
-
-
-def write_file(root: Path, file: Path, content: bytes, *, replace: bool) -> bool:
-    """Write a file; False: another one has come into the way.
-
-    Raises:
-        UsageError: it cannot be written.
-    """
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        check_inside(root, file)
-        if replace:
-            write_atomically(file, content)
-            return True
-        with file.open("xb") as new:
-            new.write(content)
-    except FileExistsError:
-        return False
-    except OSError as error:
-        raise UsageError(f"cannot write {file.relative_to(root)}: {error.strerror}") from None
-    return True
+def find_world(root: Path, name: str) -> Path:
+    """Return the file of a world's name from the page; raises UsageError."""
+    return find_target(root, name, example="worlds/mine.sdf", suffixes=_SUFFIXES)

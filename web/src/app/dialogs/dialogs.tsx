@@ -9,7 +9,7 @@ import { Help } from "./help";
 import { NoticeList } from "../notices/list";
 import { Palette } from "./palette";
 import { PictureDialog } from "./picture_dialog";
-import { SaveDialog } from "./save_dialog";
+import { SaveRviz } from "./save_rviz";
 import { SaveWorld } from "./save_world";
 import type { Shell } from "../shell";
 import { UploadDialog } from "./upload_dialog";
@@ -26,7 +26,7 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   if (dialog === "picture") return <PictureDialog shell={shell} />;
   if (dialog === "link") return <LinkDialog shell={shell} />;
   if (dialog === "upload") return <UploadDialog shell={shell} />;
-  if (dialog === "save") return <SaveDialog shell={shell} />;
+  if (dialog === "save") return <SaveRviz shell={shell} />;
   if (dialog === "save_world") return <SaveWorld shell={shell} />;
   if (dialog === "save_model") return <SaveModel shell={shell} />;
   return dialog === "notices" ? <NoticeList shell={shell} /> : null;

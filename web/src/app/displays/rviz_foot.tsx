@@ -54,7 +54,7 @@ export function save(shell: Shell): void {
   const { connection, displays } = shell.page;
   const text = displays.save();
   const own = shell.ownFile.peek();
-  const saved = own === null ? connection.request("save_rviz", { text }) : connection.saveRvizAs(own.name, text, true);
+  const saved = own === null ? connection.request("save_rviz", { text }) : connection.request("save_rviz_as", { file: own.name, text, replace: true });
   saved.then(() => displays.markSaved(), (error: unknown) => shell.notices.report("Save", sentence(error)));
 }
 

@@ -1,0 +1,101 @@
+/** Asks for a name below the folder where Trundle was started, and before what is there is replaced. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+
+import { sentence } from "../../panels/use";
+import type { RequestAnswer } from "../../protocol/connection";
+import { Button } from "../../theme/button";
+import type { Shell } from "../shell";
+import { Dialog } from "./dialog";
+
+export interface SaveFileProps {
+  readonly shell: Shell;
+  readonly title: string;
+  readonly what: "File" | "Folder";
+  /** Name to begin with; null: the folder cannot be written. */
+  readonly offered: string | null;
+  /** Ending that a name gets that has none. */
+  readonly ending?: string;
+  readonly note: string;
+  /** Saves, and does what follows unless something is in the way. */
+  readonly save: (name: string, replace: boolean) => Promise<RequestAnswer>;
+  readonly download?: () => Promise<void> | void;
+}
+
+export function SaveFile({ shell, title, what, offered, ending = "", note, save, download }: SaveFileProps): JSX.Element {
+  const name = useSignal(offered ?? "");
+  const exists = useSignal<string | null>(null);
+  const fault = useSignal("");
+  const isBusy = useSignal(false);
+  const whole = (): string => `${name.value.trim()}${name.value.trim().endsWith(ending) ? "" : ending}`;
+  const run = async (work: () => Promise<RequestAnswer>): Promise<void> => {
+    isBusy.value = true;
+    fault.value = "";
+    try {
+      exists.value = (await work()).exists ?? null;
+      if (exists.value === null) shell.dialog.value = null;
+    } catch (error) {
+      fault.value = sentence(error);
+    } finally {
+      isBusy.value = false;
+    }
+  };
+  const isUsable = offered !== null && name.value.trim() !== "" && !isBusy.value;
+  const said = exists.value === null ? fault.value : `${exists.value} is there already. Replace it?`;
+  return (
+    <Dialog title={title} class="ask" onClose={() => (shell.dialog.value = null)}>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          if (isUsable && exists.peek() === null) void run(() => save(whole(), false)); // Enter replaces nothing
+        }}
+      >
+        {offered === null ? (
+          <p>The folder where Trundle was started cannot be written.{download !== undefined && " It can be downloaded."}</p>
+        ) : (
+          <label>
+            {what}, below the folder where Trundle was started
+            <span class={`field${said === "" ? "" : " wrong"}`}>
+              <input
+                aria-label={what}
+                aria-invalid={said !== ""}
+                value={name.value}
+                spellcheck={false}
+                autocomplete="off"
+                autoFocus
+                onFocus={({ currentTarget: { value }, currentTarget }) => currentTarget.setSelectionRange(value.lastIndexOf("/") + 1, value.includes(".") ? value.lastIndexOf(".") : value.length)}
+                onInput={(event) => {
+                  name.value = event.currentTarget.value;
+                  exists.value = null;
+                  fault.value = "";
+                }}
+              />
+            </span>
+          </label>
+        )}
+        {said !== "" && <p class="fault" role="alert">{said}</p>}
+        <p class="sm t2">{note}</p>
+        <div class="foot">
+          {download !== undefined && (
+            <Button icon="download" tone={offered === null ? "primary" : "line"} disabled={isBusy.value} onClick={() => void run(async () => (await download(), {}))}>
+              Download
+            </Button>
+          )}
+          <span class="sp" />
+          {exists.value !== null ? (
+            <Button tone="primary" disabled={!isUsable} onClick={() => void run(() => save(whole(), true))}>
+              Replace
+            </Button>
+          ) : (
+            offered !== null && (
+              <button type="submit" class="b pri" disabled={!isUsable}>
+                Save
+              </button>
+            )
+          )}
+        </div>
+      </form>
+    </Dialog>
+  );
+}

@@ -1,0 +1,30 @@
+/** Saving the displays as an .rviz file. */
+
+import type { JSX } from "preact";
+
+import { download, newName, rvizFile } from "../displays/rviz_foot";
+import type { Shell } from "../shell";
+import { SaveFile } from "./save_file";
+
+export function SaveRviz({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { connection, displays } = shell.page;
+  return (
+    <SaveFile
+      shell={shell}
+      title="Save as .rviz"
+      what="File"
+      offered={rvizFile(shell)?.name ?? newName(shell)}
+      ending=".rviz"
+      note="What is shown, the views and the tools, as rviz reads them."
+      save={async (file, replace) => {
+        const answer = await connection.request("save_rviz_as", { file, text: displays.save(), replace });
+        if (answer.file !== undefined) {
+          displays.markSaved();
+          shell.ownFile.value = { name: answer.file, writable: true };
+        }
+        return answer;
+      }}
+      download={() => download(shell)}
+    />
+  );
+}
