@@ -4,11 +4,12 @@ A `Diagnostics` is passed in by the caller; there is no global log. Every comman
 dataclasses: their module takes longer to load than light commands take to run.
 
     TrundleError
-    ├── DescriptionError   a file cannot be interpreted
-    └── UsageError         the request itself is wrong (a taken port, an unknown name)
+    ├── DescriptionError           a file cannot be interpreted
+    │   └── UnknownArgumentError   a file is given an argument that it does not have
+    └── UsageError                the request itself is wrong (a taken port, an unknown name)
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Literal, NamedTuple, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
@@ -44,6 +45,22 @@ class DescriptionError(TrundleError):
         self.what = what
         self.more = tuple(more)
         super().__init__("\n".join([f"{at}: error: {what}", *map(str, self.more)]))
+
+
+class UnknownArgumentError(DescriptionError):
+    """Argument that a xacro or launch file does not have."""
+
+    def __init__(self, at: Source, what: str, *, name: str) -> None:
+        """State the error; `name` is the argument's."""
+        super().__init__(at, what)
+        self.name = name
+
+
+def nearest(name: str, names: Collection[str]) -> str | None:
+    """Return the most similar of some names; None if none is similar."""
+    from difflib import get_close_matches  # lazy: slow to import, rarely needed
+
+    return next(iter(get_close_matches(name, sorted(names), n=1)), None)
 
 
 class DiagnosticJson(TypedDict):

@@ -11,6 +11,7 @@ PLAN = """\
 world: model://rp2w
 duration: 2
 seed: 3
+set: {models/rp2w/links/chassis/inertial/mass: mass + 0 * push}
 vary:
   mass: {uniform: [1, 2]}
   push: {range: [10, 30, 10]}
@@ -31,23 +32,28 @@ def _read(text: str):
         ("world: a\nduration: soon", "plan.yaml:2: error: duration must be a number, not 'soon'"),
         ("world: a\nduration: 0", "plan.yaml:2: error: duration must be above 0, not 0"),
         ("world: a\nduration: 1\nduration: 2", "plan.yaml:3: error: 'duration' is here twice; keep one"),
-        (PLAN + "repeat: 1.5", "plan.yaml:8: error: repeat must be a whole number of at least 1, not 1.5"),
-        (PLAN + "seeds: [1]\nrepeat: 2", "plan.yaml:9: error: `seeds` has a run for each seed"),
-        (PLAN + "  t: [1]", "plan.yaml:8: error: 't' is a column or name of every sweep; give another name"),
-        (PLAN + "  a b: [1]", "plan.yaml:8: error: 'a b' is no name; give a path with /"),
-        (PLAN + "  a: []", "plan.yaml:8: error: an empty list; give at least one value"),
-        (PLAN + "  a: {normal: [0, 0]}", "plan.yaml:8: error: normal: the deviation must be above 0, not 0"),
-        (PLAN + "  a: {log_uniform: [0, 1]}", "plan.yaml:8: error: log_uniform: needs 0 < low < high, not [0, 1]"),
-        (PLAN + "  a: {range: [0, 1, -1]}", "plan.yaml:8: error: range: steps of -1 do not lead from 0 to 1"),
-        (PLAN + "  a: {values: [1], with: push}", "plan.yaml:8: error: 'a' goes with 'push', which must be"),
-        (PLAN + "measure: {x: '1 +'}", "plan.yaml:8: error: measure x: '1 +' is no expression: invalid syntax"),
-        (PLAN + "measure:\n  x: {median: '1'}", "plan.yaml:9: error: measure x has no 'median'; it has: end"),
-        (PLAN + "measure:\n  x: {function: a.py:f}", "plan.yaml:9: error: function: there is no file "),
-        (PLAN + "measure:\n  mass: '1'", "plan.yaml:9: error: 'mass' varies already; name the measure otherwise"),
-        (PLAN + "events: [{at: 1}]", "plan.yaml:8: error: an event needs `at: SECONDS` and either `push: MODEL/LINK`"),
-        (PLAN + "events: [{at: 1, push: a/b, force: [1, 2]}]", "plan.yaml:8: error: force must be [x, y, z]"),
-        (PLAN + "events: [{at: 1, push: a/b, speed: 1}]", "plan.yaml:8: error: an event has no 'speed'; it has: at"),
-        (PLAN + "worlds: 1", "plan.yaml:8: error: a plan has no 'worlds'; it has: world, launch, duration"),
+        (PLAN + "repeat: 1.5", "plan.yaml:9: error: repeat must be a whole number of at least 1, not 1.5"),
+        (PLAN + "seeds: [1]\nrepeat: 2", "plan.yaml:10: error: `seeds` has a run for each seed"),
+        (PLAN + "  t: [1]", "plan.yaml:9: error: 't' is a column or name of every sweep; give another name"),
+        (PLAN + "  a b: [1]", "plan.yaml:9: error: 'a b' is no name; give a path with /"),
+        (PLAN + "  a: []", "plan.yaml:9: error: an empty list; give at least one value"),
+        (PLAN + "  a: {normal: [0, 0]}", "plan.yaml:9: error: normal: the deviation must be above 0, not 0"),
+        (PLAN + "  a: {log_uniform: [0, 1]}", "plan.yaml:9: error: log_uniform: needs 0 < low < high, not [0, 1]"),
+        (PLAN + "  a: {range: [0, 1, -1]}", "plan.yaml:9: error: range: steps of -1 do not lead from 0 to 1"),
+        (PLAN + "  a: {values: [1], with: push}", "plan.yaml:9: error: 'a' goes with 'push', which must be"),
+        (PLAN + "measure: {x: '1 +'}", "plan.yaml:9: error: measure x: '1 +' is no expression: invalid syntax"),
+        (PLAN + "measure:\n  x: {median: '1'}", "plan.yaml:10: error: measure x has no 'median'; it has: end"),
+        (PLAN + "measure:\n  x: {function: a.py:f}", "plan.yaml:10: error: function: there is no file "),
+        (PLAN + "measure:\n  mass: '1'", "plan.yaml:10: error: 'mass' varies already; name the measure otherwise"),
+        (PLAN + "events: [{at: 1}]", "plan.yaml:9: error: an event needs `at: SECONDS` and either `push: MODEL/LINK`"),
+        (PLAN + "events: [{at: 1, push: a/b, force: [1, 2]}]", "plan.yaml:9: error: force must be [x, y, z]"),
+        (PLAN + "events: [{at: 1, push: a/b, speed: 1}]", "plan.yaml:9: error: an event has no 'speed'; it has: at"),
+        (PLAN + "worlds: 1", "plan.yaml:9: error: a plan has no 'worlds'; it has: world, launch, duration"),
+        (PLAN + "  frction: [1]", "plan.yaml:9: error: vary: nothing uses 'frction'; name it in `set`, `events`, "),
+        (PLAN + "  timestep: [1]", "plan.yaml:9: error: vary: nothing uses 'timestep'; the nearest name is 'time_"),
+        (PLAN + "  speeed: [1]\nstop: [abs(speed) > 1]", "plan.yaml:9: error: vary: nothing uses 'speeed'; the n"),
+        (PLAN + "  a: {values: [1, 2, 3], with: push}", "plan.yaml:9: error: vary: nothing uses 'a'; name it in"),
+        (PLAN + "  models/rp2w/links/chassis/inertial/mass: [1]", "plan.yaml:9: error: vary: `set` gives 'models/"),
         ("world: a\nduration: 1\nsamples: 9", "plan.yaml:3: error: `samples` needs a distribution in `vary`"),
     ],
 )  # fmt: skip
@@ -84,7 +90,7 @@ def test_a_latin_hypercube_has_one_sample_in_each_slice() -> None:
 
 
 def test_distributions_have_their_moments() -> None:
-    vary = "vary: {n: {normal: [5, 2]}, l: {log_uniform: [1e-2, 1e2]}}"
+    vary = "vary: {n: {normal: [5, 2]}, l: {log_uniform: [1e-2, 1e2]}}\nset: {gravity/z: n * l}"
     text = f"world: a\nduration: 1\nsamples: 4096\ndesign: sobol\n{vary}"
     rows = list(Rows(_read(text)))
     numbers = [float(str(row.values["n"])) for row in rows]

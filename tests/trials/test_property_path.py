@@ -48,8 +48,16 @@ def test_short_names_and_components(world: World) -> None:
 @pytest.mark.parametrize(
     ("path", "value", "said"),
     [
-        ("models/rp/links", 1, "models/rp/links: models has no 'rp'; it has: rp2w, ground_plane, *"),
-        ("models/rp2w/links/chassis/inertial/mas", 1, "models/rp2w/links/chassis/inertial has no 'mas'; it has: mass"),
+        (
+            "models/rp/links",
+            1,
+            "models/rp/links: models has no 'rp'; the nearest is 'rp2w'; it has: rp2w, ground_plane, *",
+        ),
+        (
+            "models/rp2w/links/chassis/inertial/mas",
+            1,
+            "models/rp2w/links/chassis/inertial has no 'mas'; the nearest is 'mass'; it has: ",
+        ),
         ("models/rp2w/links/chassis/inertial", 1, "models/rp2w/links/chassis/inertial is no single value; go on with"),
         ("models/rp2w/static", 1, "models/rp2w/static must be true or false, not 1"),
         ("gravity", (0, 1), "gravity must be [x, y, z], not (0, 1)"),

@@ -10,7 +10,7 @@ from trundle.trials import Results, RowResult, Rows, Table, lock_folder, read_pl
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 
-TEXT = "world: w.sdf\nduration: 1\nsamples: 25\nvary: {a: {uniform: [0, 1]}, b: [1, 2]}\nmeasure: {x: '1', y: '2'}"
+TEXT = "world: w.sdf\nduration: 1\nsamples: 25\nvary: {a: {uniform: [0, 1]}, b: [1, 2]}\nmeasure: {x: a, y: b}"
 
 
 def _open(folder: Path, text: str = TEXT) -> Results:

@@ -3,7 +3,6 @@
 A picture is there once its record is, which is written last.
 """
 
-import hashlib
 import os
 from collections.abc import Iterable, Iterator
 from io import BytesIO
@@ -38,8 +37,12 @@ class DatasetFolder:
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def open(self, plan: DatasetPlan) -> None:
-        """Make the folder, or go on with one of the same plan; its number of pictures may differ.
+    def open(self, plan: DatasetPlan, digest: str) -> None:
+        """Make the folder, or go on with one of the same plan.
+
+        Args:
+            plan: kept beside its pictures.
+            digest: of everything that the pictures depend on.
 
         Raises:
             UsageError: it has the pictures of another plan, or cannot be written.
@@ -49,11 +52,11 @@ class DatasetFolder:
                 (self.path / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"{self.path}: {error.strerror}; give another folder with -o") from None
-        path, digest = self.path / _PLAN, plan_digest(plan)
+        path = self.path / _PLAN
         if not path.exists():
             write_atomically(path, json.encode({"digest": digest, "text": plan.text}) + b"\n")
         elif _digest_in(path) != digest:
-            what = "has the pictures of another plan, or the plan or its models have changed since"
+            what = "has the pictures of another plan, or the plan, its world or its models have changed since"
             raise UsageError(f"{self.path} {what}; give another folder with -o, or delete this one")
 
     def done(self) -> set[int]:
@@ -113,15 +116,3 @@ def png(pixels: NDArray[np.uint8] | NDArray[np.uint16]) -> bytes:
     file = BytesIO()
     Image.fromarray(pixels).save(file, "PNG", compress_level=1)
     return file.getvalue()
-
-
-def plan_digest(plan: DatasetPlan) -> str:
-    """Return a digest of a plan without its number of pictures, of its models and textures."""
-    text = "\n".join(line for line in plan.text.splitlines() if not line.startswith("count:"))
-    paints = [*(each.paint for each in plan.objects), *plan.materials.values()]
-    if plan.distractors is not None:
-        paints.append(plan.distractors.paint)
-    files = [Path(name) for name in (plan.world, *(each.model for each in plan.objects)) if name]
-    files += [texture for paint in paints for texture in paint.textures if isinstance(texture, Path)]
-    parts = [text.encode(), *(path.read_bytes() for path in files if path.is_file())]
-    return hashlib.sha256(b"\0".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()

@@ -58,6 +58,8 @@ class PictureMaker:
         plan = plan if self._mounted is None else self._mounted.plan
         self.plan = plan
         """The plan; of a camera in the world with what its sensor says."""
+        self.world = simulation.world
+        """The world with all its objects and distractors."""
         outlines = Outlines(scene)
         self.looks = Looks(plan, scene, instances)
         self.placer = Placer(plan, simulation, instances, scene, outlines)

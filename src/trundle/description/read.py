@@ -7,7 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from urllib.parse import unquote
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UnknownArgumentError
 from trundle.files import is_stream, read_stream, read_text
 from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_ros2, refuse_ros2_language, refuse_template
@@ -45,7 +45,8 @@ def load(
 
     Raises:
         DescriptionError: the description cannot be interpreted.
-        UsageError: no such model, or arguments for another kind of file.
+        UnknownArgumentError: the file has no such argument.
+        UsageError: no such model.
     """
     path = _find(what, packages)
     if is_stream(path):
@@ -62,7 +63,8 @@ def load(
     text = read_text(path) if root.tag == "robot" else ""
     is_xacro = "xmlns:xacro" in text
     if arguments and not is_xacro:
-        raise UsageError(f"{path} is not a xacro file, and takes no arguments: {', '.join(arguments)}")
+        what = f"not a xacro file, it has no arguments: {', '.join(arguments)}"
+        raise UnknownArgumentError(Source(str(path)), what, name=next(iter(arguments)))
     if root.tag == "robot":
         if is_xacro:
             text = _expanded(path, packages, report, arguments=arguments)

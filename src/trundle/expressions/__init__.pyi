@@ -3,6 +3,7 @@ from .budget import ExpressionError as ExpressionError
 from .containers import known_keys as known_keys
 from .functions import MATH_NAMES as MATH_NAMES
 from .functions import PYTHON_NAMES as PYTHON_NAMES
+from .identifiers import free_names as free_names
 from .interpreter import Interpreter as Interpreter
 from .methods import is_method as is_method
 from .values import Caller as Caller

@@ -1,9 +1,9 @@
 """Command-line arguments of a launch."""
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
-from trundle.diagnostics import DescriptionError
+from trundle.diagnostics import UnknownArgumentError, nearest
 from trundle.xmlnode import XmlNode
 
 _USE = re.compile(r"""\$\(\s*arg\s+([^\s)]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\)""")
@@ -24,7 +24,7 @@ class CommandLine:
         """Reject arguments that no file declares or uses; roslaunch silently ignores misspelt ones.
 
         Raises:
-            DescriptionError: an argument is unknown; the text names the closest match and all arguments.
+            UnknownArgumentError: an argument is unknown; the text names the closest match and all arguments.
         """
         texts = [text for root in self._files for text in _texts(root)]
         known = {name for root in self._files for name in _declared(root)} | set(_used(texts))
@@ -34,14 +34,7 @@ class CommandLine:
                 said = f"; the nearest is {near!r}" if near else ""
                 there_is = ", ".join(map(repr, sorted(known))) or "none"
                 what = f"no argument {name!r} to set{said}; the file's arguments: {there_is}"
-                raise DescriptionError(self._files[0].at, what)
-
-
-def nearest(name: str, names: Collection[str]) -> str | None:
-    """Most similar of some names; None if none is similar."""
-    from difflib import get_close_matches  # lazy: slow to import, rarely needed
-
-    return next(iter(get_close_matches(name, names, n=1)), None)
+                raise UnknownArgumentError(self._files[0].at, what, name=name)
 
 
 def _used(texts: Iterable[str]) -> Iterator[str]:

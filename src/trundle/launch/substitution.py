@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from trundle.diagnostics import DescriptionError, Source
+from trundle.diagnostics import DescriptionError, Source, nearest
 from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, wrap_function
 
-from .command_line import nearest
 from .missing_packages import MissingPackageError, MissingPackages
 from .packages import PackageFinder
 from .scope import Scope

@@ -8,6 +8,7 @@ from .mesh import MeshError as MeshError
 from .mesh import MeshPart as MeshPart
 from .mesh import Texture as Texture
 from .raw import RawPart as RawPart
+from .references import referenced_files as referenced_files
 from .road_strip import strip_mesh as strip_mesh
 from .skeleton import Motion as Motion
 from .skeleton import Skin as Skin

@@ -81,13 +81,28 @@ def _parts(path: Path, suffix: str) -> list[RawPart]:
     if suffix not in _SLOW or len(data) < _WORTH_KEEPING:
         return _read(data, suffix, path)
     key = hashlib.sha256(f"{cache.VERSION} {suffix} ".encode() + data)
-    for name in _LIBRARY.findall(data) if suffix == ".obj" else []:
-        key.update(_read_sibling(path, name.decode("utf-8", "replace")) or b"")
+    for name in _library_names(data) if suffix == ".obj" else []:
+        key.update(_read_sibling(path, name) or b"")
     kept = cache.load_parts(key.hexdigest())
     if kept is None:
         kept = _read(data, suffix, path)
         cache.save_parts(key.hexdigest(), kept)
     return kept
+
+
+def material_libraries(path: Path) -> list[Path]:
+    """Return the files that an .obj takes its materials from, whether they are there or not; none of another mesh.
+
+    Raises:
+        OSError: the mesh cannot be read.
+    """
+    if path.suffix.lower() != ".obj":
+        return []
+    return [_sibling(path, name) for name in _library_names(read_file(path, max_bytes=MAX_BYTES))]
+
+
+def _library_names(data: bytes) -> list[str]:
+    return [name.decode("utf-8", "replace") for name in _LIBRARY.findall(data)]
 
 
 def _read(data: bytes, suffix: str, path: Path) -> list[RawPart]:
@@ -110,9 +125,13 @@ def _read(data: bytes, suffix: str, path: Path) -> list[RawPart]:
             return read_collada(data)
 
 
+def _sibling(path: Path, name: str) -> Path:
+    return path.parent / name.replace("\\", "/")
+
+
 def _read_sibling(path: Path, name: str) -> bytes | None:
     """Read a file in the mesh's folder or below; None if it is missing, elsewhere or too large."""
-    file = path.parent / name.replace("\\", "/")
+    file = _sibling(path, name)
     try:
         inside = Path(os.path.realpath(file)).is_relative_to(os.path.realpath(path.parent))
         return read_file(file, max_bytes=MAX_BYTES) if inside else None

@@ -8,6 +8,7 @@ from .plan import Formula as Formula
 from .plan import Measure as Measure
 from .plan import Plan as Plan
 from .plan import Value as Value
+from .plan import Variation as Variation
 from .plan_reader import load_plan as load_plan
 from .plan_reader import read_plan as read_plan
 from .plan_source import description_path as description_path

@@ -10,6 +10,7 @@ from trundle.expressions import Interpreter
 
 from .plan import Design, Event, Formula, Measure, Over, Plan
 from .plan_source import description_path, read_source
+from .unused import check_used
 from .variation_reader import read_variation
 from .yaml_node import YamlNode, read_yaml
 
@@ -89,7 +90,7 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
         if any(each.name == measure.name for each in vary):
             raise DescriptionError(measure.at, f"{measure.name!r} varies already; name the measure otherwise")
     bag_s, bag_without = _bag(found["bag"]) if "bag" in found else (None, frozenset[str]())
-    return Plan(
+    plan = Plan(
         file=file,
         folder=folder,
         text=text,
@@ -118,6 +119,8 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
         measures=measures,
         criteria=_formulas(found, "pass"),
     )
+    check_used(plan)
+    return plan
 
 
 def _bag(node: YamlNode) -> tuple[float, frozenset[str]]:

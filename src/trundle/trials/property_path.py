@@ -10,7 +10,7 @@ from typing import Any, TypeVar, cast
 from msgspec import Struct
 from msgspec.structs import replace
 
-from trundle.diagnostics import UsageError
+from trundle.diagnostics import UsageError, nearest
 from trundle.spatial import Pose
 
 from .plan import Value
@@ -55,7 +55,11 @@ class _Path:
 
     def _fail(self, parts: Sequence[str], depth: int, there: Sequence[str]) -> UsageError:
         where = "/".join(parts[:depth]) or "the world"
-        return UsageError(f"{self._path}: {where} has no {parts[depth]!r}; it has: {', '.join(there) or 'nothing'}")
+        near = nearest(parts[depth], there) if len(there) > 1 else None
+        said = f"; the nearest is {near!r}" if near else ""
+        return UsageError(
+            f"{self._path}: {where} has no {parts[depth]!r}{said}; it has: {', '.join(there) or 'nothing'}"
+        )
 
     def replaced(self, owner: object, parts: list[str], depth: int) -> object:
         """Return `owner` with the value at the rest of the path."""
@@ -87,7 +91,7 @@ class _Path:
         if part == "friction" and "surface" in fields:
             return replace(owner, surface=self.replaced(getattr(owner, "surface"), parts, depth))  # noqa: B009
         if part not in fields:
-            raise self._fail(parts, depth, _names(owner))
+            raise self._fail(parts, depth, [*(_ALIASES if depth == 0 else ()), *_names(owner)])
         return replace(owner, **{part: self.replaced(getattr(owner, part), parts, depth + 1)})
 
     def _number(self, owner: Struct, field: str) -> object:

@@ -10,8 +10,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from trundle.bringup.dataset.dataset_world import picture_maker
+from trundle.bringup.dataset.digest import dataset_digest
+from trundle.datasets import DatasetFolder, load_dataset_plan
 from trundle.datasets.annotation import Mask
 from trundle.datasets.run_length import decode_mask
+from trundle.diagnostics import UsageError
 
 TRUNDLE = Path(sys.executable).with_name("trundle")
 WORLD = """<sdf version="1.6"><world name="w"><model name="floor"><static>1</static><link name="l">
@@ -98,9 +102,70 @@ def test_another_plan_does_not_write_into_the_folder(plan: Path) -> None:
     done = _make(plan, "--count", "1")
 
     assert done.returncode == 1
-    assert "has the pictures of another plan, or the plan or its models have changed since" in done.stderr
+    assert "has the pictures of another plan, or the plan, its world or its models have changed since" in done.stderr
     (plan.with_suffix(".dataset") / "plan.json").write_text("{")
     assert "has the pictures of another plan" in _make(plan, "--count", "1").stderr
+
+
+def _with_files(folder: Path, *, includes: bool) -> Path:
+    """Write a plan whose object is a xacro robot with an included file, a mesh with a material library and a texture,
+    or a model that includes another one.
+    """
+    mesh = "mtllib part.mtl\nv 0 0 0\nv .2 0 0\nv 0 .2 0\nv 0 0 .2\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl red\n"
+    faces = "".join(f"f {a}/1 {b}/2 {c}/3\n" for a, b, c in ((1, 3, 2), (1, 2, 4), (2, 3, 4), (1, 4, 3)))
+    (folder / "part.obj").write_text(mesh + faces)
+    (folder / "part.mtl").write_text("newmtl red\nKd 1 0 0\nmap_Kd red.png\n")
+    Image.new("RGB", (8, 8), (200, 10, 10)).save(folder / "red.png")
+    xacro = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    (folder / "size.xacro").write_text(f'<robot {xacro}><xacro:property name="mass" value="1"/></robot>')
+    shape = f'<geometry><mesh filename="file://{folder}/part.obj"/></geometry>'
+    inertia = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    link = f'<link name="l"><inertial><mass value="${{mass}}"/>{inertia}</inertial><visual>{shape}</visual></link>'
+    include = f'<xacro:include filename="{folder}/size.xacro"/>'
+    (folder / "robot.xacro").write_text(f'<robot name="r" {xacro}>{include}{link}</robot>')
+    ball = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
+    (folder / "ball.sdf").write_text(
+        f'<sdf version="1.6"><model name="b"><link name="l"><visual name="v">{ball}</visual></link></model></sdf>'
+    )
+    (folder / "outer.sdf").write_text(
+        f'<sdf version="1.6"><model name="o"><include><uri>file://{folder}/ball.sdf</uri></include></model></sdf>'
+    )
+    (folder / "plan.yaml").write_text(f"""\
+world: empty.world
+count: 1
+size: [64, 48]
+camera: {{position: [1, 1, 1]}}
+objects: {{o: {{model: {"outer.sdf" if includes else "robot.xacro"}, position: [0, 0, 1]}}}}
+""")
+    return folder / "plan.yaml"
+
+
+@pytest.mark.parametrize(
+    ("name", "changed", "by"),
+    [
+        ("part.obj", "v .2 0 0", "v .3 0 0"),
+        ("part.mtl", "Kd 1 0 0", "Kd 0 1 0"),
+        ("red.png", "", ""),
+        ("size.xacro", 'value="1"', 'value="2"'),
+        ("ball.sdf", "0.1", "0.2"),
+    ],
+)
+def test_a_dataset_does_not_go_on_with_a_changed_file(tmp_path: Path, name: str, changed: str, by: str) -> None:
+    """Included xacro files and models, meshes, their materials and textures: by their content."""
+    plan = load_dataset_plan(_with_files(tmp_path, includes=name == "ball.sdf"))
+    folder = DatasetFolder(tmp_path / "out")
+    folder.open(plan, dataset_digest(picture_maker(plan)))
+    folder.open(plan, dataset_digest(picture_maker(plan)))
+
+    if name == "red.png":
+        Image.new("RGB", (8, 8), (10, 10, 200)).save(tmp_path / name)
+    else:
+        text = (tmp_path / name).read_text()
+        assert changed in text
+        (tmp_path / name).write_text(text.replace(changed, by))
+
+    with pytest.raises(UsageError, match="or the plan, its world or its models have changed since"):
+        folder.open(plan, dataset_digest(picture_maker(plan)))
 
 
 @pytest.mark.slow

@@ -86,7 +86,7 @@ def test_repetitions_of_a_launch_differ_by_their_seed(plan: Path) -> None:
     ("changed", "by", "said"),
     [
         ("models/box/links", "models/bx/links", "no such model was spawned; models: 'box'"),
-        ("links/body", "links/bdy", "has no 'bdy'; it has: body, *"),
+        ("links/body", "links/bdy", "has no 'bdy'; the nearest is 'body'; it has: body, *"),
         ("box/body, force", "box/bdy, force", "no link 'bdy'"),
     ],
 )
@@ -100,10 +100,46 @@ def test_what_is_not_there_is_the_reason_of_an_error(plan: Path, changed: str, b
     assert said in result.reason
 
 
-def test_an_unknown_argument_is_refused(plan: Path) -> None:
-    plan.write_text(PLAN.replace("arguments/height", "arguments/hight"))
-    with pytest.raises(TrundleError, match=r"box\.launch:1: error: no argument 'hight' to set; "):
+@pytest.mark.parametrize(
+    ("changed", "by", "said"),
+    [
+        (
+            "arguments/height",
+            "arguments/hight",
+            "plan.yaml:6: error: arguments/hight: {}/box.launch:1: no argument 'hight'",
+        ),
+        ("gravity/z", "gravty/z", "plan.yaml:8: error: gravty/z: the world has no 'gravty'; the nearest is 'gravity'"),
+        ("links/body", "links/bdy", "plan.yaml:7: error: models/box/links/bdy/inertial/mass: models/box/links has no"),
+        (
+            "parameters/gain",
+            "parameters/g n",
+            "plan.yaml:8: error: parameters/g n: not a legal name of a ROS parameter",
+        ),
+    ],
+)
+def test_a_name_that_the_launch_cannot_have_is_refused(plan: Path, changed: str, by: str, said: str) -> None:
+    plan.write_text(PLAN.replace(changed, by))
+    with pytest.raises(TrundleError) as caught:
         trundle.sweep(plan)
+    assert said.format(plan.parent) in str(caught.value)
+    assert not plan.with_suffix(".sweep").exists()
+
+
+def test_a_name_that_only_a_program_could_use_is_warned_of(plan: Path) -> None:
+    """Nodes may read parameters, and programs spawn models, that the launch file does not name."""
+    plan.write_text(PLAN.replace("parameters/gain", "parameters/box_descriptio").replace("models/box/l", "models/bo/l"))
+    read = load_plan(plan)
+
+    first, second = runner_of(read).check(Rows(read).row(0))
+
+    assert first.endswith(
+        "plan.yaml:8: warning: parameters/box_descriptio: the launch sets no parameter '/box_descriptio'; "
+        "the nearest is '/box_description'; each run has it all the same"
+    )
+    assert second.endswith(
+        "plan.yaml:7: warning: models/bo/links/body/inertial/mass: the launch names no model 'bo'; "
+        "the nearest is 'box'; models: 'box'; a program must spawn it"
+    )
 
 
 MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
@@ -137,6 +173,32 @@ def test_a_sweep_does_not_go_on_with_a_changed_file(plan: Path, name: str, chang
         (folder / file).write_text(MESH)
     read, results = load_plan(plan), folder / "out"
     open_results(read, Rows(read), results, runner_of(read)).close()
+    open_results(read, Rows(read), results, runner_of(read)).close()
+
+    text = (folder / name).read_text()
+    assert changed in text
+    (folder / name).write_text(text.replace(changed, by))
+
+    with pytest.raises(UsageError, match="another plan"):
+        open_results(read, Rows(read), results, runner_of(read))
+
+
+@pytest.mark.parametrize(
+    ("name", "changed", "by"), [("other.urdf", 'value="1"', 'value="2"'), ("more.launch", "5", "6")]
+)
+def test_files_that_only_another_argument_names_count(plan: Path, name: str, changed: str, by: str) -> None:
+    folder = plan.parent
+    (folder / "other.urdf").write_text(URDF)
+    (folder / "more.launch").write_text('<launch><param name="more" value="5"/></launch>')
+    chosen = LAUNCH.replace("box.urdf", "$(arg which).urdf").replace(
+        '"height"', '"which" default="box"/><arg name="height"'
+    )
+    more = """<include if="$(eval arg('height') == 30)" file="$(dirname)/more.launch"/></launch>"""
+    (folder / "box.launch").write_text(chosen.replace("</launch>", more))
+    robot = "'box' if height == 20 else 'other'"
+    vary = PLAN.replace("arguments/height", "height")
+    plan.write_text(vary.replace("set: {", f'set: {{arguments/which: "{robot}", arguments/height: height, '))
+    read, results = load_plan(plan), folder / "out"
     open_results(read, Rows(read), results, runner_of(read)).close()
 
     text = (folder / name).read_text()

@@ -4,11 +4,13 @@ import base64
 import io
 import os
 import re
+import secrets
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from random import Random
 from xml.etree import ElementTree
 
 import pytest
@@ -94,8 +96,8 @@ def test_a_killed_sweep_goes_on_and_its_table_is_the_same(plan: Path) -> None:
     assert tables[0].read_bytes() == tables[1].read_bytes()
 
 
-def _kill_after(plan: Path, *, rows: int) -> None:
-    """Kill a sweep once its journal has some rows."""
+def _kill_after(plan: Path, *, rows: int, later_s: float = 0.0) -> None:
+    """Kill a sweep some time after its journal has a number of new rows."""
     journal = plan.with_suffix(".sweep") / "journal.jsonl"
     before = journal.read_bytes().count(b"\n") if journal.exists() else 0
     process = subprocess.Popen([TRUNDLE, "sweep", plan], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -104,6 +106,7 @@ def _kill_after(plan: Path, *, rows: int) -> None:
         if journal.exists() and journal.read_bytes().count(b"\n") >= before + rows:
             break
         time.sleep(0.005)
+    time.sleep(later_s)
     process.kill()
     process.wait()
 
@@ -139,6 +142,10 @@ def test_row_runs_one_again_without_a_page(plan: Path) -> None:
         ("box.py:mass", "box.py:weight", "box.py has no function 'weight'"),
         ("x < 0.8", "y < 0.8", "plan.yaml:15: error: y < 0.8: name 'y' is not defined"),
         ("world: box.sdf", "world: model://no_such", "plan.yaml:1: error: "),
+        ("  mu: [", "  m: [", "plan.yaml:6: error: vary: nothing uses 'm'; the nearest name is 'mu'; "),
+        ("  mu: [", "  arguments/size: [1]\n  mu: [", "plan.yaml:6: error: arguments/size: "),
+        ("  mu: [", "  parameters/gain: [1]\n  mu: [", "plan.yaml:6: error: parameters/gain: a world has no ROS "),
+        ("{models", "{parameters/gain: mu, models", "plan.yaml:7: error: parameters/gain: a world has no ROS "),
     ],
 )
 def test_a_plan_that_cannot_run_is_refused_before_the_first_run(plan: Path, changed: str, by: str, said: str) -> None:
@@ -147,6 +154,18 @@ def test_a_plan_that_cannot_run_is_refused_before_the_first_run(plan: Path, chan
         trundle.sweep(plan)
     assert said in str(caught.value)
     assert not plan.with_suffix(".sweep").exists()
+
+
+def test_an_argument_that_the_xacro_file_does_not_have_is_refused_with_the_plan_s_line(tmp_path: Path) -> None:
+    robot = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="width" default="1"/>'
+    (tmp_path / "r.xacro").write_text(robot + '<xacro:arg name="mass" default="1"/><link name="l"/></robot>')
+    plan = {"world": str(tmp_path / "r.xacro"), "duration": 1, "vary": {"arguments/widht": [1, 2]}}
+
+    with pytest.raises(TrundleError) as caught:
+        trundle.sweep(plan, output=tmp_path / "out")
+
+    said = "no argument 'widht'; the nearest is 'width'; arguments here: 'mass', 'width'"
+    assert str(caught.value) == f"plan:4: error: arguments/widht: {tmp_path / 'r.xacro'}: {said}"
 
 
 @pytest.mark.slow
@@ -193,11 +212,15 @@ def test_ctrl_c_stops_and_says_how_to_go_on(plan: Path) -> None:
 
 @pytest.mark.slow
 def test_twenty_kills_at_random_moments_change_nothing(plan: Path) -> None:
+    """TRUNDLE_TEST_SEED repeats the moments of a run that failed."""
     plan.write_text(PLAN.replace("samples: 8", "samples: 600"))
     assert _sweep(plan, "-o", str(plan.with_name("whole"))).returncode == 1
+    seed = int(os.environ.get("TRUNDLE_TEST_SEED") or secrets.randbits(32))
+    print(f"TRUNDLE_TEST_SEED={seed}")
+    random = Random(seed)
 
-    for kill in range(20):
-        _kill_after(plan, rows=1 + kill * 37 % 83)
+    for _ in range(20):
+        _kill_after(plan, rows=random.randrange(180), later_s=random.uniform(0, 0.3))
     assert _sweep(plan).returncode == 1
 
     tables = [plan.with_name(name) / "results.parquet" for name in ("whole", "plan.sweep")]

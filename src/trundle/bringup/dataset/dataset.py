@@ -20,6 +20,7 @@ from trundle.workers import Job, JobResult, Progress, check_workers, run_job
 
 from ..signals import stop_flag
 from .dataset_world import picture_maker
+from .digest import dataset_digest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,12 +58,13 @@ def make_dataset(
         TrundleError: the plan cannot be drawn, or its pictures not be written.
     """
     check_workers(workers)
-    plan = picture_maker(plan).plan  # a plan with errors is refused here, once, not by each process
+    maker = picture_maker(plan)  # a plan with errors is refused here, once, not by each process
+    plan, digest = maker.plan, dataset_digest(maker)
     path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
     job = Job(make=partial(_picture_writer, plan, path))
     with lock_folder(path), stop_flag() as stop:
         folder = DatasetFolder(path)
-        folder.open(plan)
+        folder.open(plan, digest)
         missing = sorted(set(range(plan.count)) - folder.done())
         progress = Progress(plan.count, plan.count - len(missing), what="pictures")
         failed: dict[int, str] = {}

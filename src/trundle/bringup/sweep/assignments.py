@@ -1,10 +1,12 @@
 """Values that a row assigns: arguments, ROS parameters and properties of the world."""
 
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import TypeVar
 
 from msgspec import Struct
 
-from trundle.diagnostics import Source, UsageError
+from trundle.diagnostics import DescriptionError, Source, UnknownArgumentError, UsageError
 from trundle.trials import ARGUMENTS, PARAMETERS, Formula, Plan, Row, Value, is_property, with_property
 
 from .state_names import StateExpressions, named_values
@@ -39,6 +41,17 @@ class Assignments(Struct, frozen=True):
     parameters: dict[str, Value]
     """Global name of a ROS parameter → its value."""
     properties: list[Property]
+    sources: dict[str, Source]
+    """Path → where the plan assigns it."""
+
+    @contextmanager
+    def unknown_arguments_at_plan(self) -> Generator[None]:
+        """Say where in the plan an argument is assigned that a file does not have."""
+        try:
+            yield
+        except UnknownArgumentError as error:
+            path = f"{ARGUMENTS}/{error.name}"
+            raise DescriptionError(self.sources[path], f"{path}: {error.at}: {error.what}") from None
 
 
 def assignments_of(plan: Plan, row: Row, expressions: StateExpressions) -> Assignments:
@@ -53,7 +66,7 @@ def assignments_of(plan: Plan, row: Row, expressions: StateExpressions) -> Assig
     names = named_values(row.values)
     for path, formula in plan.assignments.items():
         assigned[path] = Property(path, _plain(expressions.evaluate(formula, names), formula), formula.at)
-    found = Assignments({}, {}, [])
+    found = Assignments({}, {}, [], {path: each.at for path, each in assigned.items()})
     for path, each in assigned.items():
         kind, _, name = path.partition("/")
         if kind == ARGUMENTS:

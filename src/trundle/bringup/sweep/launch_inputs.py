@@ -29,7 +29,7 @@ def launch_inputs(read: LoadedLaunch) -> RunInputs:
         found = find_node(node.package, node.type, read.packages.find_package, env=read.env, arguments=node.arguments)
         files += [found.path] if isinstance(found, Executable) else []
         packages = Packages({**read.env, **dict(node.env)}, start=read.start)
-        for word in _words(node):
+        for word in words_of(node):
             if os.path.isfile(word):
                 files.append(Path(word))
             if node.package == "gazebo_ros":
@@ -38,7 +38,7 @@ def launch_inputs(read: LoadedLaunch) -> RunInputs:
     return RunInputs(worlds=tuple(worlds), texts=(params,), files=tuple(files))
 
 
-def _words(node: LaunchNode) -> Iterator[str]:
+def words_of(node: LaunchNode) -> Iterator[str]:
     """Yield a node's arguments; models of the model path as URIs."""
     try:
         words = shlex.split(node.arguments)

@@ -21,6 +21,7 @@ from ..launch.session import LaunchSession
 from .assignments import Assignments, assignments_of
 from .digest import RunInputs
 from .judge import Judge
+from .launch_check import check_launch
 from .launch_inputs import launch_inputs
 from .launch_setup import LaunchSetup
 from .state_names import StateExpressions
@@ -60,15 +61,15 @@ class LaunchTrialRunner:
             self._run(row, options)
             return file.read_bytes() if file.exists() else None
 
-    def check(self, row: Row) -> None:
-        """Read the launch once with a row's values.
+    def check(self, row: Row) -> list[str]:
+        """Read the launch once with a row's values; return warnings.
 
         Raises:
             TrundleError: the plan cannot be run; with its line.
         """
         assigned = assignments_of(self._plan, row, self._expressions)
         with _quiet_environment() as environment:
-            self.read(assigned, environment)
+            return check_launch(self._read_files(assigned, environment), assigned)
 
     def read(self, assigned: Assignments, environment: dict[str, str]) -> LoadedLaunch:
         """Read the launch with the arguments and parameters of a row.
@@ -76,14 +77,19 @@ class LaunchTrialRunner:
         Raises:
             TrundleError: it cannot be read.
         """
-        words = [*self._plan.world.split(), *(f"{name}:={value}" for name, value in assigned.arguments.items())]
-        read = read_files(words, LaunchOptions(), environment)
-        assert read is not None
+        read = self._read_files(assigned, environment)
         ours = assigned.parameters
         at = self._plan.world_at
         params = [each for each in read.params if each.name not in ours]
         params += [LaunchParam(name=name, value=_parameter(value), at=at) for name, value in ours.items()]
         return replace_fields(read, params=params)
+
+    def _read_files(self, assigned: Assignments, environment: dict[str, str]) -> LoadedLaunch:
+        words = [*self._plan.world.split(), *(f"{name}:={value}" for name, value in assigned.arguments.items())]
+        with assigned.unknown_arguments_at_plan():
+            read = read_files(words, LaunchOptions(), environment)
+        assert read is not None
+        return read
 
     def inputs(self, row: Row) -> RunInputs:
         """Return what a row depends on.

@@ -1,19 +1,23 @@
 """`trundle sweep` and `trundle.sweep`: all rows of a plan."""
 
 import os
-from collections.abc import Mapping
-from contextlib import closing
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from trundle.atomic_write import write_atomically
+from trundle.diagnostics import TrundleError
 from trundle.trials import Plan, Results, RowResult, Rows, Table, load_plan, lock_folder
 from trundle.workers import Job, JobResult, Progress, check_workers, run_job
 
+from ..console import say
 from ..signals import stop_flag
-from .digest import plan_digest
+from .argument_rows import argument_rows
+from .digest import RunInputs, plan_digest
 from .launch_trial import LaunchTrialRunner
 from .trial import Trial, TrialRunner, run_row, runner_of
 
@@ -61,8 +65,16 @@ def open_results(plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | Lau
     Raises:
         UsageError: the folder has the results of another plan, or cannot be written.
     """
-    digest = plan_digest(plan, runner.inputs(rows.row(0)))
+    digest = plan_digest(plan, _inputs(plan, rows, runner))
     return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text)
+
+
+def _inputs(plan: Plan, rows: Rows, runner: TrialRunner | LaunchTrialRunner) -> Iterator[RunInputs]:
+    first, *others = argument_rows(plan, rows)
+    yield runner.inputs(first)
+    for row in others:
+        with suppress(TrundleError):  # the row says so
+            yield runner.inputs(row)
 
 
 def sweep(
@@ -81,7 +93,8 @@ def sweep(
     """
     check_workers(workers)
     rows, runner = Rows(plan), runner_of(plan)
-    runner.check(rows.row(0))
+    for warning in runner.check(rows.row(0)):
+        say(warning, sys.stderr)
     folder = results_folder(plan, output)
     job = Job(make=partial(run_row, plan), time_limit_s=plan.time_limit_s, memory_limit_bytes=plan.memory_limit_bytes)
     with lock_folder(folder), stop_flag() as stop:

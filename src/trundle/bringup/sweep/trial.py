@@ -13,11 +13,11 @@ from trundle.packages import Packages
 from trundle.physics import Recompiler
 from trundle.ros import GraphLoop, StepRecorder
 from trundle.spatial import NS_PER_S
-from trundle.trials import Plan, Row, RowResult, Rows
+from trundle.trials import PARAMETERS, Plan, Row, RowResult, Rows
 
 from ..loaded_simulation import LoadedSimulation
 from ..world_setup import LoadedWorld, load_world
-from .assignments import assignments_of
+from .assignments import Assignments, assignments_of
 from .digest import RunInputs
 from .judge import Judge
 from .launch_trial import LaunchTrialRunner
@@ -116,17 +116,20 @@ class TrialRunner:
                 pass  # as in the run itself
             return file.read_bytes() if file.exists() else None
 
-    def check(self, row: Row) -> None:
-        """Evaluate everything once at the start of a row.
+    def check(self, row: Row) -> list[str]:
+        """Evaluate everything once at the start of a row; return warnings, of which a world has none.
 
         Raises:
             TrundleError: the plan cannot be run; with its line.
         """
-        if assignments_of(self._plan, row, self._expressions).parameters:
-            raise UsageError(f"{self._plan.world_at}: error: a world has no ROS parameters; a plan with `launch:` has")
+        assigned = assignments_of(self._plan, row, self._expressions)
+        for name in assigned.parameters:
+            path = f"{PARAMETERS}{name}"
+            raise DescriptionError(assigned.sources[path], f"{path}: a world has no ROS parameters; a `launch:` has")
         with self.simulation(row) as simulation:
             simulation.script.check()
             self._judge.check(row, simulation.script.measures())
+        return []
 
     def simulation(self, row: Row, *, record: Path | None = None, from_ns: int = 0) -> "TrialSimulation":
         """Return the simulation of a row at time zero, with its events.
@@ -167,7 +170,7 @@ class TrialRunner:
         Raises:
             TrundleError: its world cannot be read.
         """
-        return RunInputs(worlds=(self.stage(row).written,))
+        return RunInputs(worlds=(self._assigned_base(assignments_of(self._plan, row, self._expressions)).written,))
 
     def stage(self, row: Row) -> LoadedWorld:
         """Return the world of a row.
@@ -176,11 +179,15 @@ class TrialRunner:
             TrundleError: it cannot be read, or has no such property.
         """
         assigned = assignments_of(self._plan, row, self._expressions)
-        base = self._base(assigned.arguments)
+        base = self._assigned_base(assigned)
         world = base.world
         for each in assigned.properties:
             world = each.assigned(world)
         return replace(base, world=world)
+
+    def _assigned_base(self, assigned: Assignments) -> LoadedWorld:
+        with assigned.unknown_arguments_at_plan():
+            return self._base(assigned.arguments)
 
     def _base(self, arguments: Mapping[str, str]) -> LoadedWorld:
         key = tuple(sorted(arguments.items()))

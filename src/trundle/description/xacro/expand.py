@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import Any, TextIO
 from xml.parsers.expat import ErrorString, ExpatError
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UnknownArgumentError, nearest
 from trundle.expressions import PYTHON_NAMES, Budget
 from trundle.files import read_file
 from trundle.packages import Packages, refuse_ros2_language
@@ -161,7 +161,10 @@ class _Arguments(dict[str, str]):
         """Raise an error for an argument that the file does not have."""
         if unknown := sorted(set(given) - self._used):
             there = ", ".join(repr(name) for name in sorted(self._used)) or "none"
-            raise DescriptionError(Source(str(path)), f"no argument {unknown[0]!r}; arguments here: {there}")
+            near = nearest(unknown[0], self._used) if len(self._used) > 1 else None
+            said = f"; the nearest is {near!r}" if near else ""
+            what = f"no argument {unknown[0]!r}{said}; arguments here: {there}"
+            raise UnknownArgumentError(Source(str(path)), what, name=unknown[0])
 
 
 @contextmanager
