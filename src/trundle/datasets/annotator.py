@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from trundle.diagnostics import DescriptionError
 from trundle.render import Scene
 from trundle.simulation import Simulation
-from trundle.spatial import Pose, matrix_from_quaternion, pose_from_row, transform_points
+from trundle.spatial import Pose, matrix_from_quaternion, pose_from_row
 
 from .annotation import Box2d, Box3d, KeyPointAnnotation, ObjectAnnotation
 from .instance import Instance
+from .object_pixels import ObjectPixels, find_pixels
 from .outlines import Outlines
 from .placer import Arrangement, bodies_of, find_model
 from .plan import KeyPoint
@@ -20,8 +21,6 @@ from .silhouettes import Silhouettes
 from .view import View
 
 _Array = NDArray[np.float64]
-_MARGIN_PX = 2
-"""Margin around a projected box in which an object's pixels are searched for."""
 _HIDDEN_M, _HIDDEN_SHARE = 0.01, 0.01
 """Distance by which something that hides a key point is nearer [m], and as a share of its depth."""
 
@@ -72,11 +71,10 @@ class Annotator:
             depth: (height, width) [m]; infinite in the background.
             instances: (height, width) number of the instance at each pixel.
         """
-        counts = np.bincount(instances.reshape(-1), minlength=1 + max(self._bodies, default=0))
         return tuple(
-            self._object(each, arrangement, view, depth, instances, int(counts[each.number]))
+            self._object(each, arrangement, view, depth, instances, pixels)
             for each in arrangement.present
-            if each.plan is not None and counts[each.number]
+            if each.plan is not None and (pixels := find_pixels(instances, each.number)) is not None
         )
 
     def _object(
@@ -86,28 +84,26 @@ class Annotator:
         view: View,
         depth: NDArray[np.float32],
         instances: NDArray[np.uint16],
-        pixels: int,
+        pixels: ObjectPixels,
     ) -> ObjectAnnotation:
         assert instance.plan is not None
         bodies, poses = self._bodies[instance.number], arrangement.poses
         points = self._outlines.in_world(bodies, poses)
         world_from_model = arrangement.world_from_models[instance.number]
         projected = _projected_box(points, view)
-        mask = _mask_within(projected, instances, instance.number, pixels)
-        box = _box_of(mask)
         hiding = self._silhouettes.hiding(bodies, poses, points, view, depth, instances, instance.number)
         return ObjectAnnotation(
             instance=instance.number,
             model=instance.model,
             category=instance.plan.category,
             world_from_model=_row(world_from_model),
-            box=box,
-            amodal_box=_union(projected, box),
+            box=pixels.box,
+            amodal_box=_union(projected, pixels.box),
             box_3d=_box_3d(points, world_from_model),
-            pixels=pixels,
+            pixels=int(np.count_nonzero(pixels.mask)),
             occlusion=hiding.occlusion,
             truncation=hiding.truncation,
-            mask=encode_mask(mask),
+            mask=encode_mask(pixels.mask, top=pixels.top, left=pixels.left, size=instances.shape),
             key_points=self._key_points(instance, arrangement, view, depth),
         )
 
@@ -142,11 +138,6 @@ def _row(pose: Pose) -> tuple[float, ...]:
     return (*pose.position, *pose.quaternion)
 
 
-def _box_of(mask: NDArray[np.bool_]) -> Box2d:
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    return Box2d(float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))
-
-
 def _projected_box(points: _Array, view: View) -> Box2d:
     """Return the box around the projected points, within the picture; where some are behind the camera, up to the edges
     that they reach.
@@ -156,10 +147,11 @@ def _projected_box(points: _Array, view: View) -> Box2d:
     width, height = float(view.lens.width_px), float(view.lens.height_px)
     if not ahead.any():
         return Box2d(0.0, 0.0, width, height)
-    low, high = pixels[ahead, :2].min(axis=0), pixels[ahead, :2].max(axis=0)
-    if not ahead.all():
-        behind = points[~ahead] - view.world_from_optical.position
-        local = behind @ matrix_from_quaternion(view.world_from_optical.quaternion)
+    is_whole = bool(ahead.all())
+    seen = pixels[:, :2] if is_whole else pixels[ahead, :2]
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    if not is_whole:
+        local = (points[~ahead] - view.world_from_camera.position) @ view.rotation
         low = np.where((local[:, :2] < 0).any(axis=0), 0.0, low)
         high = np.where((local[:, :2] > 0).any(axis=0), (width, height), high)
     (left, top), (right, bottom) = low.tolist(), high.tolist()
@@ -171,17 +163,6 @@ def _projected_box(points: _Array, view: View) -> Box2d:
     )
 
 
-def _mask_within(box: Box2d, instances: NDArray[np.uint16], number: int, pixels: int) -> NDArray[np.bool_]:
-    """Return the (height, width) mask of an instance, searched for in a box first."""
-    left, top = max(int(box.left) - _MARGIN_PX, 0), max(int(box.top) - _MARGIN_PX, 0)
-    part = instances[top : int(box.bottom) + _MARGIN_PX, left : int(box.right) + _MARGIN_PX] == number
-    if np.count_nonzero(part) != pixels:
-        return instances == number
-    mask = np.zeros(instances.shape, dtype=bool)
-    mask[top : top + part.shape[0], left : left + part.shape[1]] = part
-    return mask
-
-
 def _union(one: Box2d, other: Box2d) -> Box2d:
     return Box2d(
         min(one.left, other.left), min(one.top, other.top), max(one.right, other.right), max(one.bottom, other.bottom)
@@ -189,8 +170,8 @@ def _union(one: Box2d, other: Box2d) -> Box2d:
 
 
 def _box_3d(points: _Array, world_from_model: Pose) -> Box3d:
-    local = transform_points(world_from_model.inverse(), points)
-    low, high = local.min(axis=0), local.max(axis=0)
+    local = matrix_from_quaternion(world_from_model.quaternion).T @ (points - world_from_model.position).T
+    low, high = local.min(axis=1), local.max(axis=1)
     x, y, z = ((low + high) / 2).tolist()
     dx, dy, dz = (high - low).tolist()
     return Box3d(world_from_box=_row(world_from_model @ Pose((x, y, z))), size=(dx, dy, dz))

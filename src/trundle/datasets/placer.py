@@ -11,7 +11,7 @@ from trundle.diagnostics import DescriptionError
 from trundle.physics import SimulationUnstableError
 from trundle.render import Scene
 from trundle.simulation import ModelHandle, Simulation
-from trundle.spatial import Pose, rotate_vectors
+from trundle.spatial import Pose, matrix_from_quaternion
 
 from .instance import Instance
 from .outlines import Outlines
@@ -207,8 +207,8 @@ class Placer:
         assert corners is not None
         (x0, y0), (x1, y1) = corners
         x, y = float(random.uniform(x0, x1)), float(random.uniform(y0, y1))
-        turned = rotate_vectors(Pose(quaternion=rotation), points) if len(points) else np.zeros((1, 3))
-        (left, back, lowest), (right, front, _) = turned.min(axis=0).tolist(), turned.max(axis=0).tolist()
+        turned = matrix_from_quaternion(rotation) @ points.T if len(points) else np.zeros((3, 1))
+        (left, back, lowest), (right, front, _) = turned.min(axis=1).tolist(), turned.max(axis=1).tolist()
         foot = np.array([(0.0, 0.0), (left, back), (left, front), (right, back), (right, front)])
         height = surface.height(np.add(foot, (x, y)))
         return None if height is None else Pose((x, y, height - lowest + _CLEARANCE_M), rotation)

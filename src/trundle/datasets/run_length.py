@@ -1,41 +1,53 @@
 """Run lengths of masks, in the characters that COCO's tools read."""
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
 from .annotation import Mask
 
+_BITS = 5
+"""Bits of a number in one character."""
 
-def encode_mask(mask: NDArray[np.bool_]) -> Mask:
-    """Encode a (height, width) mask."""
-    height, width = mask.shape
-    columns = np.flatnonzero(mask.any(axis=0))
-    first, last = (int(columns[0]), int(columns[-1]) + 1) if len(columns) else (0, 0)
-    flat = np.zeros((last - first) * height + 2, dtype=bool)  # with background before and after
-    flat[1:-1] = mask[:, first:last].T.reshape(-1)
-    changes = np.flatnonzero(flat[1:] != flat[:-1]) + first * height
-    ends = [0, *changes.tolist(), height * width]
-    counts = [after - before for before, after in pairwise(ends)]
+
+def encode_mask(mask: NDArray[np.bool_], *, top: int, left: int, size: tuple[int, ...]) -> Mask:
+    """Encode the part of a picture outside of which a mask is empty.
+
+    Args:
+        mask: (height, width) of the part.
+        top: first row of the part.
+        left: first column of the part.
+        size: height and width of the picture.
+    """
+    height, width = size
+    columns = np.zeros((mask.shape[1], mask.shape[0] + 2), dtype=bool)  # with background above and below
+    columns[:, 1:-1] = mask.T
+    flat = columns.reshape(-1)
+    column, row = np.divmod(np.flatnonzero(flat[1:] != flat[:-1]), columns.shape[1])
+    changes = (left + column) * height + top + row
+    joined = np.flatnonzero(changes[1:] == changes[:-1])  # a run that goes on at the top of the next column
+    changes = np.delete(changes, np.concatenate([joined, joined + 1]))
+    counts = np.diff(changes, prepend=0, append=height * width)
     if counts[-1] == 0 and len(counts) > 1:
-        counts.pop()
+        counts = counts[:-1]
     return Mask(size=(height, width), counts=_characters(counts))
 
 
-def _characters(counts: list[int]) -> str:
+def _characters(counts: NDArray[np.int64]) -> str:
     """Return each run as its difference from the one two before, in groups of five bits, the least first."""
-    found: list[str] = []
-    for i, count in enumerate(counts):
-        rest = count - counts[i - 2] if i > 2 else count
-        while True:
-            bits = rest & 0x1F
-            rest >>= 5
-            is_last = rest == (-1 if bits & 0x10 else 0)
-            found.append(chr((bits if is_last else bits | 0x20) + 48))
-            if is_last:
-                break
-    return "".join(found)
+    rest = counts.copy()
+    rest[3:] -= counts[1:-2]
+    is_left = np.ones(len(rest), dtype=bool)
+    codes: list[NDArray[np.int64]] = []
+    written: list[NDArray[np.bool_]] = []
+    while is_left.any():
+        bits = rest & 31
+        rest >>= _BITS
+        is_last = rest == np.where(bits & 16, -1, 0)
+        codes.append(np.where(is_last, bits, bits | 32))
+        written.append(is_left)
+        is_left = is_left & ~is_last
+    characters = (np.stack(codes, axis=1) + 48).astype(np.uint8)
+    return characters[np.stack(written, axis=1)].tobytes().decode("ascii")
 
 
 def decode_mask(mask: Mask) -> NDArray[np.bool_]:
@@ -45,7 +57,7 @@ def decode_mask(mask: Mask) -> NDArray[np.bool_]:
     for character in mask.counts:
         code = ord(character) - 48
         number |= (code & 0x1F) << shift
-        shift += 5
+        shift += _BITS
         if not code & 0x20:
             if code & 0x10:
                 number |= -1 << shift

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.render import Intrinsics, NativeRenderer, Scene
-from trundle.spatial import Pose, matrix_from_quaternion, transform_points
+from trundle.spatial import Pose, matrix_from_quaternion
 
 from .view import View, looking_rotation
 
@@ -20,6 +20,8 @@ _WIDEST = 2.6
 """Field of view for what surrounds the camera [rad]."""
 _NEARER = 0.005
 """Share of the distance by which an occluder must be nearer, against rounding."""
+_FLAT = 1e-9
+"""Depth below which a pixel beside the camera stays finite."""
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
@@ -61,7 +63,7 @@ class Silhouettes:
             number: the object's.
         """
         alone = np.full_like(poses, np.nan)
-        alone[list(bodies)] = poses[list(bodies)]
+        alone[bodies.start : bodies.stop] = poses[bodies.start : bodies.stop]
         eye = view.world_from_camera.position
         world_from_small, lens = _fitted(eye, points, view)
         self._renderer.update(alone)
@@ -70,26 +72,30 @@ class Silhouettes:
         rows, columns = np.nonzero(np.isfinite(found))
         if not len(rows):
             return Hiding(0.0, 0.0)
-        ahead = found[rows, columns].astype(np.float64)
-        f = lens.focal_px
-        local = np.stack(
-            [ahead, -ahead * (columns + 0.5 - _SIDE_PX / 2) / f, -ahead * (rows + 0.5 - _SIDE_PX / 2) / f], axis=-1
-        )
-        pixels = view.project(transform_points(world_from_small, local))
+        u, v, ahead = _pixels_in(view, world_from_small, lens, rows, columns)
+        ahead *= found[rows, columns]
         height, width = depth.shape
-        inside = (
-            (pixels[:, 2] > view.lens.near_m)
-            & (pixels[:, 0] >= 0)
-            & (pixels[:, 0] < width)
-            & (pixels[:, 1] >= 0)
-            & (pixels[:, 1] < height)
-        )
-        if not inside.any():
+        inside = np.flatnonzero((ahead > view.lens.near_m) & (u >= 0) & (u < width) & (v >= 0) & (v < height))
+        if not len(inside):
             return Hiding(0.0, 1.0)
-        u, v = pixels[inside, 0].astype(np.intp), pixels[inside, 1].astype(np.intp)
+        at = v[inside].astype(np.intp), u[inside].astype(np.intp)
         # What is seen behind the object beside its edge does not hide it.
-        hidden = (instances[v, u] != number) & (depth[v, u] < pixels[inside, 2] * (1.0 - _NEARER))
-        return Hiding(float(hidden.mean()), 1.0 - float(inside.mean()))
+        hidden = (instances[at] != number) & (depth[at] < ahead[inside] * (1.0 - _NEARER))
+        return Hiding(int(np.count_nonzero(hidden)) / len(inside), 1.0 - len(inside) / len(rows))
+
+
+def _pixels_in(
+    view: View, world_from_small: Pose, lens: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
+) -> tuple[_Array, _Array, _Array]:
+    """Return columns and rows in the picture [px] of pixels of a small one, and depths there of what is 1 m ahead here.
+
+    Both cameras are at the same place, so that the depth does not move a pixel.
+    """
+    f, optical_from_small = view.lens.focal_px, view.rotation.T @ matrix_from_quaternion(world_from_small.quaternion)
+    aside, up = (_SIDE_PX / 2 - 0.5 - columns) / lens.focal_px, (_SIDE_PX / 2 - 0.5 - rows) / lens.focal_px
+    x, y, ahead = (each[0] + each[1] * aside + each[2] * up for each in optical_from_small)
+    safe = np.where(np.abs(ahead) < _FLAT, _FLAT, ahead)
+    return view.lens.width_px / 2 + f * x / safe, view.lens.height_px / 2 + f * y / safe, ahead
 
 
 def _fitted(eye: tuple[float, float, float], points: _Array, view: View) -> tuple[Pose, Intrinsics]:

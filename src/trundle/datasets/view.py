@@ -1,9 +1,10 @@
 """Cameras of pictures."""
 
 import math
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.render import Intrinsics
@@ -18,29 +19,34 @@ CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HA
 """Optical frame (x to the right, y down, z along the view) in the camera's (x along the view, y to the left, z up)."""
 
 
-class View(Struct, frozen=True):
+@dataclass(frozen=True)
+class View:
     """Camera of a picture."""
 
     world_from_camera: Pose
     """x along the view, y to the left, z up."""
     lens: Intrinsics
 
-    @property
+    @cached_property
     def world_from_optical(self) -> Pose:
         """Pose of the optical frame."""
         return self.world_from_camera @ CAMERA_FROM_OPTICAL
+
+    @cached_property
+    def rotation(self) -> NDArray[np.float64]:
+        """(3, 3) axes of the optical frame in the world, in columns."""
+        return matrix_from_quaternion(self.world_from_optical.quaternion)
 
     def project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (N, 3) pixel coordinates and depths [px, px, m] of (N, 3) points in the world; behind the camera the
         depth is negative, and the pixel means nothing.
         """
-        pose = self.world_from_optical
-        local = (points - pose.position) @ matrix_from_quaternion(pose.quaternion)
+        local = (points - self.world_from_camera.position) @ self.rotation
         depth = local[:, 2]
         safe = np.where(np.abs(depth) < 1e-9, 1e-9, depth)
         f = self.lens.focal_px
         columns = self.lens.width_px / 2 + f * local[:, 0] / safe
-        return np.stack([columns, self.lens.height_px / 2 + f * local[:, 1] / safe, depth], axis=-1)
+        return np.array([columns, self.lens.height_px / 2 + f * local[:, 1] / safe, depth]).T
 
 
 def draw_view(plan: DatasetPlan, number: int, arrangement: Arrangement) -> View:
