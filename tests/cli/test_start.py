@@ -50,12 +50,17 @@ def test_ctrl_c_is_let_through_afterwards() -> None:
 
 @pytest.mark.parametrize(
     "dropping",
-    ["self.reference = weakref.ref(Thing(), lambda _: interrupt())", "Finalized()"],
-    ids=["callback of a weak reference", "finalizer"],
+    [
+        "self.reference = weakref.ref(Thing(), lambda _: interrupt())",
+        "Finalized()",
+        "threading.Thread.start = lambda thread: (start(thread), time.sleep(0.1)); Finalized()",
+    ],
+    ids=["callback of a weak reference", "finalizer", "busy machine"],
 )
 def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> None:
     waits = """
-        import os, signal, sys, time, types, weakref, trundle.cli, trundle.__main__
+        import os, signal, sys, threading, time, types, weakref, trundle.cli, trundle.__main__
+        start = threading.Thread.start
         interrupt = lambda: os.kill(os.getpid(), signal.SIGINT)
         Thing = type("Thing", (), {})
         Finalized = type("Finalized", (), {"__del__": lambda self: interrupt()})

@@ -27,8 +27,8 @@ def test_scenes_that_nobody_means_are_drawn_within_bounds(tmp_path: Path, option
     sanitizers = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     language = ["-std=gnu++20", "-O1", "-g", "-w", "-ffp-contract=off", "-DTRUNDLE_ISA=baseline"]
     command = [COMPILER, *language, *sanitizers, *options, str(HERE / "fuzz.cc"), *sources, "-o", str(program)]
-    subprocess.run(command, check=True, timeout=300)
-    ran = subprocess.run([str(program), "400"], capture_output=True, text=True, timeout=300, check=False)
+    subprocess.run(command, check=True, timeout=900)
+    ran = subprocess.run([str(program), "400"], capture_output=True, text=True, timeout=900, check=False)
     assert ran.returncode == 0, ran.stderr[-4000:]
     drawn = int(ran.stdout.split()[0])
     assert drawn > 250

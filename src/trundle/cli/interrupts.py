@@ -4,9 +4,10 @@ import signal
 import sys
 import threading
 import time
+from types import CodeType
 
 _AGAIN_S = 0.001
-"""Wait before a dropped interrupt is repeated: the callback that dropped it ends in much less."""
+"""Wait before a dropped interrupt is repeated, and between looks if it would be dropped once more."""
 
 
 def interrupt_main_thread() -> None:
@@ -27,13 +28,24 @@ def keep_interrupts() -> None:
 
     def hook(dropped: "sys.UnraisableHookArgs") -> None:
         if issubclass(dropped.exc_type, KeyboardInterrupt):
-            threading.Thread(target=_interrupt_again, daemon=True).start()
+            threading.Thread(target=_interrupt_after, args=(hook.__code__,), daemon=True).start()
         else:
             report(dropped)
 
     sys.unraisablehook = hook
 
 
-def _interrupt_again() -> None:
+def _interrupt_after(code: CodeType) -> None:
+    """Interrupt the main thread when a function, in which an interrupt is dropped as well, has returned there."""
     time.sleep(_AGAIN_S)
+    while _is_running(code):
+        time.sleep(_AGAIN_S)
     interrupt_main_thread()
+
+
+def _is_running(code: CodeType) -> bool:
+    """Tell if the main thread is in a function, or in one that it called."""
+    frame = sys._current_frames().get(threading.main_thread().ident or 0)  # pyright: ignore[reportPrivateUsage]
+    while frame is not None and frame.f_code is not code:
+        frame = frame.f_back
+    return frame is not None

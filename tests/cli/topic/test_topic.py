@@ -203,6 +203,8 @@ def test_a_subscriber_of_another_type_is_told_of_once(graph: Any) -> None:
             "]: Could not process inbound connection: topic types do not match: [std_msgs/Int32] vs. [std_msgs/String] "
             "(/listener asks for /greeting)\n"
         )
+        assert process.stdout is not None
+        assert process.stdout.readline() == "publishing and latching message. Press ctrl-C to terminate\n"
         process.send_signal(signal.SIGINT)
         assert process.wait(PATIENCE_S) == 0
         assert process.stderr.read() == ""
