@@ -43,8 +43,13 @@ class WorldUser(SceneUser):
         return self._last("trundle/world")
 
     @property
+    def state(self) -> dict[str, Any]:
+        """The clock and its controls."""
+        return self._last("trundle/state")
+
+    @property
     def is_paused(self) -> bool:
-        return bool(self._last("trundle/state")["paused"])
+        return bool(self.state["paused"])
 
     def model(self, name: str) -> dict[str, Any] | None:
         return next((model for model in self.manifest().get("models", []) if model["name"] == name), None)

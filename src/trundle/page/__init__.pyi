@@ -23,6 +23,7 @@ from .edit_requests import MoveJoint as MoveJoint
 from .edit_requests import PlaceJoint as PlaceJoint
 from .edit_requests import PlaceLight as PlaceLight
 from .edit_requests import Pull as Pull
+from .edit_requests import ResetModel as ResetModel
 from .edit_requests import SetFriction as SetFriction
 from .edit_requests import SetLight as SetLight
 from .edit_requests import SetMass as SetMass
@@ -32,6 +33,7 @@ from .edit_requests import SetTwist as SetTwist
 from .errors import PageError as PageError
 from .page_server import PageServer as PageServer
 from .playback import Playback as Playback
+from .requests import MAX_STEPS as MAX_STEPS
 from .requests import MoveJoystick as MoveJoystick
 from .requests import MoveSlider as MoveSlider
 from .requests import PageAction as PageAction
@@ -42,6 +44,7 @@ from .requests import Reload as Reload
 from .requests import RenderView as RenderView
 from .requests import Request as Request
 from .requests import Reset as Reset
+from .requests import RunTo as RunTo
 from .requests import SaveRviz as SaveRviz
 from .requests import Seek as Seek
 from .requests import SetSpeed as SetSpeed

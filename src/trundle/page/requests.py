@@ -12,9 +12,10 @@ from .draft_requests import DraftAction
 from .edit_requests import Action, EditAction
 from .world_requests import FileName, InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
 
-_MAX_STEPS = 1_000_000
+MAX_STEPS = 1_000_000
+"""Steps that one request may ask for."""
 _MAX_TEXT = 4_000_000
-Count: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=_MAX_STEPS)]
+Count: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MAX_STEPS)]
 TimeNs: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
 Factor: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
 Values: TypeAlias = Annotated[tuple[float, ...], msgspec.Meta(max_length=64)]
@@ -33,6 +34,12 @@ class Step(Action, frozen=True):
     """Pause, then take physics steps."""
 
     count: Count = 1
+
+
+class RunTo(Action, frozen=True, tag="run_to"):
+    """Pause, then take physics steps up to a time that is ahead."""
+
+    time_ns: TimeNs
 
 
 class Reset(Action, frozen=True):
@@ -133,6 +140,7 @@ ClientAction: TypeAlias = (
     Play
     | Pause
     | Step
+    | RunTo
     | Reset
     | Reload
     | SetSpeed

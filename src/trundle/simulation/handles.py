@@ -180,6 +180,15 @@ class ModelHandle:
         for link, there in [(link, moved @ link.pose) for link in free]:
             link.set_pose(there)
 
+    def reset(self) -> None:
+        """Put the model back as it was loaded or spawned, with its joints, at rest, with motors off and no loads."""
+        self._simulation.engine.writer.reset_links([link.index for link in self.links])
+        for link in self.links:
+            link.apply_wrench(Wrench())
+        for joint in self.joints:
+            for axis in range(len(joint.axes)):
+                joint.command_effort(0.0, axis=axis)
+
     def set_twist(self, twist: Twist) -> None:
         """Set the model's twist on its free trees once, world axes."""
         (vx, vy, vz), (wx, wy, wz) = twist.linear, twist.angular

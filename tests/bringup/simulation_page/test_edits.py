@@ -13,6 +13,7 @@ from trundle.page import (
     ApplyWrench,
     EditAction,
     MoveJoint,
+    ResetModel,
     SetFriction,
     SetLight,
     SetMass,
@@ -63,6 +64,25 @@ def test_velocity_force_and_efforts_move_things(sim: Simulation) -> None:
     edit(MoveJoint("cart", "lift", effort=1.0), sim)
     sim.run(0.1)
     assert sim["cart"].joint("lift").velocity > 0.01
+
+
+def test_one_model_is_put_back_as_it_came_and_no_other(sim: Simulation) -> None:
+    cart, outer = sim["cart"], sim["outer"]
+    edit(SetPose("cart", "base", (3, 4, 5), (2, 0, 0, 2)), sim)
+    edit(SetPose("outer", "inner::l", (0, 0, 2), (1, 0, 0, 0)), sim)
+    edit(SetTwist("cart", (1, 0, 0), (0, 0, 1)), sim)
+    edit(MoveJoint("cart", "lift", velocity=0.5), sim)
+    edit(ApplyWrench("cart", "base", (5, 0, 0), (0, 0, 0), 10.0), sim)
+    sim.run(0.5)
+    edit(ResetModel("cart"), sim)
+
+    assert cart.pose.position == pytest.approx((1, 0, 0.5))
+    assert cart.pose.quaternion == pytest.approx((1, 0, 0, 0))
+    assert cart.joint("lift").position == 0.0
+    sim.run(0.5)
+    assert cart.pose.position == pytest.approx((1, 0, 0.5), abs=1e-6)
+    assert cart.joint("lift").position == pytest.approx(0.0, abs=1e-6)
+    assert outer.pose.position == pytest.approx((0, -5, 2))
 
 
 def test_mass_takes_the_inertia_with_it(sim: Simulation) -> None:

@@ -32,7 +32,9 @@ from trundle.page import (
     Reload,
     RenderView,
     Reset,
+    RunTo,
     Seek,
+    SetPhysics,
     SetSpeed,
     Step,
     TimelineSpan,
@@ -200,6 +202,17 @@ def test_many_steps_are_done_a_hundred_at_a_time_until_play_ends_them(cart: Show
     assert cart.sim.steps == 350
 
 
+def test_steps_are_done_up_to_a_time_that_is_ahead(cart: Shown) -> None:
+    assert cart.ask(RunTo(150_500_000)) is None
+    assert cart.paused
+    for _ in range(3):
+        cart.page.handle_requests(cart.pacer, paused=True)
+    assert cart.sim.time_ns == 151_000_000
+
+    assert "0.100 s is not ahead" in (cart.ask(RunTo(100_000_000)) or "")
+    assert "up to 1000.151 s" in (cart.ask(RunTo(2 * 10**12)) or "")
+
+
 @pytest.mark.parametrize(
     ("what", "time_ns", "height"), [("all", 0, 1.0), ("poses", 500_000_000, 1.0), ("time", 0, None)]
 )
@@ -337,6 +350,17 @@ def test_it_goes_back_and_on_recorded_all_the_while(tmp_path: Path, monkeypatch:
     assert times[-1] == pytest.approx(0.15, abs=0.02)
     assert times.min() == pytest.approx(0.02, abs=0.02)  # recorded again from where it went back to
     assert "not part of the timeline" in (shown.ask(Seek(10**12)) or "")
+
+
+def test_an_edit_after_going_back_to_the_beginning_is_shown(tmp_path: Path) -> None:
+    sim = loaded(tmp_path, CART)[0]
+    shown = Shown(sim, timeline=Timeline(sim))
+    shown.wait_world(1)
+    shown.ask(Step(50))
+    shown.ask(Seek(0))
+    assert shown.ask(SetPhysics(wind=(0.0, 4.5, 0.0))) is None
+
+    assert shown.wait_world(2)["physics"]["wind"] == (0.0, 4.5, 0.0)
 
 
 def test_a_camera_is_drawn_only_while_it_is_watched(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ import { rememberSplit } from "./panes/split";
 import { isBoolean, recall, remember } from "./storage";
 import { Videos } from "./video/videos";
 
-export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | "upload" | null;
+export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | "upload" | "time" | null;
 
 /** An .rviz file that is shown. */
 export interface RvizFileInfo {

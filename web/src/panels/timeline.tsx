@@ -169,6 +169,11 @@ function Actions({ page }: PanelProps): JSX.Element | null {
           <Select label="Speed" value={speed} choices={Object.keys(SPEEDS)} onChange={(name) => state.do("speed", { factor: SPEEDS[name] ?? null })} />
         </>
       )}
+      {canControl(page) && (
+        <Button small disabled={world === null} onClick={() => page.commands.all.peek().find(({ id }) => id === "time")?.run()}>
+          Go to…
+        </Button>
+      )}
       <Button small icon="plus" disabled={world === null} onClick={() => state.mark()}>
         Mark
       </Button>

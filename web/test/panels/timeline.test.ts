@@ -2,6 +2,7 @@
 
 import { describe, expect, it } from "vitest";
 
+import { requestTo } from "../../src/app/dialogs/time_dialog";
 import { Lanes, lanesOf, type BagLanes } from "../../src/panels/timeline/lanes";
 import { Spells } from "../../src/panels/timeline/spells";
 import { FakeConnection } from "../fake_connection";
@@ -44,5 +45,16 @@ describe("spells", () => {
     const spells = new Spells();
     for (const [isOn, time] of [[true, 1], [true, 4], [false, 5], [true, 7], [true, 8], [false, 3]] as const) spells.note(isOn, time);
     expect(spells.bands).toEqual([[1, 3]]);
+  });
+});
+
+describe("a time to go to", () => {
+  const state = { time_ns: 2e9, paused: true, real_time_factor: null, speed: 1 };
+
+  it("is sought where it is kept, and else simulated", () => {
+    const timeline = { start_ns: 1e9, end_ns: 5e9 };
+    expect(requestTo(3.5, { ...state, timeline })).toEqual(["seek", { time_ns: 3.5e9 }]);
+    expect(requestTo(6, { ...state, timeline })).toEqual(["run_to", { time_ns: 6e9 }]);
+    expect(requestTo(1, state)).toEqual(["run_to", { time_ns: 1e9 }]);
   });
 });

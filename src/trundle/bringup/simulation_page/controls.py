@@ -7,6 +7,7 @@ from typing import Protocol
 
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.page import (
+    MAX_STEPS,
     Carry,
     EditAction,
     LetGo,
@@ -17,11 +18,13 @@ from trundle.page import (
     Record,
     Reload,
     Reset,
+    RunTo,
     Seek,
     SetSpeed,
     Step,
 )
 from trundle.simulation import Simulation
+from trundle.spatial import NS_PER_S
 from trundle.timeline import Timeline
 
 from ..realtime_pacer import RealtimePacer
@@ -92,6 +95,8 @@ class SimulationControls:
                 paused, self._steps = True, 0
             case Step(count):
                 paused, self._steps = True, self._steps + count
+            case RunTo(time_ns):
+                paused, self._steps = True, self._steps_to(time_ns)
             case Reset(what):
                 self.do(lambda sim: sim.reset(time=what != "poses", poses=what != "time"))
                 pacer.restart()
@@ -114,6 +119,21 @@ class SimulationControls:
             case _:
                 raise UsageError("this simulation does not do that")
         return paused
+
+    def _steps_to(self, time_ns: int) -> int:
+        """Return the steps up to a time.
+
+        Raises:
+            UsageError: it is not ahead, or too far.
+        """
+        simulation = self._simulation
+        now_ns, step_ns = simulation.time_ns, simulation.step_ns
+        steps = -((now_ns - time_ns) // step_ns)
+        if not 0 < steps <= MAX_STEPS:
+            last_ns = now_ns + MAX_STEPS * step_ns
+            low, high = (f"{each / NS_PER_S:.3f} s" for each in (now_ns, last_ns))
+            raise UsageError(f"{time_ns / NS_PER_S:.3f} s is not ahead: choose a time after {low}, up to {high}")
+        return steps
 
     def step(self, pacer: RealtimePacer) -> bool:
         """Do some of the steps asked for; return True if any was done."""

@@ -19,6 +19,7 @@ from trundle.page import (
     RenderView,
     Request,
     Reset,
+    RunTo,
     SaveReplay,
     SaveWorld,
     Step,
@@ -176,7 +177,7 @@ class SimulationPage:
             if isinstance(request.action, RenderModel):
                 self._model_pictures.draw(request.id, request.action)
                 continue
-            if isinstance(request.action, Play | Step | Reset | Reload):
+            if isinstance(request.action, Play | Step | RunTo | Reset | Reload):
                 self.warn(None)
             try:
                 paused = self._handle(request, pacer, paused=paused)
@@ -205,7 +206,7 @@ class SimulationPage:
         if isinstance(request.action, DraftAction):
             self._drafting.handle(request.id, request.action, self._simulation)
             return paused or isinstance(request.action, BeginDraft)
-        if isinstance(request.action, Play | Step) and self._drafting.is_open:
+        if isinstance(request.action, Play | Step | RunTo) and self._drafting.is_open:
             raise UsageError("time stands still while a model is edited: finish or leave it first")
         if isinstance(request.action, ModelAction):
             self._model_edits.handle(request.action)

@@ -76,6 +76,8 @@ class WorldStreams:
         self._frame_due_ns = self._slow_due_ns = 0
         self._state: ClockState | None = None
         self._missing: str | None = None
+        self._shown_world: World | None = None
+        """World of the manifest; None: it is to be sent again."""
 
     def show(
         self,
@@ -90,20 +92,16 @@ class WorldStreams:
         self._recorder = recorder
         self._timeline = timeline
         self._show_world()
-        simulation.on_change(self._mark_changed)
 
     def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
         """Set the sensors that measure after models came or went."""
         self._sensors = sensors
-        self._is_changed = True
-
-    def _mark_changed(self) -> None:
-        self._is_changed = True
+        self._shown_world = None
 
     def _show_world(self) -> None:
         """Show the world again after models came, went or changed; its files are made meanwhile."""
-        self._is_changed = False
         simulation = self._simulation
+        self._shown_world = simulation.world
         there = {model.name for model in simulation.models}
         sensors = [sensor for sensor in self._sensors if sensor.model.name in there]
         simulation.lines_are_shown = True
@@ -146,7 +144,7 @@ class WorldStreams:
         if now < self._frame_due_ns and not at_once:
             return
         self._frame_due_ns = now + _FRAME_NS
-        if self._is_changed:
+        if self._simulation.world is not self._shown_world:
             self._show_world()
         self._publish_world()
         self._series.put()

@@ -12,6 +12,9 @@ from trundle.spatial import Pose, Twist
 from ..compile.compiled_world import CompiledWorld
 from ..compile.law_tables import midpoint_flags
 
+_SIZES = {int(mujoco.mjtJoint.mjJNT_FREE): (7, 6), int(mujoco.mjtJoint.mjJNT_BALL): (4, 3)}
+"""Numbers of a joint's position and velocity, by its type; all others have one each."""
+
 
 class StateWriter:
     """Writer of one `MjData`; no motor keeps what it writes."""
@@ -107,6 +110,20 @@ class StateWriter:
         self._data.qvel[dof : dof + 3] = twist.linear
         self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().transform_vector(twist.angular)
         self._wake(dof)
+        self._changed()
+
+    def reset_links(self, links: Sequence[int]) -> None:
+        """Put the joints of links, and links that are free, back to where they start, at rest."""
+        initial = self._model.qpos0 if self._compiled.initial_qpos is None else self._compiled.initial_qpos
+        bodies = self._compiled.link_bodies[list(links)]
+        for joint in np.flatnonzero(np.isin(self._model.jnt_bodyid, bodies)):
+            address, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
+            positions, velocities = _SIZES.get(int(self._model.jnt_type[joint]), (1, 1))
+            self._data.qpos[address : address + positions] = initial[address : address + positions]
+            self._data.qvel[dof : dof + velocities] = 0.0
+            self._midpoint_flags[dof : dof + velocities] = 0.0
+            self.was_teleported |= self._tree_has_shapes[self._model.dof_treeid[dof]]
+            self._wake(dof)
         self._changed()
 
     def is_free(self, link: int) -> bool:

@@ -12,6 +12,7 @@ import { PictureDialog } from "./picture_dialog";
 import { SaveRviz } from "./save_rviz";
 import { SaveWorld } from "./save_world";
 import type { Shell } from "../shell";
+import { TimeDialog } from "./time_dialog";
 import { UploadDialog } from "./upload_dialog";
 import { LinkDialog } from "./view_link_dialog";
 
@@ -26,6 +27,7 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   if (dialog === "picture") return <PictureDialog shell={shell} />;
   if (dialog === "link") return <LinkDialog shell={shell} />;
   if (dialog === "upload") return <UploadDialog shell={shell} />;
+  if (dialog === "time") return <TimeDialog shell={shell} />;
   if (dialog === "save") return <SaveRviz shell={shell} />;
   if (dialog === "save_world") return <SaveWorld shell={shell} />;
   if (dialog === "save_model") return <SaveModel shell={shell} />;

@@ -6,7 +6,7 @@ import type { MenuItem } from "../../theme/menu_list";
 import { toggleFirstPerson } from "../views/first_person";
 import { isFollowing, targetOf, toggleFollowing } from "../views/following";
 import { findModel, frameSelection } from "../views/framing";
-import { copyModel, deleteLight, deleteModel, holdModel } from "../world/model_edits";
+import { copyModel, deleteLight, deleteModel, holdModel, resetModel } from "../world/model_edits";
 import type { Selection } from "../page";
 import type { Shell } from "../shell";
 import { PART_NAMES, partsOf, toggleHidden } from "../views/shown_parts";
@@ -72,6 +72,7 @@ function handlingItems(shell: Shell, selection: InModel): MenuItem[] {
     edit,
     { title: "Apply force or torque…", run: () => openWrench(shell, selection) },
     { title: found.held ? "Let go" : "Hold in the air", keys: "H", run: () => holdModel(shell, model, !found.held) },
+    { title: "Reset this model", run: () => resetModel(shell, model) },
   ];
 }
 

@@ -18,6 +18,11 @@ export function holdModel(shell: Shell, model: string, on: boolean): void {
   void editWorld(shell, `${on ? "Hold" : "Release"} of ${model}`, "hold", { model, on }, { model, on: !on });
 }
 
+/** Put a model back as it came, with its joints, at rest. */
+export function resetModel(shell: Shell, model: string): void {
+  shell.request(`Reset of ${model}`, "reset_model", { model });
+}
+
 /** Put a copy beside a model, or onto a point of the world [m], and select it. */
 export function copyModel(shell: Shell, model: string, at: Vector3 | null = null): void {
   const { page } = shell;
@@ -57,16 +62,17 @@ export function deleteLight(shell: Shell, light: string): void {
 /** Commands for what is selected. */
 export function modelCommands(shell: Shell): readonly Command[] {
   const selected = (): string | null => modelOf(shell.page.selection.peek());
-  const command = (id: string, title: string, keys: string, run: (model: string) => void): Command => ({
+  const command = (id: string, title: string, keys: string | null, run: (model: string) => void): Command => ({
     id,
     title,
     group: "Simulation",
-    keys,
+    ...(keys === null ? {} : { keys }),
     enabled: () => canEdit(shell) && selected() !== null,
     run: () => run(selected() ?? ""),
   });
   return [
     command("copy_model", "Copy the selected model", "Shift C", (model) => copyModel(shell, model)),
+    command("reset.model", "Reset the selected model only", null, (model) => resetModel(shell, model)),
     command("delete_model", "Delete the selected model", "Delete", (model) => deleteModel(shell, model)),
     command("hold_model", "Hold the selected model in the air, or free it", "H", (model) =>
       holdModel(shell, model, outermost(shell.page, model)?.held !== true),

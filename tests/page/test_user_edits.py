@@ -1,0 +1,160 @@
+"""A person edits a running world and its time; what the simulation then has is read over the page's protocol."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.page.scene_user import VIEW_CANVAS
+from tests.page.world_user import WorldUser
+from tests.system.browser import running_page
+
+from trundle.page.client_files import CLIENT
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
+]
+BOX = "<geometry><box><size>0.4 0.4 0.4</size></box></geometry>"
+SHAPE = f"""<collision name="c">{BOX}</collision><visual name="v">{BOX}
+<material><diffuse>0.2 0.6 0.2 1</diffuse></material></visual>"""
+ARM = f"""<link name="arm"><pose>0.8 0 0 0 0 0</pose>{SHAPE}</link><joint name="slide" type="prismatic">
+<parent>base</parent><child>arm</child><axis><xyz>1 0 0</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>
+</joint>"""
+WORLD = f"""<sdf version="1.6"><world name="yard"><gravity>0 0 0</gravity>
+<physics type="ode"><max_step_size>0.01</max_step_size></physics>
+<model name="raft"><pose>-1 0.8 0.2 0 0 0</pose><link name="base">{SHAPE}</link></model>
+<model name="crane"><pose>-1 -0.8 0.2 0 0 0</pose><link name="base"><inertial><mass>1000</mass></inertial>{SHAPE}</link>
+{ARM}</model></world></sdf>"""
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[WorldUser]:
+    folder = tmp_path_factory.mktemp("yard")
+    (folder / "yard.sdf").write_text(WORLD)
+    words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
+    with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
+        user = WorldUser(chromium, url)
+        user.look_down()
+        yield user
+        user.close()
+
+
+def _now(user: WorldUser) -> float:
+    return user.state["time_ns"] / 1e9
+
+
+def _choose(user: WorldUser, command: str) -> None:
+    user.page.locator(VIEW_CANVAS).focus()
+    user.page.keyboard.press("Control+k")
+    user.page.get_by_role("combobox", name="Search commands").fill(command)
+    user.page.keyboard.press("Enter")
+
+
+def _in_dialog(user: WorldUser, field: str, value: str, button: str) -> None:
+    """Type into the dialog of steps and times, and press a button there."""
+    _choose(user, "Go to a time, or take several steps")
+    dialog = user.page.get_by_role("dialog", name="Steps and times")
+    dialog.get_by_role("textbox", name=field, exact=True).fill(value)
+    user.page.keyboard.press("Tab")
+    dialog.get_by_role("button", name=button, exact=True).click()
+
+
+def test_several_steps_and_a_time_ahead_and_back(user: WorldUser) -> None:
+    before = _now(user)
+    _in_dialog(user, "Steps", "25", "Take")
+    user.until(lambda: _now(user) == pytest.approx(before + 0.25))
+    _in_dialog(user, "Time [s]", "3.5", "Go")
+    user.until(lambda: _now(user) == pytest.approx(3.5))
+    assert user.is_paused
+    _in_dialog(user, "Time [s]", "1.2", "Go")
+    user.until(lambda: _now(user) == pytest.approx(1.2))
+    _in_dialog(user, "Time [s]", "90000", "Go")
+    user.page.get_by_role("alert").get_by_text("90000.000 s is not ahead").wait_for()
+    user.page.keyboard.press("Escape")
+
+
+def test_velocity_is_typed_and_one_model_put_back(user: WorldUser) -> None:
+    """The raft floats a metre along x; the crane, which was moved too, stays where it was put."""
+    user.pick("crane")
+    user.type("x [m]", "-0.5")
+    user.until(lambda: user.place("crane")[0] == pytest.approx(-0.5))
+    user.pick("raft")
+    user.type("linear x [m/s]", "1")
+    _in_dialog(user, "Steps", "100", "Take")
+    user.until(lambda: user.place("raft")[0] == pytest.approx(0.0, abs=0.02), what="for a metre")
+    _choose(user, "Reset the selected model only")
+    user.until(lambda: user.place("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4))
+    _in_dialog(user, "Steps", "50", "Take")
+    user.until_still(lambda: _now(user))
+    assert user.place("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4), "it is at rest"
+    assert user.place("crane")[0] == pytest.approx(-0.5)
+
+
+@pytest.mark.parametrize(("target", "value"), [("position [m]", "0.5"), ("velocity [m/s]", "0.4"), ("effort [N]", "2")])
+def test_a_joint_s_target_is_typed(user: WorldUser, target: str, value: str) -> None:
+    user.pick("crane")
+    _choose(user, "Reset the selected model only")
+    user.until(lambda: user.place("crane", 1)[0] == pytest.approx(-0.2, abs=1e-3))
+    user.page.get_by_role("searchbox", name="Search the world").fill("slide")
+    user.pick("slide")
+    user.type(f"target {target}", value)
+    _in_dialog(user, "Steps", "50", "Take")
+    user.until(lambda: user.place("crane", 1)[0] > -0.1, what=f"{user.place('crane', 1)}")
+    user.page.get_by_role("searchbox", name="Search the world").fill("")
+
+
+def test_wind_and_time_step_are_typed_and_undone(user: WorldUser) -> None:
+    user.pick("yard")
+    user.type("wind y", "4.5")
+    user.until(lambda: user.manifest()["physics"]["wind"] == [0.0, 4.5, 0.0])
+    user.type("time step [ms]", "5")
+    user.until(lambda: user.manifest()["physics"]["step"] == 0.005)
+    before = _now(user)
+    user.button("Step 1").click()
+    user.until(lambda: _now(user) == pytest.approx(before + 0.005))
+    for _ in range(2):
+        user.button("Undo: Time step").or_(user.button("Undo: Wind")).click()
+    user.until(lambda: user.manifest()["physics"]["wind"] == [0.0, 0.0, 0.0])
+    user.until(lambda: user.manifest()["physics"]["step"] == 0.01)
+
+
+def test_slow_motion_is_slow(user: WorldUser) -> None:
+    """Of four seconds of the wall's time, some tenths are simulated."""
+    _choose(user, "Speed 0.1×")
+    user.until(lambda: user.state["speed"] == 0.1)
+    before = _now(user)
+    user.button("Play").click()
+    user.page.wait_for_timeout(4000)
+    user.page.get_by_role("banner").get_by_role("button", name="Pause", exact=True).click()
+    user.until(lambda: user.is_paused)
+    user.until_still(lambda: _now(user))
+    assert 0.0 < _now(user) - before < 4.0
+    _choose(user, "Speed 1×")
+
+
+def test_a_mark_keeps_its_note_and_leads_back(user: WorldUser) -> None:
+    user.open("Timeline")
+    marked = _now(user)
+    user.button("Mark").click()
+    note = user.page.locator(".mark-flag").get_by_role("textbox")
+    note.fill("it turns here")
+    note.press("Enter")
+    _in_dialog(user, "Steps", "30", "Take")
+    user.until(lambda: _now(user) == pytest.approx(marked + 0.3))
+    user.page.locator(".mark-flag").click()
+    user.until(lambda: _now(user) == pytest.approx(marked, abs=0.011))
+    assert note.input_value() == "it turns here"
+
+
+def test_what_is_under_the_pointer_lights_up(user: WorldUser) -> None:
+    """The raft's outline, while the pointer is over it."""
+    _choose(user, "Select nothing")
+    user.page.mouse.move(*user.at((1.5, -1.2)))
+    user.until_still(lambda: user.picture().tobytes())
+    before = user.picture()
+    user.page.mouse.move(*user.at((-1.0, 0.8)))
+    around = np.s_[40:100, 120:180]  # a pixel is a centimetre, from x = −2.5 and y = 1.5
+    user.until(lambda: bool((user.picture() != before)[around].any(axis=-1).sum() > 50), what="for an outline")
+    user.page.mouse.move(*user.at((1.5, -1.2)))
+    user.until(lambda: bool((user.picture() == before).all()), what="for it to go")

@@ -1,0 +1,67 @@
+/** Several steps at once, or a time to go to: back in what is kept, on in what is not simulated yet. */
+
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+
+import { Button } from "../../theme/button";
+import { fixed } from "../../theme/format";
+import { NumberField } from "../../theme/number_field";
+import type { WorldState } from "../../scene/simulated_world";
+import type { Shell } from "../shell";
+import { Dialog } from "./dialog";
+
+const NS = 1e9;
+const MOST_STEPS = 1_000_000;
+const MOST_S = 9e9;
+
+type Request = (name: string, fields: Readonly<Record<string, number>>) => Promise<unknown>;
+
+export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { connection, session, world } = shell.page;
+  const state = world.state.value;
+  const steps = useSignal(100);
+  const time = useSignal(Number(((state?.time_ns ?? 0) / NS).toFixed(3)));
+  const fault = useSignal("");
+  const close = (): void => void (shell.dialog.value = null);
+  const ask: Request = (name, fields) =>
+    connection.request(name, fields).then(close, (error: unknown) => void (fault.value = error instanceof Error ? error.message : String(error)));
+  return (
+    <Dialog title="Steps and times" class="save" onClose={close}>
+      <div class="form">
+        <label class="row act">
+          <span class="t2">Time</span>
+          <NumberField label="Time" value={time.value} unit="s" min={0} max={MOST_S} onCommit={(value) => (time.value = value)} />
+          <Button tone="line" disabled={state === null} onClick={() => void ask(...requestTo(time.value, state))}>
+            Go
+          </Button>
+        </label>
+        {session.kind === "simulation" && (
+          <label class="row act">
+            <span class="t2">Steps</span>
+            <NumberField label="Steps" value={steps.value} integer min={1} max={MOST_STEPS} onCommit={(value) => (steps.value = value)} />
+            <Button tone="line" onClick={() => void ask("step", { count: steps.value })}>
+              Take
+            </Button>
+          </label>
+        )}
+        {state?.timeline !== undefined && (
+          <p class="t2">
+            {fixed(state.timeline.start_ns / NS, 2)} s to {fixed(state.timeline.end_ns / NS, 2)} s {session.kind === "simulation" ? "are kept; a later time is simulated, and then time stands still." : "were recorded."}
+          </p>
+        )}
+      </div>
+      <div class="foot">
+        <span class="sm" role="alert">
+          {fault.value}
+        </span>
+      </div>
+    </Dialog>
+  );
+}
+
+/** The request that goes to a time [s]. */
+export function requestTo(seconds: number, state: WorldState | null): ["seek" | "run_to", { readonly time_ns: number }] {
+  const time_ns = Math.round(seconds * NS);
+  const end = state?.timeline?.end_ns ?? state?.time_ns ?? 0;
+  return [state?.timeline !== undefined && time_ns <= end ? "seek" : "run_to", { time_ns }];
+}
