@@ -4,6 +4,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "freed_memory.h"
 #include "message_layout.h"
 #include "time_slice.h"
 
@@ -66,5 +67,6 @@ NB_MODULE(_message_codec, module) {
   module.def("receive", [](nb::handle recv_into, nb::handle buffer) {
     return returned([&] { return receive(recv_into.ptr(), buffer.ptr()); });
   });
+  module.def("keep_freed_memory", &keep_freed_memory);
   module.def("request_time_slice", &request_time_slice);
 }

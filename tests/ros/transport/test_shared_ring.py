@@ -82,11 +82,11 @@ def test_a_subscriber_answers_when_half_of_it_is_taken(
     reader = SharedRingReader(connected, _content(shelf.offer_note()))
     shelf.receive_note(_content(reader.seen_note()))
     answered: list[bool] = []
-    for _ in range(8):
+    for _ in range(16):
         note = shelf.write(_framed(bytes(128 * 1024 - LENGTH.size)), 128 * 1024)
         assert note is not None
         answered.append(reader.read(_content(note))[1] is not None)
-    assert answered == [False, False, False, True] * 2
+    assert answered == ([False] * 7 + [True]) * 2
     reader.close()
 
 

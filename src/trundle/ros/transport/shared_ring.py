@@ -12,13 +12,14 @@ import struct
 from collections.abc import Callable
 from typing import Any, Final
 
+from .. import _message_codec
 from ..errors import WireError
 from .framing import LENGTH, Pieces, encode_note
 from .unix_sockets import peer_process
 
 LONG_BYTES: Final = 32 * 1024
 """Minimum frame length [bytes]; for shorter ones a socket is as fast."""
-_FRAMES, _FEWEST_FRAMES = 8, 4
+_FRAMES, _FEWEST_FRAMES = 16, 4
 """Capacity in frames of the first one's length, and the minimum for long frames."""
 _MIN_BYTES, _PLENTY_BYTES, _MAX_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
 """Limits of the ring's size; above the second one, only for the minimum number of frames."""
@@ -116,6 +117,7 @@ class SharedRingReader:
         finally:
             os.close(file)
         self._acknowledged = 0
+        _message_codec.keep_freed_memory(2 * self._size)  # where the copies of its frames come and go
 
     def seen_note(self) -> bytes:
         """Acknowledgement after which the publisher uses the ring."""
