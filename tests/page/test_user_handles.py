@@ -145,7 +145,7 @@ def test_a_pull_drags_a_model_along_while_time_runs(user: WorldUser) -> None:
         user.until(lambda y=y, way=way: (y - user.place("crate")[1]) * way > 0.3, what=f"pulled by {tool}")
         user.page.mouse.up()
         user.page.keyboard.up("Control")
-        user.until_still(lambda: tuple(round(part, 3) for part in user.place("crate")))
+        user.until_at_rest("crate")
 
 
 def test_a_typed_force_acts_for_a_time(user: WorldUser) -> None:

@@ -1,6 +1,7 @@
 """A person who handles a simulated world in the 3D view; what the simulation has is read over the page's protocol."""
 
 import json
+import math
 import struct
 from typing import Any
 
@@ -10,6 +11,7 @@ from tests.page_client import ProtocolClient
 Point3 = tuple[float, float, float]
 Pose = tuple[float, ...]
 """x y z [m], quaternion x y z w."""
+_REST_NS, _REST_M = 300_000_000, 1e-3
 
 
 class WorldUser(SceneUser):
@@ -22,6 +24,7 @@ class WorldUser(SceneUser):
         for topic in ("trundle/world", "trundle/poses", "trundle/state"):
             self._client.subscribe(topic)
         self._poses: dict[int, Pose] = {}
+        self._poses_ns = 0
         self.until(lambda: self.manifest() and self._poses, what="for the world")
 
     def look_down(self) -> None:
@@ -65,6 +68,16 @@ class WorldUser(SceneUser):
         assert pose is not None, model
         return pose[0], pose[1], pose[2]
 
+    def until_at_rest(self, model: str) -> None:
+        """Wait until a model has not moved for a while of simulated time, however late its poses come."""
+
+        def is_at_rest() -> bool:
+            before, since_ns = self.place(model), self._poses_ns
+            self.until(lambda: self.place(model) and self._poses_ns >= since_ns + _REST_NS)
+            return math.dist(before, self.place(model)) < _REST_M
+
+        self.until(is_at_rest, what=f"for {model} to rest")
+
     def pick(self, name: str) -> None:
         """Select something in the tree."""
         self.page.get_by_role("treeitem").get_by_text(name, exact=True).first.click()
@@ -82,7 +95,7 @@ class WorldUser(SceneUser):
         while self._client.read(0.001):
             pass
         for payload in self._client.payloads("trundle/poses"):
-            _, _, count = struct.unpack_from("<QII", payload)
+            self._poses_ns, _, count = struct.unpack_from("<QII", payload)
             bodies = struct.unpack_from(f"<{count}I", payload, 16)
             numbers = struct.unpack_from(f"<{7 * count}f", payload, 16 + 4 * count)
             self._poses |= {body: numbers[7 * i : 7 * i + 7] for i, body in enumerate(bodies)}

@@ -1,6 +1,6 @@
 /** The ground's grid: thin lines each metre, stronger ones each ten, that fade with the distance. */
 
-import { Color, Mesh, PlaneGeometry, ShaderMaterial, type Camera } from "three";
+import { Color, Mesh, PlaneGeometry, ShaderMaterial, Vector2, type Camera } from "three";
 
 import { NOT_PICKED } from "./picking";
 
@@ -33,8 +33,11 @@ void main() {
 }`;
 
 export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
+  private readonly reach = { value: 100 };
+  private readonly centre = new Vector2();
+
   constructor() {
-    const uniforms = { colour: { value: new Color() }, opacity: { value: 0.2 }, centre: { value: [0, 0] }, reach: { value: 100 } };
+    const uniforms: Record<string, { value: unknown }> = { colour: { value: new Color() }, opacity: { value: 0.2 } };
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -47,6 +50,7 @@ export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
       polygonOffsetUnits: -2,
     });
     super(new PlaneGeometry(1, 1), material);
+    Object.assign(uniforms, { centre: { value: this.centre }, reach: this.reach });
     this.userData[NOT_PICKED] = true;
     this.renderOrder = -1;
     this.frustumCulled = false;
@@ -60,13 +64,11 @@ export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
 
   /** Stand around the camera, as far as it sees lines. */
   follow(camera: Camera): void {
-    const [x, y] = [Math.round(camera.position.x), Math.round(camera.position.y)];
     const isOrthographic = "isOrthographicCamera" in camera;
     const reach = isOrthographic ? 1e4 : Math.max(40, 20 * Math.abs(camera.position.z));
-    this.position.set(x, y, 0);
+    this.position.set(Math.round(camera.position.x), Math.round(camera.position.y), 0);
     this.scale.set(2 * reach, 2 * reach, 1);
-    const { uniforms } = this.material;
-    if (uniforms["centre"] !== undefined) uniforms["centre"].value = [x, y];
-    if (uniforms["reach"] !== undefined) uniforms["reach"].value = reach;
+    this.centre.set(this.position.x, this.position.y);
+    this.reach.value = reach;
   }
 }

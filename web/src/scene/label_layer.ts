@@ -2,7 +2,7 @@
 
 import { Vector3, type Camera, type Object3D } from "three";
 
-import { BAND, layoutLabels, type LabelBox, type LabelRequest, type PlacedLabel } from "./label_layout";
+import { BAND, layoutLabels, type LabelRequest } from "./label_layout";
 import { toPicture, type PictureSize } from "./picking";
 import type { Label } from "./scene_view";
 
@@ -39,9 +39,13 @@ class SceneLabel implements Label {
   }
 }
 
-interface Seen {
+/** A label as a layer shows it. */
+interface Seen extends LabelRequest {
   readonly label: SceneLabel;
-  readonly request: LabelRequest;
+  /** Text, and what else its width is of. */
+  measured: string;
+  measuredDetail: string;
+  isMeasuredBoxed: boolean;
 }
 
 export class LabelSet {
@@ -64,11 +68,15 @@ export class LabelSet {
 
 export class LabelLayer {
   readonly canvas = document.createElement("canvas");
-  private readonly corners = new WeakMap<SceneLabel, number>();
+  /** The canvas' style as it is now, whenever it is read. */
+  private readonly style = getComputedStyle(this.canvas);
+  private readonly known = new WeakMap<SceneLabel, Seen>();
+  /** Those in the picture, those that come first first. */
+  private readonly seen: Seen[] = [];
   private readonly point = new Vector3();
   private pointer: { readonly x: number; readonly y: number } | null = null;
   private hovered: SceneLabel | null = null;
-  private boxes = new Map<SceneLabel, LabelBox>();
+  private font = "";
 
   constructor(private readonly set: LabelSet) {
     Object.assign(this.canvas.style, { position: "absolute", pointerEvents: "none" });
@@ -86,94 +94,111 @@ export class LabelLayer {
   draw(camera: Camera, size: PictureSize, pixelRatio: number): void {
     const context = this.canvas.getContext("2d");
     if (context === null) return;
-    const [width, height] = [Math.round(size.width * pixelRatio), Math.round(size.height * pixelRatio)];
+    const width = Math.round(size.width * pixelRatio);
+    const height = Math.round(size.height * pixelRatio);
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    else if (this.set.labels.size === 0 && this.seen.length === 0) return; // it is empty
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     context.clearRect(0, 0, size.width, size.height);
-    if (this.set.labels.size === 0) return;
-    const style = getComputedStyle(this.canvas);
-    const font = style.getPropertyValue("--font") || "sans-serif";
-    context.font = `${SIZE}px ${font}`;
-    const seen = this.findSeen(camera, size, context, font);
-    const placed = layoutLabels(seen.map(({ request }) => request), size.width, size.height);
-    for (const { label } of seen) this.corners.delete(label);
-    this.boxes = new Map();
-    for (const place of placed) this.drawLabel(context, style, font, seen, place);
+    this.font = this.style.getPropertyValue("--font") || "sans-serif";
+    this.findSeen(camera, size, context);
+    layoutLabels(this.seen, size.width, size.height);
+    for (const each of this.seen) if (each.corner >= 0) this.drawLabel(context, each);
   }
 
-  private drawLabel(
-    context: CanvasRenderingContext2D, style: CSSStyleDeclaration, font: string, seen: readonly Seen[], { index, box, corner }: PlacedLabel,
-  ): void {
-    const entry = seen[index];
-    if (entry === undefined) return;
-    const { label, request } = entry;
-    this.corners.set(label, corner);
-    this.boxes.set(label, box);
-    const colour = (token: string): string => style.getPropertyValue(token).trim() || "#888";
-    drawLeader(context, request, box, colour(label.colour ?? (request.hovered ? "--accent" : "--text-3")));
+  private drawLabel(context: CanvasRenderingContext2D, seen: Seen): void {
+    const { label, box } = seen;
+    drawLeader(context, seen, this.colour(label.colour ?? (seen.hovered ? "--accent" : "--text-3")));
     context.textBaseline = "middle";
-    const middle = box.y + box.height / 2 + 0.5;
+    this.setFont(context, seen.hovered);
+    const middle = box.y + BAND / 2 + 0.5;
     if (label.colour !== undefined) {
-      context.fillStyle = colour(label.colour);
+      context.fillStyle = this.colour(label.colour);
       context.beginPath();
-      context.roundRect(box.x, box.y + 1, box.width, box.height - 2, 4);
+      context.roundRect(box.x, box.y + 1, box.width, BAND - 2, 4);
       context.fill();
-      context.font = `600 ${SIZE}px ${font}`;
-      context.fillStyle = colour("--on-person");
+      context.fillStyle = this.colour("--on-person");
       context.fillText(label.text, box.x + PADDING, middle);
-      context.font = `${SIZE}px ${font}`;
-      return;
-    }
-    if (request.hovered) {
-      context.fillStyle = colour("--panel");
-      context.strokeStyle = colour("--accent");
+    } else if (seen.hovered) {
+      context.fillStyle = this.colour("--panel");
+      context.strokeStyle = this.colour("--accent");
       context.beginPath();
-      context.roundRect(box.x, box.y - 2, box.width, box.height + 4, 4);
+      context.roundRect(box.x, box.y - 2, box.width, BAND + 4, 4);
       context.fill();
       context.stroke();
-      context.font = `600 ${SIZE}px ${font}`;
-      context.fillStyle = colour("--text");
+      context.fillStyle = this.colour("--text");
       context.fillText(label.text, box.x + PADDING, middle);
       const end = box.x + PADDING + context.measureText(label.text).width + PADDING;
-      context.font = `${SIZE}px ${font}`;
-      context.fillStyle = colour("--text-2");
+      this.setFont(context, false);
+      context.fillStyle = this.colour("--text-2");
       context.fillText(label.detail, end, middle);
-      return;
+    } else {
+      context.lineWidth = 3;
+      context.lineJoin = "round";
+      context.strokeStyle = this.colour("--scene");
+      context.strokeText(label.text, box.x + 2, middle);
+      context.fillStyle = this.colour("--text");
+      context.fillText(label.text, box.x + 2, middle);
     }
-    context.lineWidth = 3;
-    context.lineJoin = "round";
-    context.strokeStyle = colour("--scene");
-    context.strokeText(label.text, box.x + 2, middle);
-    context.fillStyle = colour("--text");
-    context.fillText(label.text, box.x + 2, middle);
   }
 
-  private findSeen(camera: Camera, size: PictureSize, context: CanvasRenderingContext2D, font: string): Seen[] {
-    const seen: Seen[] = [];
+  private colour(token: string): string {
+    return this.style.getPropertyValue(token).trim() || "#888";
+  }
+
+  private setFont(context: CanvasRenderingContext2D, isBold: boolean): void {
+    context.font = isBold ? `600 ${SIZE}px ${this.font}` : `${SIZE}px ${this.font}`;
+  }
+
+  private findSeen(camera: Camera, size: PictureSize, context: CanvasRenderingContext2D): void {
+    this.seen.length = 0;
     for (const label of this.set.labels) {
       if (!isShown(label.anchor)) continue;
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
       if (at === null || at.x < 0 || at.y < 0 || at.x > size.width || at.y > size.height) continue;
-      const hovered = label === this.hovered;
-      const isBoxed = hovered || label.colour !== undefined;
-      if (isBoxed) context.font = `600 ${SIZE}px ${font}`;
-      let width = context.measureText(label.text).width + 4;
-      context.font = `${SIZE}px ${font}`;
-      if (isBoxed) width += 2 * PADDING - 4;
-      if (hovered) width += 4 + (label.detail === "" ? 0 : context.measureText(label.detail).width + PADDING);
-      seen.push({ label, request: { x: at.x, y: at.y, width, distance: at.z, hovered: isBoxed, corner: this.corners.get(label) ?? -1 } });
+      const seen = this.know(label);
+      seen.x = at.x;
+      seen.y = at.y;
+      seen.distance = at.z;
+      seen.hovered = label === this.hovered || label.colour !== undefined;
+      this.measure(context, seen);
+      this.seen.push(seen);
+    }
+  }
+
+  private know(label: SceneLabel): Seen {
+    let seen = this.known.get(label);
+    if (seen === undefined) {
+      const box = { x: 0, y: 0, width: 0 };
+      seen = { label, box, x: 0, y: 0, width: 0, distance: 0, hovered: false, corner: -1, measured: "", measuredDetail: "", isMeasuredBoxed: false };
+      this.known.set(label, seen);
     }
     return seen;
+  }
+
+  /** Find the width of a label, if it is another text or shown otherwise. */
+  private measure(context: CanvasRenderingContext2D, seen: Seen): void {
+    const { label, hovered: isBoxed } = seen;
+    const detail = label === this.hovered ? label.detail : "";
+    if (seen.width > 0 && seen.measured === label.text && seen.measuredDetail === detail && seen.isMeasuredBoxed === isBoxed) return;
+    seen.measured = label.text;
+    seen.measuredDetail = detail;
+    seen.isMeasuredBoxed = isBoxed;
+    this.setFont(context, isBoxed);
+    seen.width = context.measureText(label.text).width + (isBoxed ? 2 * PADDING : 4);
+    this.setFont(context, false);
+    if (detail !== "") seen.width += 4 + context.measureText(detail).width + PADDING;
   }
 
   private findHovered(camera: Camera, size: PictureSize): SceneLabel | null {
     if (this.pointer === null) return null;
     const { x, y } = this.pointer;
+    for (const { label, box, corner } of this.seen) {
+      if (corner >= 0 && this.set.labels.has(label) && x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + BAND) return label;
+    }
     let best: SceneLabel | null = null;
     let nearest = NEAR;
     for (const label of this.set.labels) {
-      const box = this.boxes.get(label);
-      if (box !== undefined && x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + BAND) return label;
       if (!isShown(label.anchor)) continue;
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
       const distance = at === null ? Infinity : Math.hypot(at.x - x, at.y - y);
@@ -183,13 +208,13 @@ export class LabelLayer {
   }
 }
 
-function drawLeader(context: CanvasRenderingContext2D, from: LabelRequest, box: LabelBox, colour: string): void {
-  const end = box.x > from.x ? box.x : box.x + box.width;
+function drawLeader(context: CanvasRenderingContext2D, { x, y, box }: LabelRequest, colour: string): void {
+  const end = box.x > x ? box.x : box.x + box.width;
   context.strokeStyle = colour;
   context.lineWidth = 1;
   context.beginPath();
-  context.moveTo(from.x, from.y);
-  context.lineTo(end, box.y + box.height / 2);
+  context.moveTo(x, y);
+  context.lineTo(end, box.y + BAND / 2);
   context.stroke();
 }
 

@@ -11,32 +11,28 @@ export const BAND = 20;
 const ACROSS = 24;
 const UP = 18;
 
+/** A place in the picture [px]. */
 export interface LabelBox {
-  readonly x: number;
-  readonly y: number;
-  readonly width: number;
-  readonly height: number;
+  x: number;
+  y: number;
+  width: number;
 }
 
+/** What a label needs, and the place that it gets; it is filled again for each picture. */
 export interface LabelRequest {
   /** Anchor [px]. */
-  readonly x: number;
-  readonly y: number;
+  x: number;
+  y: number;
   /** Width of the text [px]. */
-  readonly width: number;
+  width: number;
   /** Distance to the camera: nearer labels come first. */
-  readonly distance: number;
+  distance: number;
   /** True: it comes first, and always has a place; that of a person's name, too. */
-  readonly hovered: boolean;
-  /** Corner of the last time, so that labels do not jump; −1: none. */
-  readonly corner: number;
-}
-
-export interface PlacedLabel {
-  /** Index of the request. */
-  readonly index: number;
+  hovered: boolean;
+  /** Corner where it stands, the last one at first, so that labels do not jump; −1: it has no place. */
+  corner: number;
+  /** Its place, if it has one. */
   readonly box: LabelBox;
-  readonly corner: number;
 }
 
 /** Right up, left up, right down, left down. */
@@ -47,50 +43,72 @@ const CORNERS = [
   [-1, 1],
 ] as const;
 
-export function layoutLabels(requests: readonly LabelRequest[], width: number, height: number): PlacedLabel[] {
-  const order = requests.map((_, index) => index);
-  const key = (index: number): number => (requests[index]?.hovered === true ? -1 : (requests[index]?.distance ?? 0));
-  order.sort((a, b) => key(a) - key(b));
-  const placed: PlacedLabel[] = [];
-  for (const index of order) {
-    const request = requests[index];
+/** Give each request a place or none; they are sorted, those that come first first. */
+export function layoutLabels(requests: LabelRequest[], width: number, height: number): void {
+  sort(requests);
+  for (let i = 0; i < requests.length; i += 1) {
+    const request = requests[i];
     if (request === undefined) continue;
-    const free = candidates(request).find(({ box }) => isFree(box, index, requests, placed, width, height));
-    if (free !== undefined) placed.push({ index, ...free });
-    else if (request.hovered) placed.push({ index, box: inside(boxAt(request, 0), width, height), corner: 0 });
+    if (request.corner > 0 && fits(request, request.corner, i, requests, width, height)) continue;
+    let corner = 0;
+    while (corner < CORNERS.length && !fits(request, corner, i, requests, width, height)) corner += 1;
+    request.corner = corner < CORNERS.length ? corner : -1;
+    if (request.corner < 0 && request.hovered) {
+      request.corner = 0;
+      putBox(request, 0);
+      moveInside(request.box, width, height);
+    }
   }
-  return placed;
 }
 
-function candidates(request: LabelRequest): { box: LabelBox; corner: number }[] {
-  const corners = [0, 1, 2, 3];
-  if (request.corner > 0) corners.unshift(request.corner);
-  return corners.map((corner) => ({ box: boxAt(request, corner), corner }));
+/** Insertion: from picture to picture the order hardly changes. */
+function sort(requests: LabelRequest[]): void {
+  for (let i = 1; i < requests.length; i += 1) {
+    const moved = requests[i];
+    if (moved === undefined) continue;
+    let at = i;
+    for (; at > 0; at -= 1) {
+      const before = requests[at - 1];
+      if (before === undefined || rank(before) <= rank(moved)) break;
+      requests[at] = before;
+    }
+    requests[at] = moved;
+  }
 }
 
-function boxAt(request: LabelRequest, corner: number): LabelBox {
+function rank({ hovered, distance }: LabelRequest): number {
+  return hovered ? -1 : distance;
+}
+
+/** Put a request's box at a corner; true: it may stay there. */
+function fits(request: LabelRequest, corner: number, own: number, requests: readonly LabelRequest[], width: number, height: number): boolean {
+  putBox(request, corner);
+  const { box } = request;
+  if (box.x < 0 || box.y < 0 || box.x + box.width > width || box.y + BAND > height) return false;
+  for (let i = 0; i < requests.length; i += 1) {
+    const other = requests[i];
+    if (other === undefined || i === own) continue;
+    if (isInside(other.x, other.y, box) || (i < own && other.corner >= 0 && overlap(box, other.box))) return false;
+  }
+  return true;
+}
+
+function putBox({ box, x, y, width }: LabelRequest, corner: number): void {
   const [right, down] = CORNERS[corner] ?? CORNERS[0];
-  const x = right > 0 ? request.x + ACROSS : request.x - ACROSS - request.width;
-  return { x, y: request.y + down * UP - BAND / 2, width: request.width, height: BAND };
-}
-
-function isFree(
-  box: LabelBox, own: number, requests: readonly LabelRequest[], placed: readonly PlacedLabel[], width: number, height: number,
-): boolean {
-  if (box.x < 0 || box.y < 0 || box.x + box.width > width || box.y + box.height > height) return false;
-  if (placed.some((other) => overlap(box, other.box))) return false;
-  return !requests.some((other, index) => index !== own && isInside(other.x, other.y, box));
+  box.x = right > 0 ? x + ACROSS : x - ACROSS - width;
+  box.y = y + down * UP - BAND / 2;
+  box.width = width;
 }
 
 function overlap(a: LabelBox, b: LabelBox): boolean {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + BAND && b.y < a.y + BAND;
 }
 
 function isInside(x: number, y: number, box: LabelBox): boolean {
-  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+  return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + BAND;
 }
 
-function inside(box: LabelBox, width: number, height: number): LabelBox {
-  const x = Math.max(0, Math.min(width - box.width, box.x));
-  return { ...box, x, y: Math.max(0, Math.min(height - box.height, box.y)) };
+function moveInside(box: LabelBox, width: number, height: number): void {
+  box.x = Math.max(0, Math.min(width - box.width, box.x));
+  box.y = Math.max(0, Math.min(height - BAND, box.y));
 }

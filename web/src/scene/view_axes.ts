@@ -1,6 +1,6 @@
 /** The axes at the top right: they show how the camera stands, and a press on an end looks from that side. */
 
-import { Vector3, type Camera } from "three";
+import { Matrix4, Vector3, type Camera } from "three";
 
 import type { SixSides } from "./view_controller";
 
@@ -32,6 +32,8 @@ export class ViewAxes {
   private readonly tips: Tip[];
   private readonly turned = new Vector3();
   private order = "";
+  /** Of the camera, as it is drawn. */
+  private readonly drawn = new Matrix4();
 
   constructor(onPress: (side: SixSides) => void) {
     Object.assign(this.element.style, { position: "absolute", touchAction: "none" });
@@ -68,6 +70,8 @@ export class ViewAxes {
 
   /** Turn with the camera; nearer ends lie over farther ones. */
   draw(camera: Camera): void {
+    if (this.drawn.equals(camera.matrixWorldInverse) && this.order !== "") return;
+    this.drawn.copy(camera.matrixWorldInverse);
     const placed = this.tips.map((tip) => {
       const at = this.turned.copy(tip.axis).transformDirection(camera.matrixWorldInverse);
       const [x, y, depth] = [LENGTH * at.x, -LENGTH * at.y, at.z];

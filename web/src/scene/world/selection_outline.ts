@@ -64,6 +64,9 @@ interface Marked {
   readonly layer: number;
 }
 
+const THIN = 0xff0000;
+const BROAD = 0xffff00;
+
 export class SelectionOutline {
   private readonly target;
   private readonly fill = new MeshBasicMaterial({ side: DoubleSide, depthTest: false, depthWrite: false });
@@ -73,6 +76,16 @@ export class SelectionOutline {
   /** Where the picture is drawn now: x, y from below, width, height [device px]. */
   private readonly viewport = new Vector4();
   private readonly scissor = new Vector4();
+  /** Rectangle of the viewport that holds the outlines being drawn: x, y from below, width, height [device px]. */
+  private readonly bounds = new Vector4();
+  private readonly clear = new Color();
+  private readonly box = new Box3();
+  private readonly rectangle = new Box2();
+  private readonly whole = new Box2();
+  private readonly corner = new Vector3();
+  private readonly at = new Vector2();
+  /** The element's style as it is now, whenever it is read. */
+  private readonly style: CSSStyleDeclaration;
   private marked: readonly Marked[] = [];
   private readonly stops: (() => void)[];
 
@@ -82,6 +95,7 @@ export class SelectionOutline {
     world: SimulatedWorld,
     outlined: () => readonly Outlined[],
   ) {
+    this.style = getComputedStyle(scene.element);
     this.target = new WebGLRenderTarget(1, 1, { samples: scene.isSlow ? 0 : 4 });
     const uniforms = { mask: { value: this.target.texture }, pixel: { value: new Vector2() }, widths: { value: new Vector2() }, colour: { value: new Color() } };
     this.material = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, transparent: true, depthTest: false, depthWrite: false });
@@ -118,7 +132,7 @@ export class SelectionOutline {
         });
       }
     }
-    this.marked = outlined.slice(-MOST).map(({ thin, broad, colour }, index): Marked => {
+    const marked = outlined.slice(-MOST).map(({ thin, broad, colour }, index): Marked => {
       const layer = FIRST_LAYER + 2 * index;
       const objects: Object3D[] = [];
       for (const [bodies, part] of [[thin, layer], [broad, layer + 1]] as const) {
@@ -131,48 +145,54 @@ export class SelectionOutline {
       }
       return { objects, colour, layer };
     });
+    this.marked = marked.filter(({ objects }) => objects.length > 0);
   }
 
   private draw(renderer: WebGLRenderer, camera: Camera): void {
-    if (this.marked.every(({ objects }) => objects.length === 0)) return;
+    if (this.marked.length === 0) return;
     const { z: width, w: height } = renderer.getCurrentViewport(this.viewport);
     if (this.target.width !== width || this.target.height !== height) this.target.setSize(width, height);
     renderer.getScissor(this.scissor);
     const isScissored = renderer.getScissorTest();
     const { mask: layers } = camera.layers;
-    const [clear, alpha] = [renderer.getClearColor(new Color()), renderer.getClearAlpha()];
+    const alpha = renderer.getClearAlpha();
+    renderer.getClearColor(this.clear);
     this.target.scissorTest = true;
     for (const marked of this.marked) {
-      if (marked.objects.length === 0) continue;
-      const bounds = this.findBounds(camera, marked.objects);
+      this.findBounds(camera, marked.objects);
       renderer.setClearColor(0x000000, 0);
-      this.drawMask(renderer, camera, bounds, marked.layer);
+      this.drawMask(renderer, camera, marked.layer);
       camera.layers.mask = layers;
-      renderer.setClearColor(clear, alpha);
-      this.drawEdges(renderer, bounds, marked.colour);
+      renderer.setClearColor(this.clear, alpha);
+      this.drawEdges(renderer, marked.colour);
       renderer.setScissor(this.scissor);
       renderer.setScissorTest(isScissored);
     }
   }
 
   /** Draw what has outlines into the mask. */
-  private drawMask(renderer: WebGLRenderer, camera: Camera, bounds: Vector4, layer: number): void {
+  private drawMask(renderer: WebGLRenderer, camera: Camera, layer: number): void {
+    const { bounds } = this;
     this.target.scissor.set(bounds.x - MARGIN, bounds.y - MARGIN, bounds.z + 2 * MARGIN, bounds.w + 2 * MARGIN);
     renderer.setRenderTarget(this.target);
     renderer.clear();
     renderer.autoClear = false;
     this.scene.scene.overrideMaterial = this.fill;
-    for (const [part, colour] of [[layer, 0xff0000], [layer + 1, 0xffff00]] as const) {
-      camera.layers.set(part);
-      this.fill.color.set(colour);
-      renderer.render(this.scene.scene, camera);
-    }
+    this.drawPart(renderer, camera, layer, THIN);
+    this.drawPart(renderer, camera, layer + 1, BROAD);
     this.scene.scene.overrideMaterial = null;
     renderer.setRenderTarget(null);
   }
 
+  private drawPart(renderer: WebGLRenderer, camera: Camera, layer: number, colour: number): void {
+    camera.layers.set(layer);
+    this.fill.color.set(colour);
+    renderer.render(this.scene.scene, camera);
+  }
+
   /** Draw the outlines of the mask over the picture. */
-  private drawEdges(renderer: WebGLRenderer, bounds: Vector4, token: string): void {
+  private drawEdges(renderer: WebGLRenderer, token: string): void {
+    const { bounds } = this;
     const ratio = renderer.getPixelRatio();
     this.setUniforms(ratio, token);
     bounds.x += this.viewport.x;
@@ -183,29 +203,35 @@ export class SelectionOutline {
     renderer.autoClear = true;
   }
 
-  /** Rectangle of the viewport that holds the outlines: x, y from below, width, height [device px]. */
-  private findBounds(camera: Camera, objects: readonly Object3D[]): Vector4 {
-    const all = new Box3();
-    for (const object of objects) all.expandByObject(object);
+  /** Find the rectangle of the viewport that holds the outlines. */
+  private findBounds(camera: Camera, objects: readonly Object3D[]): void {
+    const { bounds, box, corner, rectangle } = this;
+    box.makeEmpty();
+    for (const object of objects) box.expandByObject(object);
     const { z: width, w: height } = this.viewport;
-    const rectangle = new Box2();
-    for (let i = 0; i < 8 && !all.isEmpty(); i += 1) {
-      const corner = new Vector3(i & 1 ? all.max.x : all.min.x, i & 2 ? all.max.y : all.min.y, i & 4 ? all.max.z : all.min.z);
-      if (corner.applyMatrix4(camera.matrixWorldInverse).z > -1e-3) return new Vector4(0, 0, width, height); // beside or behind
+    rectangle.makeEmpty();
+    for (let i = 0; i < 8 && !box.isEmpty(); i += 1) {
+      corner.set(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+      if (corner.applyMatrix4(camera.matrixWorldInverse).z > -1e-3) {
+        bounds.set(0, 0, width, height); // beside or behind
+        return;
+      }
       corner.applyMatrix4(camera.projectionMatrix);
-      rectangle.expandByPoint(new Vector2((0.5 + corner.x / 2) * width, (0.5 + corner.y / 2) * height));
+      rectangle.expandByPoint(this.at.set((0.5 + corner.x / 2) * width, (0.5 + corner.y / 2) * height));
     }
-    rectangle.expandByScalar(MARGIN).intersect(new Box2(new Vector2(), new Vector2(width, height)));
-    if (rectangle.isEmpty()) return new Vector4();
+    this.whole.min.set(0, 0);
+    this.whole.max.set(width, height);
+    rectangle.expandByScalar(MARGIN).intersect(this.whole);
     const { min, max } = rectangle;
-    return new Vector4(Math.floor(min.x), Math.floor(min.y), Math.ceil(max.x - min.x) + 1, Math.ceil(max.y - min.y) + 1);
+    if (rectangle.isEmpty()) bounds.set(0, 0, 0, 0);
+    else bounds.set(Math.floor(min.x), Math.floor(min.y), Math.ceil(max.x - min.x) + 1, Math.ceil(max.y - min.y) + 1);
   }
 
   private setUniforms(ratio: number, token: string): void {
     const { pixel, widths, colour } = this.material.uniforms;
     (pixel?.value as Vector2).set(1 / this.viewport.z, 1 / this.viewport.w);
     (widths?.value as Vector2).fromArray(WIDTHS).multiplyScalar(ratio);
-    const shown = getComputedStyle(this.scene.element).getPropertyValue(token).trim() || "#3fbed0";
+    const shown = this.style.getPropertyValue(token).trim() || "#3fbed0";
     (colour?.value as Color).set(shown).convertLinearToSRGB();
   }
 }

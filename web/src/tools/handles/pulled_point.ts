@@ -10,8 +10,8 @@ import type { PointerInput } from "../../scene/pointer_input";
 import type { WorldEditor } from "../world_editor";
 import { LatestRequest } from "./latest_request";
 
-/** Wall seconds after which the server hears again of a pull that rests; after one it lets go. */
-const RENEWAL = 0.3;
+/** Time after which the server hears again of a pull that rests [ms]; after a second it lets go, however slowly pictures are drawn. */
+const RENEWAL = 300;
 
 interface Pulled {
   readonly model: string;
@@ -26,7 +26,6 @@ interface Pulled {
 
 export class PulledPoint {
   private pulled: Pulled | null = null;
-  private sinceAsked = 0;
   private stops: (() => void)[] = [];
   private readonly ends = new BufferAttribute(new Float32Array(6), 3);
   private readonly line = new Line(new BufferGeometry().setAttribute("position", this.ends), new LineBasicMaterial({ depthTest: false }));
@@ -57,7 +56,7 @@ export class PulledPoint {
     this.pulled = { model: selection.model, link: selection.link, body, point, plane, target };
     scene.world.add(this.line);
     this.line.material.color.set(getComputedStyle(scene.element).getPropertyValue("--accent").trim() || "#3fbed0");
-    this.stops = [scene.addStep({ before: () => this.draw() }), scene.onTick((elapsed) => this.renew(elapsed)), () => this.line.removeFromParent()];
+    this.stops = [scene.addStep({ before: () => this.draw() }), this.renew(), () => this.line.removeFromParent()];
     this.ask(this.pulled);
     return true;
   }
@@ -86,14 +85,16 @@ export class PulledPoint {
   }
 
   private ask({ model, link, point, target }: Pulled): void {
-    this.sinceAsked = 0;
     const fields = { model, link, point: point.toArray(), target: target.toArray() };
     this.requests.send(() => this.editor.ask("Push", "pull", fields));
   }
 
-  private renew(elapsed: number): void {
-    this.sinceAsked += elapsed;
-    if (this.pulled !== null && this.sinceAsked > RENEWAL) this.ask(this.pulled);
+  /** Ask again and again; returns how to end it. */
+  private renew(): () => void {
+    const timer = setInterval(() => {
+      if (this.pulled !== null) this.ask(this.pulled);
+    }, RENEWAL);
+    return () => clearInterval(timer);
   }
 
   private draw(): void {
