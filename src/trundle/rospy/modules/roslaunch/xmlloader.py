@@ -12,7 +12,7 @@ from trundle.launch import LaunchNode, LaunchPlan, read_launch, resolve_params
 from trundle.names import parse_arguments
 from trundle.packages import Packages
 
-from .config import ROSLaunchConfig
+from .contents import ROSLaunchConfig
 from .core import Param, RLException
 from .machine import Machine
 from .node import Node, Test
