@@ -174,6 +174,7 @@ def test_a_pane_looks_through_a_camera(user: PaneUser) -> None:
 
 
 def test_a_link_shows_all_panes_again(chromium: Any, url: str, user: PaneUser) -> None:
+    """Whoever follows it finds their own layout at the page's address afterwards."""
     user.run("Link to this view")
     link = user.field("Link").input_value()
     user.page.keyboard.press("Escape")
@@ -181,6 +182,9 @@ def test_a_link_shows_all_panes_again(chromium: Any, url: str, user: PaneUser) -
     other.page.locator(".panename").nth(3).wait_for()
     other.until(lambda: other.page.locator(".panename").nth(1).inner_text().startswith("Top"))
     assert len(other.names()) == 4
+    other.page.goto(url)
+    other.page.get_by_role("treeitem").first.wait_for()
+    assert other.page.locator(".panename").count() == 0
     other.close()
 
 

@@ -13,7 +13,7 @@ import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
 import type { OpenMenu } from "./object_menu/object_menu";
 import type { Page } from "./page";
-import { rememberSplit } from "./panes/split";
+import { recallSplit } from "./panes/split";
 import { isBoolean, recall, remember } from "./storage";
 import { Videos } from "./video/videos";
 
@@ -74,7 +74,7 @@ export class Shell {
     readonly frozen: Signal<boolean>,
   ) {
     this.layout = new Layout(page.session.kind);
-    this.split = rememberSplit(page, this.layout);
+    this.split = recallSplit(page, this.layout);
     this.notices = new Notices(page);
     this.insertion = new Insertion(this);
     this.videos = new Videos(page, this.notices);

@@ -5,6 +5,7 @@ import { expect, test } from "vitest";
 
 import type { Transform } from "../../src/frames/transform";
 import { freeArea } from "../../src/scene/free_area";
+import type { CameraInfo } from "../../src/scene/simulated_world";
 import { toPicture } from "../../src/scene/picking";
 import { CameraMotion, SmoothPose } from "../../src/scene/views/camera_motion";
 import { Fps } from "../../src/scene/views/fps";
@@ -12,6 +13,8 @@ import { Orbit } from "../../src/scene/views/orbit";
 import { ThirdPersonFollower } from "../../src/scene/views/third_person_follower";
 import { TopDownOrtho } from "../../src/scene/views/top_down_ortho";
 import { ORIGIN, type Picture, type View } from "../../src/scene/views/view";
+import { SensorCamera } from "../../src/scene/views/sensor_camera";
+import { copyOfView, loadView } from "../../src/scene/views/view_classes";
 import { XYOrbit } from "../../src/scene/views/xy_orbit";
 
 const SIZE = { width: 800, height: 600 };
@@ -130,4 +133,17 @@ test("a followed pose arrives, and a jump is taken at once", () => {
   expect(pose.position.x).toBe(1);
   pose.follow(at(50, 0, 0), 1 / 60);
   expect(pose.position.x).toBe(50);
+});
+
+test("a simulated camera's view is one again when it is loaded, and when it is copied", () => {
+  const camera = { name: "eye", topic: "/eye", body: 3, pose: [0.1, 0, 0.2, 0, 0.3, 0], width: 640, height: 360, horizontal_fov: 1.2, near: 0.05 } as unknown as CameraInfo;
+  const view = SensorCamera.of(camera, "robot::head");
+  const file = view.save();
+  expect(file["Class"]).toBe("rviz/FrameAligned");
+  for (const again of [loadView(file, []), copyOfView(view, "copy")]) {
+    expect(again).toBeInstanceOf(SensorCamera);
+    expect((again as SensorCamera).rectangle(PICTURE)).toEqual(view.rectangle(PICTURE));
+    expect(again?.save()).toEqual({ ...file, Name: again?.name.value });
+  }
+  expect(loadView({ Class: "rviz/FrameAligned" }, [])).not.toBeInstanceOf(SensorCamera);
 });

@@ -6,6 +6,7 @@ import { lookThrough, toggleFirstPerson } from "../views/first_person";
 import { isFollowing, toggleFollowing } from "../views/following";
 import { frameSelection } from "../views/framing";
 import type { Shell } from "../shell";
+import { chooseSplit } from "./split";
 
 const SIDES = ["top", "front", "right", "bottom", "back", "left"] as const;
 
@@ -24,6 +25,6 @@ export function paneItems(shell: Shell, pane: ViewPane): readonly MenuItem[] {
     { title: isActive && isFollowing(page) ? "Stop following" : "Follow", run: here(() => toggleFollowing(page)) },
     { title: "Frame", run: here(() => frameSelection(page, page.selection.peek())) },
     ...(page.world.manifest.value?.cameras ?? []).map((camera, index): MenuItem => ({ title: `Through ${camera.name}`, icon: "camera", starts: index === 0, run: here(() => lookThrough(page, camera)) })),
-    { title: "Only this one", starts: true, run: here(() => (shell.split.value = "one")) },
+    { title: "Only this one", starts: true, run: here(() => chooseSplit(shell.split, "one")) },
   ];
 }

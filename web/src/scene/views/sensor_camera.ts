@@ -11,12 +11,19 @@ import type { Motion, Picture } from "./view";
 
 /** Widest angle that a picture without distortion has [rad]. */
 const WIDEST = 2.8;
+const LARGEST = 1e5; // px
+const FIELD_OF_VIEW = "Horizontal Field of View";
 
 export class SensorCamera extends FrameAligned {
   override readonly className: string = "trundle/Camera";
-  private readonly width = new NumberProperty("Width", 320, { unit: "px" });
-  private readonly height = new NumberProperty("Height", 240, { unit: "px" });
-  private readonly horizontal = new NumberProperty("Horizontal Field of View", 1, { unit: "rad" });
+  private readonly width = this.add(new NumberProperty("Width", 320, { min: 1, max: LARGEST, unit: "px" }));
+  private readonly height = this.add(new NumberProperty("Height", 240, { min: 1, max: LARGEST, unit: "px" }));
+  private readonly horizontal = this.add(new NumberProperty(FIELD_OF_VIEW, 1, { min: 0.001, max: WIDEST, unit: "rad" }));
+
+  /** Whether a file's view, of rviz's class, was a camera's. */
+  static isSavedIn(yaml: YamlMapping): boolean {
+    return yaml["Class"] === "rviz/FrameAligned" && FIELD_OF_VIEW in yaml;
+  }
 
   /** Look through a camera on a link, `model::link`. */
   static of(camera: CameraInfo, link: string): SensorCamera {
@@ -49,7 +56,7 @@ export class SensorCamera extends FrameAligned {
     camera.fov = (Math.atan(picture.height / 2 / focal) * 360) / Math.PI;
   }
 
-  /** As rviz's FrameAligned, which rviz has. */
+  /** As a FrameAligned, which rviz has, with the properties by which it is a camera's again here. */
   override save(): YamlMapping {
     const halfHeight = (Math.tan(this.horizontal.value.peek() / 2) * this.height.value.peek()) / this.width.value.peek();
     return { ...super.save(), Class: "rviz/FrameAligned", "Field of View": 2 * Math.atan(halfHeight) };

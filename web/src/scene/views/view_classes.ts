@@ -5,6 +5,7 @@ import type { ViewController } from "../view_controller";
 import { Fps } from "./fps";
 import { FrameAligned } from "./frame_aligned";
 import { Orbit } from "./orbit";
+import { SensorCamera } from "./sensor_camera";
 import { ThirdPersonFollower } from "./third_person_follower";
 import { TopDownOrtho } from "./top_down_ortho";
 import type { View } from "./view";
@@ -29,8 +30,7 @@ export function createView(className: string): View | null {
 }
 
 export function copyOfView(view: ViewController, name: string): View {
-  const copy = createView(view.className) ?? new Orbit();
-  copy.load(view.save());
+  const copy = loadView(view.save(), []) ?? new Orbit();
   copy.name.value = name;
   return copy;
 }
@@ -45,7 +45,7 @@ export function classOfView(yaml: YamlMapping): string {
 export function loadView(yaml: Yaml | undefined, faults: string[]): View | null {
   if (!isMapping(yaml)) return null;
   const className = classOfView(yaml);
-  const view = createView(className);
+  const view = SensorCamera.isSavedIn(yaml) ? new SensorCamera() : createView(className);
   if (view === null) faults.push(`Views: there is no view ${className}; Orbit is used`);
   const shown = view ?? new Orbit();
   faults.push(...shown.load(yaml).map((fault) => `Views: ${fault}`));
