@@ -1,6 +1,7 @@
 """A person opens a replay from a folder, without a network: it looks as the page did."""
 
 import io
+import json
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -143,7 +144,7 @@ def test_it_looks_as_the_page_does(log: Path, chromium: Any, tmp_path: Path) -> 
 
 
 def test_the_page_saves_the_last_minutes(chromium: Any, tmp_path: Path) -> None:
-    """The replay begins with the view that the person had, and shows the ball fall."""
+    """The replay begins with the view that the person had, and shows the ball fall; so does the glTF file."""
     (tmp_path / "w.sdf").write_text(WORLD)
     with running_page("run", str(tmp_path / "w.sdf"), "--no-ros", environment={}) as url:
         user = PanelUser(chromium, url)
@@ -151,14 +152,33 @@ def test_the_page_saves_the_last_minutes(chromium: Any, tmp_path: Path) -> None:
         with user.page.expect_download() as download:
             choose(user, "Save a replay")
         download.value.save_as(tmp_path / "run.html")
+        with user.page.expect_download() as download:
+            choose(user, "Save the last minutes as glTF")
+        download.value.save_as(tmp_path / "run.glb")
         user.close()
 
+    heights = _heights(tmp_path / "run.glb")
+    assert (heights[0], heights[-1]) == pytest.approx((1.5, 0.35), abs=0.05)
     replay = ReplayUser(chromium, (tmp_path / "run.html").as_uri())
     end = float(replay.time.get_attribute("max"))
     first, last = replay.show(0.0), replay.show(end)
     replay.close()
     assert end > 1.0
     assert (np.abs(first.astype(int) - last.astype(int)).max(axis=-1) > 24).mean() > 0.005, "the ball has fallen"
+
+
+def _heights(file: Path) -> NDArray[np.float32]:
+    """Return the heights of the ball in a GLB's animation [m]."""
+    data = file.read_bytes()
+    length = int.from_bytes(data[12:16], "little")
+    scene = json.loads(data[20 : 20 + length])
+    (animation,) = scene["animations"]
+    (channel,) = (each for each in animation["channels"] if each["target"]["path"] == "translation")
+    assert scene["nodes"][channel["target"]["node"]]["name"] == "ball::l"
+    accessor = scene["accessors"][animation["samplers"][channel["sampler"]]["output"]]
+    start = 28 + length + scene["bufferViews"][accessor["bufferView"]].get("byteOffset", 0)
+    places = np.frombuffer(data, "<f4", 3 * accessor["count"], start + accessor.get("byteOffset", 0))
+    return places.reshape(-1, 3)[:, 2]
 
 
 def test_it_plays_and_stands_still(log: Path, chromium: Any, tmp_path: Path) -> None:

@@ -19,10 +19,11 @@ class SaveWorld(Action, frozen=True, tag="save_world"):
 
 
 class SaveReplay(Action, frozen=True, tag="replay"):
-    """Make a replay of the last minutes; answered with its `html`."""
+    """Make a replay of the last minutes; answered with its `html`, or `glb` in base64."""
 
     view: Annotated[str, msgspec.Meta(max_length=4000)] | None = None
-    """JSON of the view from which it is seen first, as an .rviz file has it."""
+    """JSON of the view from which a page is seen first, as an .rviz file has it."""
+    format: Literal["html", "glb"] = "html"
 
 
 class ListModels(Action, frozen=True, tag="models"):

@@ -34,7 +34,8 @@ export function simulationCommands(shell: Shell): readonly Command[] {
     command("reset.all", "Reset time and poses", () => shell.request("Reset", "reset", { what: "all" }), "Shift R"),
     command("reset.poses", "Reset poses only", () => shell.request("Reset", "reset", { what: "poses" })),
     command("reset.time", "Reset time only", () => shell.request("Reset", "reset", { what: "time" })),
-    command("replay", "Save a replay of the last minutes", () => void saveReplay(shell)),
+    command("replay", "Save a replay of the last minutes", () => void saveReplay(shell, "html")),
+    command("replay.glb", "Save the last minutes as glTF", () => void saveReplay(shell, "glb")),
     command("reload", "Load the world again", () => shell.request("Load the world again", "reload")),
   ];
 }

@@ -73,6 +73,8 @@ export interface RequestAnswer {
   readonly models?: readonly { readonly name: string; readonly title: string; readonly description: string; readonly uploaded: boolean }[];
   /** A replay of the last minutes. */
   readonly html?: string;
+  /** The same as a glTF file, in base64. */
+  readonly glb?: string;
   /** What a saved world does not hold. */
   readonly lost?: readonly string[];
   /** Address of a part of the model that is edited. */

@@ -1,5 +1,6 @@
 """Poses of the last minutes, of which the page makes a replay."""
 
+from base64 import b64encode
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +15,7 @@ from trundle.page import SaveReplay
 from trundle.spatial import NS_PER_S
 
 from ..replay.page_file import replay_page
-from ..replay.recorded_motion import RecordedMotion
+from ..replay.recorded_motion import RecordedMotion, animated_world
 from .controls import reason_of
 
 _LIMIT_BYTES = 64_000_000
@@ -64,13 +65,16 @@ class ReplaySaver:
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-replay")
 
     def save(self, request_id: int, action: SaveReplay, motion: RecordedMotion) -> None:
-        """Answer a request with the HTML of a replay; returns at once."""
+        """Answer a request with a replay; returns at once."""
         self._thread.submit(self._run, request_id, action, motion)
 
     def _run(self, request_id: int, action: SaveReplay, motion: RecordedMotion) -> None:
         try:
             view = None if action.view is None else _view_decoder.decode(action.view)
-            self._respond(request_id, html=replay_page(motion, Diagnostics(), view=view))
+            if action.format == "html":
+                self._respond(request_id, html=replay_page(motion, Diagnostics(), view=view))
+            else:
+                self._respond(request_id, glb=b64encode(animated_world(motion, Diagnostics())).decode())
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
         except msgspec.MsgspecError as error:

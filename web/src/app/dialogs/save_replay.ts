@@ -1,14 +1,19 @@
-/** Hands the person a replay of the last minutes, which opens without Trundle. */
+/** Hands the person the last minutes, as a page or a glTF file that opens without Trundle. */
 
 import { saveFile } from "../../panels/use";
 import type { Shell } from "../shell";
 
-export async function saveReplay({ page, notices }: Shell): Promise<void> {
+export async function saveReplay({ page, notices }: Shell, format: "html" | "glb"): Promise<void> {
   try {
     const view = JSON.stringify(page.views.current.peek().save());
-    const { html = "" } = await page.connection.request("replay", { view });
-    saveFile(`${page.session.title}.html`, new Blob([html], { type: "text/html" }));
+    const { html = "", glb = "" } = await page.connection.request("replay", { view, format });
+    const content = format === "html" ? new Blob([html], { type: "text/html" }) : new Blob([bytesOf(glb)], { type: "model/gltf-binary" });
+    saveFile(`${page.session.title}.${format}`, content);
   } catch (error) {
     notices.report("Replay", error instanceof Error ? error.message : String(error));
   }
+}
+
+function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
 }
