@@ -5,6 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
+from tests.page.panel_user import PanelUser
+from tests.system.browser import running_page
 
 XACRO = """<?xml version="1.0"?>
 <robot name="rr" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -121,3 +124,33 @@ def test_a_command_turns_the_arm_and_its_frame(
     assert running.interrupt() == 130
     assert "Traceback" not in running.output()
     assert "error" not in running.output().lower()
+
+
+@needs_client
+@pytest.mark.slow
+def test_a_person_gives_a_controller_other_gains(
+    chromium: Any, trundle: Callable[..., Any], until: Callable[..., None], env: dict[str, str], tmp_path: Path
+) -> None:
+    """The arm has a target, and no strength until p is typed at the page."""
+    launch = LAUNCH.replace('<arg name="gui" value="false"/>', "")
+    for name, text in (
+        ("rr.xacro", XACRO),
+        ("rr.yaml", YAML.replace("p: 100.0, i: 0.01, d: 10.0", "p: 0.0")),
+        ("rr.launch", launch),
+    ):
+        (tmp_path / name).write_text(text)
+
+    def position() -> float:
+        return float(trundle("topic", "echo", "-n", "1", "/rr/joint_states/position[0]").stdout.split()[0])
+
+    with running_page("launch", str(tmp_path / "rr.launch"), "--view-port", "0", environment=env) as url:
+        user = PanelUser(chromium, url)
+        user.open("Reconfigure")
+        user.page.get_by_role("option", name="/rr/shoulder_position_controller/pid").click()
+        user.field("p").wait_for()
+        command = "/rr/shoulder_position_controller/command"
+        assert trundle("topic", "pub", "-1", command, "std_msgs/Float64", "1.0").returncode == 0
+        assert position() == pytest.approx(0.0, abs=0.01)
+        user.type("p", "100")
+        until("the arm at its target", lambda: position() == pytest.approx(1.0, abs=0.02))
+        user.close()
