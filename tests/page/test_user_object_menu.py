@@ -71,7 +71,7 @@ def test_the_menu_of_a_model_has_gazebos_entries(user: MenuUser) -> None:
     user.page.get_by_role("heading", name="base", exact=True).wait_for()
     assert user.entries == [
         "Move to", "Follow", "First person", "View", "Hide", "Edit model…", "Apply force or torque…", "Hold in the air",
-        "Copy", "Paste", "Delete",
+        "Reset this model", "Copy", "Paste", "Delete",
     ]  # fmt: skip
     assert user.entry("Paste").is_disabled()
     user.page.keyboard.press("Escape")

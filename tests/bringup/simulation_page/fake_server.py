@@ -14,6 +14,7 @@ class FakeServer:
 
     url = "http://localhost:1"
     generation = 0
+    uploads = None
 
     def __init__(self) -> None:
         self.watched: set[str] | None = None

@@ -86,7 +86,7 @@ def test_a_message_has_the_fields_of_its_type(plan: Path) -> None:
 
 def test_a_world_has_no_parameters(plan: Path) -> None:
     plan.write_text(PLAN.replace("gravity/z", "parameters/gain"))
-    with pytest.raises(TrundleError, match="a world has no ROS parameters; a plan with `launch:` has"):
+    with pytest.raises(TrundleError, match="a world has no ROS parameters; a `launch:` has"):
         trundle.sweep(plan)
 
 
