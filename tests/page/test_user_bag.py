@@ -46,7 +46,7 @@ def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
 
 
 def test_each_topic_has_a_lane_from_the_index(chromium: Any, tmp_path: Path) -> None:
-    """Of a bag of ten seconds, of which nothing was played or shown yet; a click in the ruler goes to a band's time."""
+    """The bag lasts ten seconds and was not played yet; a click in the ruler goes to a band's time."""
     path = tmp_path / "lanes.bag"
     with create_bag(path) as writer:
         writer.write(BagMessage(MAP, START, text("map")))

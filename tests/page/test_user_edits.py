@@ -120,7 +120,7 @@ def test_wind_and_time_step_are_typed_and_undone(user: WorldUser) -> None:
 
 
 def test_slow_motion_is_slow(user: WorldUser) -> None:
-    """Of four seconds of the wall's time, some tenths are simulated."""
+    """In four seconds of wall time, some tenths of a second are simulated."""
     _choose(user, "Speed 0.1×")
     user.until(lambda: user.state["speed"] == 0.1)
     before = _now(user)
