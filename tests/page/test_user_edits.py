@@ -5,16 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [needs_client, pytest.mark.slow]
 BOX = "<geometry><box><size>0.4 0.4 0.4</size></box></geometry>"
 SHAPE = f"""<collision name="c">{BOX}</collision><visual name="v">{BOX}
 <material><diffuse>0.2 0.6 0.2 1</diffuse></material></visual>"""

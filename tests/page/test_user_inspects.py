@@ -5,19 +5,22 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.scene_user import SceneUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-    pytest.mark.slow,
-]
+pytestmark = [needs_client, pytest.mark.slow]
 
 BOX = "<geometry><box><size>0.4 0.4 0.4</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="sky"><gravity>0 0 0</gravity><model name="balloon"><pose>0 0 2 0 0 0</pose>
-<link name="base"><visual name="body">{BOX}</visual></link></model></world></sdf>"""
+<link name="base"><visual name="body">{BOX}</visual></link></model>
+<model name="probe"><pose>2 0 1 0 0 0</pose><link name="case"><inertial><mass>2.5</mass><pose>0 0.125 0 0 0 0</pose>
+<inertia><ixx>0.01</ixx><iyy>0.02</iyy><izz>0.03</izz><ixy>0</ixy><ixz>0.004</ixz><iyz>0</iyz></inertia></inertial>
+<sensor name="level" type="imu"><update_rate>25</update_rate>
+<plugin name="level_driver" filename="libgazebo_ros_imu_sensor.so"><topicName>level</topicName></plugin>
+</sensor></link>
+<plugin name="thruster" filename="libthruster.so"><gain>12.5</gain><noise><stddev>0.25</stddev></noise></plugin>
+</model></world></sdf>"""
 SPEED, TURN = 0.8, -0.5
 """[m/s], [rad/s]"""
 
@@ -50,3 +53,49 @@ def test_the_twist_is_read_as_it_was_typed(user: SceneUser) -> None:
         read.append([_number(user, label) for label in typed])
 
     assert read == [pytest.approx([SPEED, TURN], abs=0.011)] * len(read)
+
+
+def _choose(user: SceneUser, name: str) -> None:
+    """Search the tree for a thing, and select it."""
+    user.page.get_by_label("Search the world").fill(name)
+    user.page.get_by_role("treeitem").get_by_text(name, exact=True).click()
+
+
+def _rows(user: SceneUser) -> dict[str, str]:
+    """Return the values that the inspector shows, by name."""
+    rows = user.page.locator(".inspector .kv:not(.numbers)").all()
+    return dict(tuple(row.locator("> span").all_inner_texts()) for row in rows)
+
+
+def _line_of(text: str) -> str:
+    return f"sky.sdf:{WORLD[: WORLD.index(text)].count(chr(10)) + 1}"
+
+
+def test_a_link_shows_its_mass_and_inertia(user: SceneUser) -> None:
+    _choose(user, "case")
+
+    shown = _rows(user)
+
+    assert float(user.property("Mass [kg]").input_value()) == 2.5
+    assert shown["Centre of mass"] == "0 · 0.125 · 0m"
+    assert shown["ixx · iyy · izz"] == "0.0100 · 0.0200 · 0.0300kg m²"
+    assert shown["ixy · ixz · iyz"] == "0 · 0.0040 · 0kg m²"
+
+
+def test_a_sensor_shows_its_rate_and_where_it_is_written(user: SceneUser) -> None:
+    _choose(user, "level")
+
+    assert _rows(user) == {"Type": "imu", "Rate": "25Hz"}
+    assert user.page.locator(".inspector .src").inner_text().endswith(_line_of('<sensor name="level"'))
+
+
+def test_plugins_show_their_parameters(user: SceneUser) -> None:
+    _choose(user, "thruster")
+    of_model, line = _rows(user), user.page.locator(".inspector .src").inner_text()
+
+    _choose(user, "level_driver")
+    of_sensor = _rows(user)
+
+    assert of_model == {"File": "libthruster.so", "gain": "12.5", "noise/stddev": "0.25"}
+    assert line.endswith(_line_of('<plugin name="thruster"'))
+    assert of_sensor == {"File": "libgazebo_ros_imu_sensor.so", "topicName": "level"}

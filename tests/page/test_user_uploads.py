@@ -7,16 +7,12 @@ from typing import Any
 from zipfile import ZipFile
 
 import pytest
+from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.page.client_files import CLIENT
-
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not (CLIENT / "index.html").exists(), reason="the page's client is not built: make"),
-]
+pytestmark = [needs_client, pytest.mark.slow]
 
 _CORNERS = "".join(f"v {x} {y} {z}\n" for x in (-0.3, 0.3) for y in (-0.3, 0.3) for z in (0, 0.6))
 CUBE = _CORNERS + "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"

@@ -20,7 +20,8 @@ CART = """<model name="cart"><link name="base"><pose>0 0 1 0 0 0</pose>
 <joint name="weld" type="fixed"><parent>base</parent><child>foot</child></joint>
 <joint name="slide" type="prismatic"><parent>base</parent><child>arm</child>
 <axis><xyz>0 0 1</xyz><limit><lower>-0.5</lower><upper>0.25</upper></limit></axis></joint>
-<plugin name="p" filename="libnone.so"/></model>"""
+<plugin name="p" filename="libnone.so"><topic>cmd</topic><noise><stddev>0.5</stddev></noise><wheel>a</wheel><wheel/>
+</plugin></model>"""
 
 
 def manifest(sim: Simulation, sensors=()) -> dict:
@@ -41,11 +42,13 @@ def test_a_model_is_told_with_places_in_its_file(tmp_path: Path) -> None:
     assert (base["body"], base["mass"], base["friction"]) == (1, 3.0, [0.5, 0.25])
     assert cart["links"][1]["friction"] is None
     text = (tmp_path / "w.sdf").read_text().splitlines()
-    for part in (cart, *cart["links"], *cart["joints"]):
+    for part in (cart, *cart["links"], *cart["joints"], *cart["plugins"]):
         file, _, line = part["source"].rpartition(":")
         assert Path(file).name == "w.sdf"
         assert f'name="{part["name"]}"' in text[int(line) - 1]
-    assert cart["plugins"] == [{"name": "p", "filename": "libnone.so"}]
+    (plugin,) = cart["plugins"]
+    assert (plugin["name"], plugin["filename"]) == ("p", "libnone.so")
+    assert plugin["parameters"] == [("topic", "cmd"), ("noise/stddev", "0.5"), ("wheel", "a"), ("wheel", "")]
 
 
 def test_nested_models_are_told_as_they_were_written(tmp_path: Path) -> None:
@@ -92,13 +95,8 @@ def test_sensors_and_cameras_name_their_topics(tmp_path: Path) -> None:
 
     (link,) = found["models"][0]["links"]
     by_name = {sensor["name"]: sensor for sensor in link["sensors"]}
-    assert by_name["cam"] == {
-        "name": "cam",
-        "type": "camera",
-        "rate": 5.0,
-        "topic": "/eye/l/cam/image_raw",
-        "series": [],
-    }
+    told = {"name": "cam", "type": "camera", "rate": 5.0, "topic": "/eye/l/cam/image_raw", "series": [], "plugins": []}
+    assert by_name["cam"].items() >= told.items()
     assert by_name["scan"]["topic"] is None  # nothing publishes it without ROS
     (camera,) = found["cameras"]
     assert (camera["name"], camera["topic"], camera["body"]) == ("cam", "/eye/l/cam/image_raw", 0)

@@ -15,11 +15,23 @@ import type { Drive } from "./drive/drive";
 import type { People } from "./people/people";
 import type { Session } from "./session";
 
+interface SelectedSensor {
+  readonly kind: "sensor";
+  readonly model: string;
+  readonly link: string;
+  readonly sensor: string;
+}
+
+/** What has a plugin. */
+export type PluginOwner = { readonly kind: "world" } | { readonly kind: "model"; readonly model: string } | SelectedSensor;
+
 /** What is selected, in tree or scene. */
 export type Selection =
   | { readonly kind: "model"; readonly model: string }
   | { readonly kind: "link"; readonly model: string; readonly link: string }
   | { readonly kind: "joint"; readonly model: string; readonly joint: string }
+  | SelectedSensor
+  | { readonly kind: "plugin"; readonly of: PluginOwner; readonly plugin: string }
   | { readonly kind: "world" }
   | { readonly kind: "light"; readonly light: string }
   | { readonly kind: "frame"; readonly frame: string }

@@ -11,6 +11,14 @@ export type SixNumbers = readonly [number, number, number, number, number, numbe
 export type Triple = readonly [number, number, number];
 export type Colour = Triple;
 
+export interface PluginInfo {
+  readonly name: string;
+  readonly filename: string;
+  readonly source: string | null;
+  /** Path below its element (`noise/stddev`) and text. */
+  readonly parameters: readonly (readonly [string, string])[];
+}
+
 export interface SensorInfo {
   readonly name: string;
   readonly type: string;
@@ -18,6 +26,8 @@ export interface SensorInfo {
   readonly topic: string | null;
   /** Values of its readings that can be plotted: `angular_velocity.z`. */
   readonly series: readonly string[];
+  readonly source: string | null;
+  readonly plugins: readonly PluginInfo[];
 }
 
 export interface LinkInfo {
@@ -54,7 +64,7 @@ export interface ModelInfo {
   readonly source: string | null;
   readonly links: readonly LinkInfo[];
   readonly joints: readonly JointInfo[];
-  readonly plugins: readonly { readonly name: string; readonly filename: string }[];
+  readonly plugins: readonly PluginInfo[];
   readonly models: readonly ModelInfo[];
 }
 
@@ -108,6 +118,8 @@ export interface Manifest {
   readonly physics: { readonly gravity: Triple; readonly wind: Triple; readonly step: number };
   readonly robot: number | null;
   readonly models: readonly ModelInfo[];
+  /** Of the world itself. */
+  readonly plugins: readonly PluginInfo[];
   readonly lights: readonly LightInfo[];
   readonly cameras: readonly CameraInfo[];
   readonly frames: readonly { readonly frame: string; readonly parent: string; readonly body: number }[];

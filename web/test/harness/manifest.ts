@@ -19,7 +19,7 @@ function model(name: string, links: LinkInfo[], isStatic: boolean, extra: Partia
   return { name, static: isStatic, held: false, source: null, links, joints: [], plugins: [], models: [], ...extra };
 }
 
-const camera = (name: string): SensorInfo => ({ name, type: "camera", rate: 30, series: [], topic: `/${name}/image_raw` });
+const camera = (name: string): SensorInfo => ({ name, type: "camera", rate: 30, series: [], topic: `/${name}/image_raw`, source: "rp2w/model.sdf:50", plugins: [] });
 
 const robot = model(
   "rp2w",
@@ -42,7 +42,7 @@ const robot = model(
       joint("chassis_left_wheel", "continuous", 3, null, "chassis", "left_wheel"),
       joint("body_front_wheel_y", "continuous", 4, null, "body", "front_wheel"),
     ],
-    plugins: [{ name: "rp2w", filename: "librp2w.so" }],
+    plugins: [{ name: "rp2w", filename: "librp2w.so", source: "rp2w/model.sdf:210", parameters: [["speed", "0.5"]] }],
   },
 );
 
@@ -56,6 +56,7 @@ export const MANIFEST: Manifest = {
   physics: { gravity: [0, 0, -9.8], wind: [0, 0, 0], step: 0.001 },
   robot: 1,
   models: [robot, model("living_room", [link("walls", 0), link("sofa", 0)], true), model("ball", [link("link", 0.3)], false), model("ground_plane", [link("link", 0)], true)],
+  plugins: [],
   lights: [
     { name: "sun", type: "directional", body: null, pose: [0, 0, 5, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 1, 1], intensity: 1 },
     { name: "lamp", type: "point", body: null, pose: [1, 0, 2, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 0.9, 0.8], intensity: 1 },

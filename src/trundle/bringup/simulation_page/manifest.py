@@ -1,7 +1,7 @@
 """Manifest of a simulated world for the page: docs/decisions/0020."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from trundle.bridge import link_frames, sensor_topic
 from trundle.diagnostics import Source
-from trundle.model import Collision, Joint, Light, Link, Model, World
+from trundle.model import Collision, Joint, Light, Link, Model, PluginTag, Sensor, World
 from trundle.sensors import CameraSensor, InstrumentSensor
 from trundle.simulation import Simulation
 from trundle.spatial import Pose, rpy_from_quaternion
+from trundle.xmlnode import XmlNode
 
 from ..scene_settings import scene_settings
 from .body_numbers import BodyNumbers
@@ -45,6 +46,7 @@ def world_manifest(
             _nested(_model(model, bodies, live, indices) | {"held": is_held(simulation, model.name)})
             for model in world.models
         ],
+        "plugins": [_plugin(tag) for tag in world.plugins],
         "lights": [_light(light, "", None) for light in world.lights]
         + [
             _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
@@ -101,7 +103,7 @@ def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str,
         "source": _source(model.at),
         "links": [_link(model, link, bodies, live) for link in model.links],
         "joints": [_joint(joint, model, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints],
-        "plugins": [{"name": tag.name, "filename": tag.filename} for tag in model.plugins],
+        "plugins": [_plugin(tag) for tag in model.plugins],
         "models": [],
     }
 
@@ -135,20 +137,43 @@ def _link(model: Model, link: Link, bodies: BodyNumbers, live: _Live) -> _Json:
         "friction": _friction(link.collisions),
         "source": _source(link.at),
         "sensors": [
-            _sensor(sensor.name, sensor.type, sensor.update_rate_hz, live.get((model.name, link.name, sensor.name)))
-            for sensor in (*link.sensors, *on_joints)
+            _sensor(sensor, live.get((model.name, link.name, sensor.name))) for sensor in (*link.sensors, *on_joints)
         ],
     }
 
 
-def _sensor(name: str, kind: str, rate_hz: float, live: CameraSensor | InstrumentSensor | None) -> _Json:
+def _sensor(sensor: Sensor, live: CameraSensor | InstrumentSensor | None) -> _Json:
     if isinstance(live, CameraSensor):
         topic = camera_topic(live)
     else:
         topic = None if live is None else next(iter(live.topics), None)
-    rate = rate_hz if live is None else live.rate_hz
-    series = list(SENSOR_VALUES.get(kind, ()))
-    return {"name": name, "type": kind, "rate": rate, "topic": topic, "series": series}
+    return {
+        "name": sensor.name,
+        "type": sensor.type,
+        "rate": sensor.update_rate_hz if live is None else live.rate_hz,
+        "topic": topic,
+        "series": list(SENSOR_VALUES.get(sensor.type, ())),
+        "source": _source(sensor.at),
+        "plugins": [_plugin(tag) for tag in sensor.plugins],
+    }
+
+
+def _plugin(tag: PluginTag) -> _Json:
+    return {
+        "name": tag.name,
+        "filename": tag.filename,
+        "source": _source(tag.at),
+        "parameters": list(_parameters(tag.node)),
+    }
+
+
+def _parameters(node: XmlNode, path: str = "") -> Iterator[tuple[str, str]]:
+    """Yield path (`noise/stddev`) and text of each element below a plugin's that has text or no children."""
+    for child in node.children:
+        name = f"{path}{child.tag}"
+        if child.text or not child.children:
+            yield name, child.text
+        yield from _parameters(child, f"{name}/")
 
 
 def _friction(collisions: Iterable[Collision]) -> list[float] | None:

@@ -6,14 +6,16 @@ import { PartForm } from "../../editor/part_form";
 import { NoTransform } from "../../frames/transform";
 import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
-import { findJoint, findLink, findModel, frameSelection } from "../views/framing";
+import { findJoint, findLink, findModel, findPlugin, findSensor, frameSelection } from "../views/framing";
 import { JointSection, ModelJoints } from "./joint_sliders";
 import { LinkSections, ModelSections } from "./link_sections";
 import type { Selection } from "../page";
 import { PickedSection } from "./picked_section";
+import { PluginSections, SensorSections } from "./part_sections";
 import { PoseSection } from "./pose_section";
 import type { Shell } from "../shell";
 import { ShownSection } from "../views/view_menu";
+import { sensorIcon } from "../world/nodes";
 import { LightSections, WorldSections } from "./world_sections";
 
 export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -46,10 +48,18 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   if (selection.kind === "world") return manifest === null ? null : <WorldSections shell={shell} manifest={manifest} />;
   if (selection.kind === "light") {
     const light = manifest?.lights.find(({ name }) => name === selection.light);
-    return light === undefined ? <p class="empty">It is no longer in the world.</p> : <LightSections shell={shell} light={light} />;
+    return light === undefined ? <Gone /> : <LightSections shell={shell} light={light} />;
+  }
+  if (selection.kind === "plugin") {
+    const plugin = findPlugin(page, selection.of, selection.plugin);
+    return plugin === null ? <Gone /> : <PluginSections plugin={plugin} />;
+  }
+  if (selection.kind === "sensor") {
+    const sensor = findSensor(page, selection.model, selection.link, selection.sensor);
+    return sensor === null ? <Gone /> : <SensorSections shell={shell} selection={selection} sensor={sensor} />;
   }
   const model = manifest !== null ? findModel(page, selection.model) : null;
-  if (model === null) return <p class="empty">It is no longer in the world.</p>;
+  if (model === null) return <Gone />;
   if (selection.kind === "joint") {
     const joint = findJoint(page, selection.model, selection.joint);
     return joint === null ? null : <JointSection shell={shell} model={selection.model} joint={joint} />;
@@ -62,6 +72,10 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
       <ShownSection shell={shell} model={selection.model} />
     </>
   );
+}
+
+function Gone(): JSX.Element {
+  return <p class="empty">It is no longer in the world.</p>;
 }
 
 function FrameSections({ shell, frame }: { readonly shell: Shell; readonly frame: string }): JSX.Element {
@@ -98,14 +112,16 @@ function asPose<T>(found: T | NoTransform): T | null {
   return found instanceof NoTransform ? null : found;
 }
 
-const ICONS: Readonly<Record<Shown["kind"], IconName>> = { world: "world", light: "light", model: "model", link: "link", joint: "joint", frame: "frame", picked: "select" };
+const ICONS: Readonly<Record<Exclude<Shown["kind"], "sensor">, IconName>> = {
+  world: "world", light: "light", model: "model", link: "link", joint: "joint", plugin: "plugin", frame: "frame", picked: "select",
+};
 
 function Title({ shell, selection }: SelectionProps): JSX.Element {
-  const { name, of, source } = titleOf(shell, selection);
+  const { name, of, source, icon = selection.kind === "sensor" ? "sensor" : ICONS[selection.kind] } = titleOf(shell, selection);
   return (
     <div class="ti">
       <h2>
-        <Icon name={ICONS[selection.kind]} />
+        <Icon name={icon} />
         <span class="n">{name}</span>
       </h2>
       {selection.kind !== "picked" && (
@@ -131,13 +147,29 @@ export function shortSource(source: string): string {
   return source.split("/").slice(-2).join("/");
 }
 
-function titleOf(shell: Shell, selection: Shown): { name: string; of: string; source: string | null } {
+interface TitleText {
+  readonly name: string;
+  readonly of: string;
+  readonly source: string | null;
+  readonly icon?: IconName;
+}
+
+function titleOf(shell: Shell, selection: Shown): TitleText {
   const { page } = shell;
   if (selection.kind === "picked") return { name: selection.title, of: "", source: null };
   if (selection.kind === "world") return { name: page.world.manifest.value?.name ?? "world", of: "world", source: null };
   if (selection.kind === "light") return { name: selection.light, of: "light", source: null };
   if (selection.kind === "frame") return { name: selection.frame, of: "frame", source: null };
   if (selection.kind === "model") return { name: selection.model, of: "model", source: findModel(page, selection.model)?.source ?? null };
+  if (selection.kind === "plugin") {
+    const { of, plugin } = selection;
+    const owner = of.kind === "world" ? "the world" : of.kind === "model" ? of.model : of.sensor;
+    return { name: plugin, of: `plugin of ${owner}`, source: findPlugin(page, of, plugin)?.source ?? null };
+  }
+  if (selection.kind === "sensor") {
+    const sensor = findSensor(page, selection.model, selection.link, selection.sensor);
+    return { name: selection.sensor, of: `sensor of ${selection.model}::${selection.link}`, source: sensor?.source ?? null, icon: sensorIcon(sensor?.type ?? "") };
+  }
   const of = `${selection.kind} of ${selection.model}`;
   if (selection.kind === "link") return { name: selection.link, of, source: findLink(page, selection.model, selection.link)?.source ?? null };
   return { name: selection.joint, of, source: findJoint(page, selection.model, selection.joint)?.source ?? null };

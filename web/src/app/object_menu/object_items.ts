@@ -5,7 +5,7 @@ import { Vector3 } from "three";
 import type { MenuItem } from "../../theme/menu_list";
 import { toggleFirstPerson } from "../views/first_person";
 import { isFollowing, targetOf, toggleFollowing } from "../views/following";
-import { findModel, frameSelection } from "../views/framing";
+import { findModel, frameSelection, placed } from "../views/framing";
 import { copyModel, deleteLight, deleteModel, holdModel, resetModel } from "../world/model_edits";
 import type { Selection } from "../page";
 import type { Shell } from "../shell";
@@ -16,7 +16,8 @@ import { openWrench } from "./open_wrench";
 type InModel = Extract<Selection, { kind: "model" | "link" }>;
 
 /** What can be done with a selection; `at`: where the menu was asked for, in the world [m]. */
-export function objectItems(shell: Shell, selection: Selection | null, at: Vector3 | null): readonly MenuItem[] {
+export function objectItems(shell: Shell, selected: Selection | null, at: Vector3 | null): readonly MenuItem[] {
+  const selection = placed(selected);
   const inModel = selection?.kind === "model" || selection?.kind === "link" ? selection : null;
   const items = [
     ...(selection === null ? [] : viewItems(shell, selection)),

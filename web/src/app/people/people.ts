@@ -4,6 +4,7 @@ import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 
 import type { Connection, SharedSelection } from "../../protocol/connection";
 import type { Selection } from "../page";
+import { placed } from "../views/framing";
 
 export interface Person {
   readonly number: number;
@@ -37,7 +38,8 @@ export function followPeople(connection: Connection, selection: ReadonlySignal<S
 }
 
 /** What others are shown of a selection; null: nothing of the simulated world. */
-export function shared(selection: Selection | null): SharedSelection | null {
+export function shared(selected: Selection | null): SharedSelection | null {
+  const selection = placed(selected);
   switch (selection?.kind) {
     case "model":
     case "link":

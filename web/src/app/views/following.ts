@@ -1,7 +1,7 @@
 /** The view follows what is selected, or the robot. */
 
 import { FIXED_FRAME } from "../../rviz/properties";
-import { findJoint, findModel, simulatedRobot } from "./framing";
+import { findJoint, findModel, placed, simulatedRobot } from "./framing";
 import type { Page, Selection } from "../page";
 
 const TARGET = "Target Frame";
@@ -22,7 +22,8 @@ export function toggleFollowing(page: Page): void {
 }
 
 /** Frame or body (`model::link`) of a selection; null: it has none. */
-export function targetOf(page: Page, selection: Selection | null): string | null {
+export function targetOf(page: Page, selected: Selection | null): string | null {
+  const selection = placed(selected);
   switch (selection?.kind) {
     case "frame":
       return selection.frame;

@@ -5,8 +5,8 @@ import { Box3, Quaternion, Sphere, Vector3, type Mesh, type Object3D } from "thr
 import { isEnabled, withMembers } from "../../displays/group";
 import { bodiesOfPart } from "../../editor/model_editor";
 import { NoTransform, type Transform } from "../../frames/transform";
-import type { JointInfo, LinkInfo, ModelInfo } from "../../scene/simulated_world";
-import type { Page, Selection } from "../page";
+import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../../scene/simulated_world";
+import type { Page, PluginOwner, Selection } from "../page";
 import { allModels, bodiesOf, type ScopedModel } from "../world/nodes";
 
 export function findModel(page: Pick<Page, "world">, name: string): ModelInfo | null {
@@ -23,8 +23,27 @@ export function findJoint(page: Pick<Page, "world">, model: string, joint: strin
   return findModel(page, model)?.joints.find((each) => each.name === joint) ?? null;
 }
 
+export function findSensor(page: Pick<Page, "world">, model: string, link: string, sensor: string): SensorInfo | null {
+  return findLink(page, model, link)?.sensors.find((each) => each.name === sensor) ?? null;
+}
+
+export function findPlugin(page: Pick<Page, "world">, owner: PluginOwner, plugin: string): PluginInfo | null {
+  const of = (): { readonly plugins: readonly PluginInfo[] } | null => {
+    if (owner.kind === "world") return page.world.manifest.value;
+    return owner.kind === "model" ? findModel(page, owner.model) : findSensor(page, owner.model, owner.link, owner.sensor);
+  };
+  return of()?.plugins.find(({ name }) => name === plugin) ?? null;
+}
+
+/** What has a place in the world: a sensor's link, a plugin's owner. */
+export function placed(selection: Selection | null): Exclude<Selection, { readonly kind: "sensor" | "plugin" }> | null {
+  if (selection?.kind === "plugin") return placed(selection.of);
+  return selection?.kind === "sensor" ? { kind: "link", model: selection.model, link: selection.link } : selection;
+}
+
 /** Bodies of a selection; none for what is not simulated. */
-export function selectedBodies(page: Page, selection: Selection | null): readonly number[] {
+export function selectedBodies(page: Page, selected: Selection | null): readonly number[] {
+  const selection = placed(selected);
   if (selection === null) return [];
   if (selection.kind === "model") {
     const model = findModel(page, selection.model);
@@ -115,7 +134,7 @@ export function targetPose(page: Page, target: string): Transform | null {
 
 /** Bodies with an outline: the selected link's is broad, its model's thin, and what is hovered thin. */
 export function outlinedBodies(page: Page): { readonly thin: readonly number[]; readonly broad: readonly number[] } {
-  const selection = page.selection.value;
+  const selection = placed(page.selection.value);
   if (selection?.kind === "part" && selection.part.length > 0) return { thin: selectedBodies(page, page.hovered.value), broad: selectedBodies(page, selection) };
   const isPart = selection?.kind === "link" || selection?.kind === "joint";
   const whole = isPart ? selectedBodies(page, { kind: "model", model: selection.model }) : selectedBodies(page, selection);

@@ -1,9 +1,9 @@
 /** The world's tree as its panel shows it: models with links, sensors, joints and plugins, and lights. */
 
-import type { JointInfo, LinkInfo, Manifest, ModelInfo } from "../../scene/simulated_world";
+import type { JointInfo, LinkInfo, Manifest, ModelInfo, PluginInfo } from "../../scene/simulated_world";
 import { count, fixed } from "../../theme/format";
 import type { IconName } from "../../theme/icons";
-import type { Selection } from "../page";
+import type { PluginOwner, Selection } from "../page";
 
 export interface WorldNode {
   readonly key: string;
@@ -42,57 +42,56 @@ export function bodiesOf(model: ModelInfo): readonly number[] {
 
 /** The tree of a world; most worlds are called `default`, which says less than the page's title. */
 export function worldNode(manifest: Manifest, title = manifest.name): WorldNode {
-  const lights = manifest.lights.map(({ name, type }) => leaf(`light/${name}`, name, type, "light", { kind: "light", light: name }));
+  const lights = manifest.lights.map(({ name, type }) => leaf({ kind: "light", light: name }, name, type, "light"));
   const models = manifest.models.map((model) => modelNode(model, ""));
   const name = manifest.name === "default" ? title : manifest.name;
+  const world = { kind: "world" } as const;
   return {
-    ...leaf("world", name, count(manifest.models.length, "model"), "world", { kind: "world" }),
-    children: [...models, ...group("lights", "Lights", lights)],
+    ...leaf(world, name, count(manifest.models.length, "model"), "world"),
+    children: [...models, ...group("lights", "Lights", lights), ...group("world/plugins", "Plugins", pluginNodes(world, manifest.plugins))],
   };
 }
 
 function modelNode(model: ModelInfo, scope: string): WorldNode {
   const name = scopedName(scope, model.name);
-  const key = `model/${name}`;
   const only = model.links.length === 1 && model.models.length === 0 ? model.links[0] : undefined;
   const detail = model.static ? "static" : only === undefined ? "" : mass(only.mass);
-  const joints = model.joints.map((joint) => jointNode(name, joint));
-  const plugins = model.plugins.map((plugin) => leaf(`plugin/${name}/${plugin.name}`, plugin.name, plugin.filename, "plugin"));
+  const selection = { kind: "model", model: name } as const;
+  const key = keyOf(selection);
   return {
-    ...leaf(key, model.name, detail, "model", { kind: "model", model: name }, name),
+    ...leaf(selection, model.name, detail, "model", name),
     children: [
       ...model.models.map((nested) => modelNode(nested, name)),
       ...group(`${key}/links`, "Links", model.links.map((link) => linkNode(name, link))),
-      ...group(`${key}/joints`, "Joints", joints),
-      ...group(`${key}/plugins`, "Plugins", plugins),
+      ...group(`${key}/joints`, "Joints", model.joints.map((joint) => jointNode(name, joint))),
+      ...group(`${key}/plugins`, "Plugins", pluginNodes(selection, model.plugins)),
     ],
   };
 }
 
 function linkNode(model: string, link: LinkInfo): WorldNode {
-  const selection: Selection = { kind: "link", model, link: link.name };
-  const key = `link/${model}/${link.name}`;
-  const sensors = link.sensors.map((sensor) => {
-    const icon = /camera|depth/.test(sensor.type) ? "camera" : "sensor";
-    return leaf(`${key}/${sensor.name}`, sensor.name, sensor.rate > 0 ? `${fixed(sensor.rate, 0)} Hz` : sensor.type, icon, selection);
+  const selection = { model, link: link.name };
+  const sensors = link.sensors.map(({ name, type, rate, plugins }) => {
+    const own = { kind: "sensor", ...selection, sensor: name } as const;
+    return { ...leaf(own, name, rate > 0 ? `${fixed(rate, 0)} Hz` : type, sensorIcon(type)), children: pluginNodes(own, plugins) };
   });
-  return { ...leaf(key, link.name, mass(link.mass), "link", selection, `${model}::${link.name}`), children: sensors };
+  return { ...leaf({ kind: "link", ...selection }, link.name, mass(link.mass), "link", `${model}::${link.name}`), children: sensors };
+}
+
+export function sensorIcon(type: string): IconName {
+  return /camera|depth/.test(type) ? "camera" : "sensor";
 }
 
 function jointNode(model: string, joint: JointInfo): WorldNode {
-  const selection: Selection = { kind: "joint", model, joint: joint.name };
-  return leaf(`joint/${model}/${joint.name}`, joint.name, joint.index === null ? joint.type : { joint }, "joint", selection);
+  return leaf({ kind: "joint", model, joint: joint.name }, joint.name, joint.index === null ? joint.type : { joint }, "joint");
 }
 
-function leaf(
-  key: string,
-  label: string,
-  detail: WorldNode["detail"],
-  icon: IconName,
-  selection: Selection | null = null,
-  hides: string | null = null,
-): WorldNode {
-  return { key, label, detail, icon, selection, hides, children: [] };
+function pluginNodes(of: PluginOwner, plugins: readonly PluginInfo[]): readonly WorldNode[] {
+  return plugins.map(({ name, filename }) => leaf({ kind: "plugin", of, plugin: name }, name, filename, "plugin"));
+}
+
+function leaf(selection: Selection, label: string, detail: WorldNode["detail"], icon: IconName, hides: string | null = null): WorldNode {
+  return { key: keyOf(selection), label, detail, icon, selection, hides, children: [] };
 }
 
 function group(key: string, label: string, children: readonly WorldNode[]): WorldNode[] {
@@ -125,11 +124,24 @@ function matches(node: WorldNode, wanted: string): boolean {
   return node.label.toLowerCase().includes(wanted) || node.children.some((child) => matches(child, wanted));
 }
 
-/** Key of the node that stands for a selection. */
-export function keyOf(selection: Selection | null): string | null {
-  if (selection?.kind === "world") return "world";
-  if (selection?.kind === "light") return `light/${selection.light}`;
-  if (selection?.kind === "model") return `model/${selection.model}`;
-  if (selection?.kind === "link") return `link/${selection.model}/${selection.link}`;
-  return selection?.kind === "joint" ? `joint/${selection.model}/${selection.joint}` : null;
+/** Key of the node that stands for a selection; "": none does. */
+export function keyOf(selection: Selection | null): string {
+  switch (selection?.kind) {
+    case "world":
+      return "world";
+    case "light":
+      return `light/${selection.light}`;
+    case "model":
+      return `model/${selection.model}`;
+    case "link":
+      return `link/${selection.model}/${selection.link}`;
+    case "joint":
+      return `joint/${selection.model}/${selection.joint}`;
+    case "sensor":
+      return `link/${selection.model}/${selection.link}/${selection.sensor}`;
+    case "plugin":
+      return `${keyOf(selection.of)}/plugin/${selection.plugin}`;
+    default:
+      return "";
+  }
 }
