@@ -44,7 +44,7 @@ class Publisher:
         self.type = type_name
         self.latch = latch
         self._node = node
-        self._loop_threads = node.loop.own_threads
+        self._loop = node.loop
         self._queue_size = queue_size
         self._on_connect = on_connect
         self._unregister = unregister
@@ -104,7 +104,7 @@ class Publisher:
         """
         if self._wanted == 0 and not self.latch:
             return
-        if (timer := self._node.loop.publish_timer) is None:
+        if (timer := self._loop.publish_timer) is None:
             self._publish(message)
             return
         with timer():
@@ -117,11 +117,12 @@ class Publisher:
         if header is not None and hasattr(header, "seq"):
             self._sequence += 1
             header.seq = self._sequence
-        if self._send_at_once(message):
+        if self._direct and self._send_at_once(message):
             return
         self._lost += len(self._outbox) == self._queue_size
         self._outbox.append(message)
-        self._flush_soon()
+        if not self._flushes:
+            self._flush_soon()
 
     def checkpoint(self) -> Callable[[], None]:
         """Return a function that numbers the messages as from now on."""
@@ -257,10 +258,10 @@ class Publisher:
         Waking the loop takes longer than sending.
         """
         outs = self._direct
-        if not outs or threading.get_ident() in self._loop_threads or not self._turn.acquire(blocking=False):
+        if threading.get_ident() in self._loop.own_threads or not self._turn.acquire(blocking=False):
             return False
         try:
-            if outs is not self._direct or self._flushes or self._outbox:
+            if not outs or outs is not self._direct or self._flushes or self._outbox:
                 return False
             for out in outs:
                 if out.is_congested:
@@ -283,38 +284,33 @@ class Publisher:
     def _flush(self) -> None:
         frames: list[Pieces] = []
         count = size = 0
+        outbox, links = self._outbox, self._subscriber_links
         self._flushes = True  # prevents direct sending meanwhile
         try:
-            while (
-                self._outbox
-                and count < _BATCH_MESSAGES
-                and size < _BATCH_BYTES
-                and not self._subscriber_links.is_congested
-            ):
-                message = self._outbox.popleft()
+            while outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not links.is_congested:
+                message = outbox.popleft()
                 count += 1
                 if self.latch:
                     self._latched = message
                 self.published += 1
-                framed = self._framed(message) if self._subscriber_links.remote else None
+                framed = self._framed(message) if links.remote else None
                 if framed is not None:
                     frames.append(framed)
                     size += sum(map(len, framed))
-                for subscriber in list(self._subscriber_links.local):
+                for subscriber in list(links.local):
                     self._deliver(message, subscriber, framed)
             if frames:
-                for link in list(self._subscriber_links.remote):
+                for link in list(links.remote):
                     link.out.send(frames, self._queue_size)
         finally:
             # In this order: a message added in between is seen here or by its own publish().
             self._flushes = False
-            if self._outbox and not self._subscriber_links.is_congested:
+            if outbox and not self._flushes and not links.is_congested:
                 self._flush_soon()
 
     def _flush_soon(self) -> None:
-        if not self._flushes:
-            self._flushes = True
-            self._node.loop.deliver_soon(self._flush)
+        self._flushes = True
+        self._loop.deliver_soon(self._flush)
 
     def _deliver(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
         if not subscriber.is_raw and not isinstance(message, _BYTES):
