@@ -1,5 +1,6 @@
 """A person plots states of a simulation without ROS: by search, from the inspector, into files, along the timeline."""
 
+import contextlib
 import csv
 import io
 from collections.abc import Iterator
@@ -32,12 +33,17 @@ POSITION, FORCE, GRAVITY = (
 
 
 @pytest.fixture(scope="module")
-def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[PanelUser]:
-    """Plot a joint, a force and a sensor: two by search, one from the inspector."""
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     world = tmp_path_factory.mktemp("plots") / "w.sdf"
     world.write_text(WORLD)
     with running_page("run", str(world), "--no-ros", environment={}) as url:
-        user = PanelUser(chromium, url)
+        yield url
+
+
+@pytest.fixture(scope="module")
+def user(chromium: Any, url: str) -> Iterator[PanelUser]:
+    """Plot a joint, a force and a sensor: two by search, one from the inspector."""
+    with contextlib.closing(PanelUser(chromium, url)) as user:
         user.open("Plots")
         user.button("Add curve").first.click()
         for search, path in (("force.z", FORCE), ("inertia", GRAVITY)):
@@ -53,7 +59,6 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pa
         ).click()
         user.page.keyboard.press("Escape")
         yield user
-        user.close()
 
 
 def legend(user: PanelUser, path: str) -> float | None:
@@ -68,6 +73,15 @@ def saved(user: PanelUser, kind: str) -> bytes:
         user.button("Save").click()
         user.page.get_by_role("menuitem", name=kind).click()
     return Path(download.value.path()).read_bytes()
+
+
+def test_an_empty_plot_offers_where_the_robot_is(chromium: Any, url: str) -> None:
+    with contextlib.closing(PanelUser(chromium, url)) as user:
+        user.open("Plots")
+        user.button("Position of arm").click()
+
+        user.until(lambda: legend(user, "arm.pose.x") == pytest.approx(0, abs=0.01), what="for the arm's x")
+        user.until(lambda: legend(user, "arm.pose.y") == pytest.approx(0, abs=0.01), what="for the arm's y")
 
 
 def test_values_are_those_of_the_simulation(user: PanelUser) -> None:

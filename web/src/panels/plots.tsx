@@ -13,6 +13,7 @@ import { Legend } from "./plots/legend";
 import { parquetFile } from "./plots/parquet";
 import { PlotCanvas } from "./plots/plot_canvas";
 import { plotsState, WINDOWS, type PlotsState } from "./plots/plots_state";
+import { suggestions } from "./plots/suggestions";
 import { Split } from "./parts";
 import { saveFile } from "./use";
 
@@ -22,7 +23,15 @@ function Plots({ page }: PanelProps): JSX.Element {
     <Split detail={state.isAdding.value && <CurvePicker page={page} state={state} />}>
       {state.curves.length === 0 ? (
         <div class="empty line">
-          Nothing is plotted. <Button small tone="line" icon="plus" onClick={() => void (state.isAdding.value = true)}>Add curve</Button>
+          Nothing is plotted.
+          <Button small tone="line" icon="plus" onClick={() => void (state.isAdding.value = true)}>
+            Add curve
+          </Button>
+          {suggestions(page).map(({ title, paths }) => (
+            <Button key={title} small tone="line" onClick={() => paths.forEach((path) => state.add(path))}>
+              {title}
+            </Button>
+          ))}
         </div>
       ) : (
         <div class="plots" onDblClick={() => void (state.zoom.value = null)}>

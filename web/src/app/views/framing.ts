@@ -7,7 +7,7 @@ import { bodiesOfPart } from "../../editor/model_editor";
 import { NoTransform, type Transform } from "../../frames/transform";
 import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../../scene/simulated_world";
 import type { Page, PluginOwner, Selection } from "../page";
-import { allModels, bodiesOf, type ScopedModel } from "../world/nodes";
+import { allModels, bodiesOf, robotOf, type ScopedModel } from "../world/nodes";
 
 export function findModel(page: Pick<Page, "world">, name: string): ModelInfo | null {
   return allModels(page.world.manifest.value?.models ?? []).find((each) => each.name === name)?.model ?? null;
@@ -73,8 +73,7 @@ export function frameSelection(page: Page, selection: Selection | null): void {
 
 /** The simulated world's robot. */
 export function simulatedRobot(page: Page): ScopedModel | undefined {
-  const manifest = page.world.manifest.peek();
-  return allModels(manifest?.models ?? []).find(({ model }) => bodiesOf(model).includes(manifest?.robot ?? -1));
+  return robotOf(page.world.manifest.peek());
 }
 
 /** The robot's extent in the fixed frame, or that of the whole world or of all frames; empty: there is nothing to see yet. */

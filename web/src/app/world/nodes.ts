@@ -31,6 +31,13 @@ export function allModels(models: readonly ModelInfo[], scope = ""): readonly Sc
   });
 }
 
+const NO_BODY = -1;
+
+/** The model that the manifest names as the robot. */
+export function robotOf(manifest: Manifest | null): ScopedModel | undefined {
+  return allModels(manifest?.models ?? []).find(({ model }) => bodiesOf(model).includes(manifest?.robot ?? NO_BODY));
+}
+
 export function scopedName(scope: string, name: string): string {
   return scope === "" || name.startsWith(`${scope}::`) ? name : `${scope}::${name}`;
 }
@@ -43,13 +50,19 @@ export function bodiesOf(model: ModelInfo): readonly number[] {
 /** The tree of a world; most worlds are called `default`, which says less than the page's title. */
 export function worldNode(manifest: Manifest, title = manifest.name): WorldNode {
   const lights = manifest.lights.map(({ name, type }) => leaf({ kind: "light", light: name }, name, type, "light"));
-  const models = manifest.models.map((model) => modelNode(model, ""));
+  const models = robotFirst(manifest).map((model) => modelNode(model, ""));
   const name = manifest.name === "default" ? title : manifest.name;
   const world = { kind: "world" } as const;
   return {
     ...leaf(world, name, count(manifest.models.length, "model"), "world"),
     children: [...models, ...group("lights", "Lights", lights), ...group("world/plugins", "Plugins", pluginNodes(world, manifest.plugins))],
   };
+}
+
+function robotFirst(manifest: Manifest): readonly ModelInfo[] {
+  const { models } = manifest;
+  const isRobot = (model: ModelInfo): boolean => bodiesOf(model).includes(manifest.robot ?? NO_BODY);
+  return [...models.filter(isRobot), ...models.filter((model) => !isRobot(model))];
 }
 
 function modelNode(model: ModelInfo, scope: string): WorldNode {

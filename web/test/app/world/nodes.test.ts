@@ -21,6 +21,12 @@ describe("the world's tree", () => {
     expect(labels("nothing")).toEqual([]);
   });
 
+  it("begins with the robot", () => {
+    const { models } = MANIFEST;
+    const tree = worldNode({ ...MANIFEST, models: [...models.slice(1), ...models.slice(0, 1)] });
+    expect(tree.children.slice(0, 2).map(({ label }) => label)).toEqual(["rp2w", "living_room"]);
+  });
+
   it("names nested models in full", () => {
     const [robot] = MANIFEST.models;
     const nested = { ...MANIFEST, models: [{ ...MANIFEST.models[2], name: "outer", models: robot === undefined ? [] : [robot] }] } as typeof MANIFEST;
