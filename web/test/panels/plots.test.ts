@@ -2,11 +2,23 @@
 import { describe, expect, test } from "vitest";
 
 import { Curve } from "../../src/panels/plots/curve";
+import { legendText } from "../../src/panels/plots/legend";
 import { PlotsState } from "../../src/panels/plots/plots_state";
 import { fakePage } from "../fake_page";
 import { MANIFEST } from "../harness/manifest";
 
 const at = (sec: number): { header: { stamp: { sec: number; nsec: number } } } => ({ header: { stamp: { sec, nsec: 0 } } });
+
+describe("the legend", () => {
+  test.each([
+    [0.31, 0.5, "0.310"],
+    [-1.9e-10, 0.5, "0.000"],
+    [-1.9e-10, 1.9e-10, "−1.9e−10"],
+    [-12.5, 20, "−12.50"],
+  ])("writes %f beside at most %f as %s", (value, largest, text) => {
+    expect(legendText(value, largest)).toBe(text);
+  });
+});
 
 describe("a curve", () => {
   test("takes the stamp where there is one, else the time of receiving", () => {

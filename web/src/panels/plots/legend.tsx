@@ -12,6 +12,8 @@ import type { Plot, PlotsState } from "./plots_state";
 import { COLOURS, isDashed } from "./style";
 
 const PERIOD = 200; // ms
+/** Share of a curve's largest value that nobody sees beside it. */
+const UNSEEN = 1e-4;
 
 export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
   useTick(PERIOD);
@@ -26,7 +28,7 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
               {curve.name}
             </span>
             <span class="num">
-              <b>{value === null ? "—" : legendText(value)}</b> {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
+              <b>{value === null ? "—" : legendText(value, largest(curve, state))}</b> {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
             </span>
             <MenuButton label={`Curve ${curve.path}`} icon="dots" class="sml" items={() => items(state, plot, curve)} />
             <span class="t">{curve.fault.value === "" ? curve.caption : <span class="warned">{curve.fault.value}</span>}</span>
@@ -37,12 +39,17 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
   );
 }
 
-/** Decimals by the size, so that a value that moves keeps its width. */
-function legendText(value: number): string {
-  const size = Math.abs(value);
+/** Largest absolute value that is shown. */
+function largest({ points }: Curve, state: PlotsState): number {
+  return points.between(...state.range())[1].reduce((most, y) => Math.max(most, Math.abs(y)), 0);
+}
+
+/** Decimals by the size, so that a value that moves keeps its width; 0 for what is nothing beside the largest. */
+export function legendText(value: number, largest: number): string {
+  const size = Math.abs(value) < UNSEEN * largest ? 0 : Math.abs(value);
   if (size !== 0 && size < 0.001) return significant(value, 2);
   if (size >= 100_000) return significant(value);
-  return fixed(value, size < 10 ? 3 : size < 1000 ? 2 : 0);
+  return fixed(Math.sign(value) * size, size < 10 ? 3 : size < 1000 ? 2 : 0);
 }
 
 function items(state: PlotsState, plot: Plot, curve: Curve): readonly MenuItem[] {
