@@ -11,7 +11,7 @@ from typing import Any
 import genpy
 import rosgraph.names
 
-from . import core, graph, names, rostime
+from . import core, graph, names, rostime, subscription
 from .exceptions import ROSException, ROSInitException, ROSInterruptException
 from .msproxy import MasterProxy
 
@@ -157,6 +157,7 @@ def init_node(
 
 def _start(name: str, argv: Sequence[str], ports: tuple[int, int]) -> None:
     """Start the node, and set its private parameters."""
+    subscription.open_statistics = _open_statistics
     made = graph.start(name, rosgraph.get_master_uri() or "", ports)
     core.set_node_uri(made.uri)
     core.add_shutdown_hook(graph.stop)
@@ -164,6 +165,15 @@ def _start(name: str, argv: Sequence[str], ports: tuple[int, int]) -> None:
     for param, value in load_command_line_node_params(argv).items():
         set_param(f"~{param}", value)
     core.set_initialized(True)
+
+
+def _open_statistics(topic: str) -> subscription.Statistics | None:
+    """Statistics of a topic; None unless /enable_statistics is true."""
+    if not get_param("/enable_statistics", False):
+        return None
+    from .impl.statistics import SubscriberStatisticsLogger
+
+    return SubscriberStatisticsLogger(topic, get_param)
 
 
 def _refuse_shutdown() -> None:

@@ -10,7 +10,7 @@ import traceback
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from queue import Empty, SimpleQueue
-from typing import Any
+from typing import Any, Protocol
 
 from trundle.ros import _message_codec
 from trundle.ros.node.local_graph import LocalPublisher
@@ -23,9 +23,26 @@ from trundle.rospy.message_methods import codec, has_only_bytes, is_plain
 from . import core, graph
 from .exceptions import ROSException
 
+_NO_STATISTICS = ("/clock", "/statistics")
+_FRAME = 4
+"""Bytes of a message's length on the wire."""
 _MAX_WAITING_BYTES = 256 * 1024 * 1024
 """Limit of messages that wait for slow callbacks, where the program sets none."""
 _Callback = tuple[Callable[..., object], Any]
+
+
+class Statistics(Protocol):
+    """Statistics of a topic's messages."""
+
+    def callback(self, message: Any, publisher: str, size: int) -> None:
+        """Count a message of a publisher [bytes on the wire]."""
+
+    def shutdown(self) -> None:
+        """Stop."""
+
+
+open_statistics: Callable[[str], Statistics | None] | None = None
+"""Returns the statistics of a topic, None to count none; set by the node."""
 
 
 class _ReadMessage:
@@ -170,6 +187,7 @@ class Subscription:
     def _run(self) -> None:
         _message_codec.request_time_slice(SLICE_NS)  # a message would wait for busy threads here, too
         read = self.reader
+        statistics = self._open_statistics()
         while (entry := self._waiting.get()) is not None:
             data, header = entry
             self._waiting_bytes -= len(data)
@@ -179,12 +197,25 @@ class Subscription:
                 logging.getLogger("rospy.topics").error("%s: cannot deserialize: %s", self.resolved_name, error)
                 continue
             message._connection_header = header
+            if statistics is not None:
+                statistics.callback(message, header.get("callerid", ""), len(data) + _FRAME)
             with self._lock:
                 if header.get("latching") == "1":
                     self._latched[header.get("callerid", "")] = message
                 callbacks = self.callbacks
             for callback, arguments in callbacks:
                 self._call(message, callback, arguments)
+        if statistics is not None:
+            statistics.shutdown()
+
+    def _open_statistics(self) -> Statistics | None:
+        """Statistics of the topic, where the node wants them when it subscribes."""
+        if open_statistics is None or self.resolved_name in _NO_STATISTICS:
+            return None
+        try:
+            return open_statistics(self.resolved_name)
+        except Exception:  # no master, a node that shuts down
+            return None
 
     @cached_property
     def reader(self) -> Callable[[bytes | memoryview], Any]:
