@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
@@ -37,10 +38,13 @@ def running_page(
     )
     assert process.stderr is not None
     said = ""
+    late = threading.Timer(PATIENCE_S, os.killpg, (process.pid, signal.SIGKILL))
+    late.start()
     try:
         for line in process.stderr:
             said += line
             if found := re.search(r"see it at (http://\S+)", line):
+                late.cancel()
                 yield found[1]
                 os.killpg(process.pid, signal.SIGINT)
                 _, rest = process.communicate(timeout=PATIENCE_S)
@@ -49,6 +53,7 @@ def running_page(
                 return
         raise AssertionError(f"no page: {said}")
     finally:
+        late.cancel()
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
