@@ -119,3 +119,12 @@ def test_setup_files_are_parsed_not_run(tmp_path: Path, text: str, found: dict[s
     (tmp_path / "src/one.py").touch()
     (tmp_path / "setup.py").write_text(text)
     assert dict(read_setup(tmp_path / "setup.py")) == {name: tmp_path / path for name, path in found.items()}
+
+
+def test_packages_are_not_searched_for_what_the_standard_library_tries_of_jython(tmp_path: Path) -> None:
+    package = _package(tmp_path, "org")
+    for name in ("__init__.py", "python/__init__.py", "python/core.py"):
+        (package / "src/org" / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / "src/org" / name).write_text("PyStringMap = dict\n")
+    code = "import copy, pickle, sys; print('org' in sys.modules)"
+    assert _printed(code, **with_finder({"ROS_PACKAGE_PATH": str(tmp_path)})) == "False"

@@ -99,6 +99,32 @@ for source, pixel, target in (("bgr8", 3, "bgr8"), ("rgb8", 3, "bgr8"), ("mono8"
     ]  # fmt: skip
 
 
+def test_depth_is_shown_in_shades_of_grey(tmp_path: Path) -> None:
+    code = """
+import numpy as np
+from cv_bridge import cvtColorForDisplay
+depth = np.array([[0.5, 1.0], [2.5, np.nan]], np.float32)
+print(cvtColorForDisplay(depth, "32FC1", "mono8", min_image_value=0.5, max_image_value=2.5).tolist())
+print(cvtColorForDisplay(depth, "32FC1", "", do_dynamic_scaling=True)[..., 0].tolist())
+print(cvtColorForDisplay(np.array([[100, 1500]], np.uint16), "16UC1", "mono8", False, 500, 1500).tolist())
+print(cvtColorForDisplay(np.array([[257, 65535]], np.uint16), "16UC1", "mono8").tolist())
+print(cvtColorForDisplay(np.full((1, 1), 7.0), "64FC1", "bgr8", True).tolist())
+print(cvtColorForDisplay(np.array([[[1, 2, 3]]], np.uint8), "rgb8", "bgr8").tolist())
+for given in (("8UC1", "bgr8"), ("rgb8", "32FC1"), ("32SC1", "bgr8")):
+    try:
+        cvtColorForDisplay(np.zeros((1, 1), np.uint8), *given)
+    except RuntimeError as error:
+        print(error)
+"""
+    said = _run(code, tmp_path).splitlines()
+    assert said[:6] == [
+        "[[0, 64], [255, 0]]", "[[0, 64], [255, 0]]", "[[0, 255]]", "[[1, 255]]", "[[[128, 128, 128]]]",
+        "[[[3, 2, 1]]]",
+    ]  # fmt: skip
+    assert [line.partition("isplay")[0] for line in said[6:]] == ["cv_bridge.cvtColorForD"] * 3
+    assert "[8UC1] is not a color format" in said[6]
+
+
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """Package with a .cfg file."""
@@ -172,6 +198,10 @@ for data in (base64.b64encode(pickle.dumps({"x": Evil()})).decode(), "!!", base6
         ("import moveit_commander", "follow_joint_trajectory"),
         ("from PyKDL import ChainIdSolver_RNE", "cannot import name 'ChainIdSolver_RNE'"),
         ("import PyKDL; PyKDL.ChainIdSolver_RNE", "python3-pykdl"),
+        ("import genpy.generator", "genpy.dynamic.generate_dynamic"),
+        ("from genmsg.template_tools import generate_from_command_line_options", "python3-genpy"),
+        ("import roslib.gentools", "genmsg.gentools"),
+        ("from rosunit import pmon", "trundle test"),
     ],
 )
 def test_what_is_missing_is_named_with_a_way_out(statement: str, said: str, tmp_path: Path) -> None:

@@ -20,7 +20,10 @@ _HERE = os.path.dirname(os.path.abspath(__file__))
 MODULES = os.path.join(_HERE, "modules")
 _BUNDLES, _DEFINITIONS = os.path.join(_HERE, "definitions"), os.path.join(os.path.dirname(_HERE), "ros", "definitions")
 _KINDS = ("msg", "srv")
-_NOT_SEARCHED = frozenset({"sitecustomize", "usercustomize", "trundle"})
+_PARTIAL = frozenset({"genmsg", "genpy", "roslib", "rosunit"})
+"""Packages of which `missing_modules` lists modules."""
+_NOT_SEARCHED = frozenset({"java", "org", "sitecustomize", "trundle", "usercustomize"})
+"""Names that are in no ROS package; copy, pickle and platform try Jython's."""
 
 
 class RosFinder:
@@ -43,6 +46,10 @@ class RosFinder:
             return self._find_messages(fullname, package, kind, name[1:])
         if kind == "cfg":
             return self._find_cfg(fullname, package, name)
+        if package in _PARTIAL:
+            from .missing_modules import find_missing
+
+            return find_missing(fullname)
         return None
 
     def _find_messages(self, fullname: str, package: str, kind: str, name: str) -> ModuleSpec | None:

@@ -1,8 +1,9 @@
 """Image messages as numpy arrays, the images of OpenCV."""
 
 from .bridge import CvBridge, CvBridgeError
+from .display import cvtColorForDisplay
 
-__all__ = ["CvBridge", "CvBridgeError", "getCvType"]
+__all__ = ["CvBridge", "CvBridgeError", "cvtColorForDisplay", "getCvType"]
 
 
 def getCvType(encoding):

@@ -102,6 +102,22 @@ def load_srv_by_type(msg_context: MsgContext, srv_type: str, search_path: Any = 
     return SrvSpec(request, response, text, srv_type)
 
 
+def load_depends(msg_context: MsgContext, spec: MsgSpec | SrvSpec, search_path: Any = None) -> None:
+    """Add the definitions of all types that one contains.
+
+    Raises:
+        MsgNotFound: there is no such type.
+        InvalidMsgSpec: a definition cannot be parsed.
+    """
+    if isinstance(spec, SrvSpec):
+        for half in (spec.request, spec.response):
+            load_depends(msg_context, half, search_path)
+        return
+    for field in spec.parsed_fields():
+        if not field.is_builtin and not msg_context.is_registered(field.base_type):
+            load_depends(msg_context, load_msg_by_type(msg_context, field.base_type), search_path)
+
+
 def _converted(spec: Any) -> MsgSpec:
     constants = [Constant(each.type, each.name, each.value, each.text) for each in spec.constants]
     types, names = [field.type for field in spec.fields], [field.name for field in spec.fields]

@@ -6,7 +6,7 @@ from types import ModuleType
 from .launcher import load_manifest as load_manifest
 
 _is_interactive = False
-_SUBMODULES = frozenset({"exceptions", "message", "names", "network", "packages", "rosenv", "scriptutil"})
+_SUBMODULES = frozenset({"exceptions", "message", "msgs", "names", "network", "packages", "rosenv", "scriptutil"})
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -1,0 +1,102 @@
+"""Runner of unittests that writes JUnit's XML."""
+
+import contextlib
+import io
+import sys
+import time
+import traceback
+import unittest
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TextIO
+from xml.sax.saxutils import escape, quoteattr
+
+_Error = tuple[type[BaseException], BaseException, TracebackType] | tuple[None, None, None]
+
+
+class XMLTestRunner:
+    """Runs a suite; what its tests print goes into the file."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def run(self, test: unittest.TestSuite) -> "XMLTestResult":
+        """Run a suite, write the file, print a line per test."""
+        suite = type(test)
+        result = XMLTestResult(f"{suite.__module__}.{suite.__name__}")
+        begin = time.monotonic()
+        with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+            test(result)
+        text = result.xml(time.monotonic() - begin, out.getvalue(), err.getvalue())
+        self._path.write_text(text, encoding="utf-8")
+        result.print_report(sys.stdout)
+        return result
+
+
+class XMLTestResult(unittest.TestResult):
+    """Result that keeps each test's time and failure."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self._name = name
+        self._cases: list[tuple[unittest.TestCase, float, str, _Error | None]] = []
+        self._begin = 0.0
+        self._failed: tuple[str, _Error | None] = "", None
+
+    def startTest(self, test: unittest.TestCase) -> None:
+        """Note the begin of a test."""
+        super().startTest(test)
+        self._begin, self._failed = time.monotonic(), ("", None)
+
+    def stopTest(self, test: unittest.TestCase) -> None:
+        """Note the end of a test."""
+        super().stopTest(test)
+        self._cases.append((test, time.monotonic() - self._begin, *self._failed))
+
+    def addError(self, test: Any, err: Any) -> None:
+        """Note an error."""
+        super().addError(test, err)
+        self._failed = "error", err
+
+    def addFailure(self, test: Any, err: Any) -> None:
+        """Note a failure."""
+        super().addFailure(test, err)
+        self._failed = "failure", err
+
+    def print_report(self, stream: TextIO) -> None:
+        """Print how each test ended."""
+        for test, _, kind, error in self._cases:
+            name = test.id().rpartition(".")[2]
+            if error is None or error[0] is None:
+                stream.write(f"[Testcase: {name}] ... ok\n")
+                continue
+            said = escape(f"{kind.upper()}: {error[1]}\n{_lines(error)}")
+            stream.write(f"[Testcase: {name}] ... {kind.upper()}!\n{said}{'-' * 80}\n\n")
+
+    def xml(self, seconds: float, out: str, err: str) -> str:
+        """JUnit's XML, with what the tests printed."""
+        head = f"errors={quoteattr(str(len(self.errors)))} failures={quoteattr(str(len(self.failures)))}"
+        lines = [
+            '<?xml version="1.0" encoding="utf-8"?>',
+            f'<testsuite {head} name={quoteattr(self._name)} tests="{self.testsRun}" time="{seconds:.3f}">',
+        ]
+        for test, took, kind, error in self._cases:
+            place, _, name = test.id().rpartition(".")
+            lines.append(f'<testcase classname={quoteattr(place)} name={quoteattr(name)} time="{took:.4f}">')
+            if error is not None and error[0] is not None:
+                said = escape(_printable(f"{error[1]}\n{_lines(error)}"))
+                lines.append(f"<{kind} type={quoteattr(error[0].__name__)}>{said}</{kind}>")
+            lines.append("</testcase>")
+        printed = [
+            f"<{tag}>{escape(_printable(text))}</{tag}>" for tag, text in (("system-out", out), ("system-err", err))
+        ]
+        return "\n".join([*lines, *printed, "</testsuite>", ""])
+
+
+def _lines(error: _Error) -> str:
+    return "".join(traceback.format_tb(error[2]))
+
+
+def _printable(text: str) -> str:
+    """Text without the characters that XML has none for."""
+    return "".join(each if each in "\t\n\r" or (each >= " " and each not in "\ufffe\uffff") else "?" for each in text)

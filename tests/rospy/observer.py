@@ -1,0 +1,111 @@
+"""Node that observes the nodes of a graph, sends them messages and requests, and prints what they did as JSON.
+
+    python tests/rospy/observer.py START_S
+
+Waits until the graph has been unchanged for a while, records the first messages of every topic, publishes a default
+message three times on topics that are only subscribed to, and calls every service with a default request.
+"""
+
+import json
+import sys
+import time
+
+import rosgraph
+import roslib.message
+import rospy
+import rosservice
+
+_LOGGERS = ("/get_loggers", "/set_logger_level")
+_QUIET = ("/rosout", "/rosout_agg", "/clock", "/statistics")
+_SETTLED_S = 2.0
+_FIRST = 3
+master = rosgraph.Master("/observer")
+messages = {}
+
+
+def graph():
+    """Publishers, subscribers and services of the observed nodes: pairs (name, type)."""
+    state = master.getSystemState()
+    types = dict(master.getTopicTypes())
+    return [
+        sorted((name, types.get(name, "")) for name, nodes in kind if set(nodes) - {"/observer", "/rosout"})
+        for kind in state
+    ]
+
+
+def message_class(type_name):
+    """Class of a type; None if it is unknown, or not any type in particular."""
+    return roslib.message.get_message_class(type_name) if "/" in type_name else None
+
+
+def record(topic, type_name):
+    """Keep the first messages of a topic."""
+    cls = message_class(type_name)
+    kept = messages.setdefault(topic, [])
+
+    def keep(message):
+        if len(kept) < _FIRST:
+            kept.append(str(message))
+
+    return rospy.Subscriber(topic, cls, keep) if cls else None
+
+
+def wait_settled(end):
+    """Wait until there is a node whose endpoints stay; False if there is none in time."""
+    before, since = None, time.time()
+    while time.time() < end:
+        now = graph()
+        if now != before:
+            before, since = now, time.time()
+        for topic, type_name in now[0]:
+            if topic not in messages and topic not in _QUIET:
+                record(topic, type_name)
+        if any(now) and time.time() - since > _SETTLED_S:
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def send(topics):
+    """Publish a default message on each topic, three times."""
+    classes = {topic: message_class(type_name) for topic, type_name in topics}
+    publishers = {topic: rospy.Publisher(topic, cls, queue_size=9) for topic, cls in classes.items() if cls}
+    time.sleep(1)
+    for _ in range(_FIRST):
+        for topic, publisher in publishers.items():
+            publisher.publish(classes[topic]())
+        time.sleep(0.3)
+
+
+def answer(name):
+    """What a service answers to a default request."""
+    cls = rosservice.get_service_class_by_name(name)
+    try:
+        return str(rospy.ServiceProxy(name, cls)())
+    except rospy.ServiceException as error:
+        return f"ServiceException: {error}"
+
+
+rospy.init_node("observer", disable_rosout=True)
+found = wait_settled(time.time() + float(sys.argv[1]))
+publishers, subscribers, services = graph()
+answers = {}
+if found:
+    published = {topic for topic, _ in publishers}
+    send([pair for pair in subscribers if pair[0] not in published and pair[0] not in _QUIET])
+    names = [name for name, _ in services if not name.endswith(_LOGGERS)]
+    answers = {name: answer(name) for name in names}
+    time.sleep(_SETTLED_S)
+print(
+    json.dumps(
+        {
+            "found": found,
+            "publishers": publishers,
+            "subscribers": subscribers,
+            "services": [name for name, _ in services],
+            "parameters": sorted(master.getParamNames()),
+            "messages": messages,
+            "answers": answers,
+        }
+    )
+)
