@@ -80,7 +80,7 @@ def _center(user: WorldUser, name: str) -> Point:
 
 
 def _stands(user: WorldUser, name: str, place: tuple[float, float, float], within: float = 0.03) -> bool:
-    return user.model(name) is not None and math.dist(user.place(name), place) < within
+    return user.pose(name) is not None and math.dist(user.place(name), place) < within
 
 
 def _lights(user: WorldUser) -> dict[str, list[float]]:
