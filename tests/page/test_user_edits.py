@@ -1,5 +1,6 @@
 """A person edits a running world and its time; what the simulation then has is read over the page's protocol."""
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -85,6 +86,80 @@ def test_velocity_is_typed_and_one_model_put_back(user: WorldUser) -> None:
     user.until_still(lambda: _now(user))
     assert user.place("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4), "it is at rest"
     assert user.place("crane")[0] == pytest.approx(-0.5)
+
+
+def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
+    """From its menu; pose, joint and velocity are those before: it drifts on as it did."""
+    user.pick("crane")
+    user.type("linear y [m/s]", "0.5")
+    user.page.get_by_role("searchbox", name="Search the world").fill("slide")
+    user.pick("slide")
+    user.type("target velocity [m/s]", "0.4")
+    _in_dialog(user, "Steps", "50", "Take")
+    user.until_still(lambda: _now(user))
+    before = user.pose("crane"), user.pose("crane", 1)
+    user.page.get_by_role("searchbox", name="Search the world").fill("")
+    user.page.get_by_role("treeitem").filter(has_text="crane").first.click(button="right")
+    user.page.locator('.menu [data-title="Reset this model"]').click()
+    user.until(lambda: user.place("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
+    user.button("Undo: Reset of crane").click()
+    user.until(lambda: user.place("crane") == pytest.approx(before[0][:3], abs=1e-6))
+    assert user.pose("crane", 1) == pytest.approx(before[1], abs=1e-6)
+    _in_dialog(user, "Steps", "10", "Take")
+    user.until(lambda: user.place("crane")[1] == pytest.approx(before[0][1] + 0.05, abs=1e-3))
+    user.page.keyboard.press("Control+Shift+Z")
+    user.until(lambda: user.place("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
+    user.button("Undo: Reset of crane").click()
+    user.until(lambda: user.place("crane")[1] > before[0][1])
+
+
+def _reset(user: WorldUser, model: str) -> None:
+    user.page.get_by_role("treeitem").filter(has_text=model).first.click(button="right")
+    user.page.locator('.menu [data-title="Reset this model"]').click()
+    user.button(f"Undo: Reset of {model}").wait_for()
+
+
+def test_a_torque_that_is_typed_turns_a_body_for_its_time(user: WorldUser) -> None:
+    """2 N·m on 1 kg·m² for half a second: 0.25 rad by then, and 1 rad/s for the other half."""
+    _reset(user, "raft")
+    user.page.get_by_role("searchbox", name="Search the world").fill("raft")
+    user.pick("base")
+    user.type("torque z", "2")
+    user.type("duration [s]", "0.5")
+    user.button("Apply").click()
+    _in_dialog(user, "Steps", "100", "Take")
+
+    def turned() -> float:
+        pose = user.pose("raft")
+        assert pose is not None
+        return 2.0 * math.atan2(pose[5], pose[6])
+
+    user.until(lambda: turned() == pytest.approx(0.75, abs=0.03), what=f"for a turn, not {turned()}")
+    user.page.get_by_role("searchbox", name="Search the world").fill("")
+
+
+def test_the_timeline_shows_when_which_models_touched(user: WorldUser) -> None:
+    """The raft drifts 1.2 m into the crane, at 1 m/s."""
+    user.open("Timeline")
+    user.page.get_by_role("group", name="Contacts", exact=True).wait_for()
+    for model in ("crane", "raft"):
+        _reset(user, model)
+    user.pick("raft")
+    user.type("linear y [m/s]", "-1")
+    began = _now(user)
+    bar = user.page.get_by_role("banner")
+    bar.get_by_role("button", name="Play", exact=True).click()
+    lane = user.page.get_by_role("group", name="crane · raft")
+    lane.locator(".band").first.wait_for(state="attached")
+    bar.get_by_role("button", name="Pause", exact=True).click()
+    user.until(lambda: user.is_paused)
+    head = user.page.get_by_role("slider", name="Time")
+    start, end = (float(head.get_attribute(f"aria-value{edge}")) for edge in ("min", "max"))
+    share = float(lane.locator(".band").first.evaluate("band => parseFloat(band.style.left)")) / 100
+    touched = start + share * (end - start)
+    assert began + 1.1 < touched < began + 2.0
+    user.page.get_by_role("group", name="Contacts", exact=True).wait_for(state="detached")
+    user.open("Plots")
 
 
 @pytest.mark.parametrize(("target", "value"), [("position [m]", "0.5"), ("velocity [m/s]", "0.4"), ("effort [N]", "2")])

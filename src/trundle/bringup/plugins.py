@@ -208,4 +208,4 @@ def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None
     simulation.add_hook(
         plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted(), name=name
     )
-    simulation.on_reset(reset)
+    simulation.on_reset(reset, model=model)

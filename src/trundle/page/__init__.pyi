@@ -23,7 +23,6 @@ from .edit_requests import MoveJoint as MoveJoint
 from .edit_requests import PlaceJoint as PlaceJoint
 from .edit_requests import PlaceLight as PlaceLight
 from .edit_requests import Pull as Pull
-from .edit_requests import ResetModel as ResetModel
 from .edit_requests import SetFriction as SetFriction
 from .edit_requests import SetLight as SetLight
 from .edit_requests import SetMass as SetMass
@@ -81,7 +80,9 @@ from .world_requests import InsertModel as InsertModel
 from .world_requests import ListModels as ListModels
 from .world_requests import ModelAction as ModelAction
 from .world_requests import RenderModel as RenderModel
+from .world_requests import ResetModel as ResetModel
 from .world_requests import RestoreLight as RestoreLight
 from .world_requests import RestoreModel as RestoreModel
 from .world_requests import SaveReplay as SaveReplay
 from .world_requests import SaveWorld as SaveWorld
+from .world_requests import UndoReset as UndoReset

@@ -85,12 +85,6 @@ class HoldModel(Action, frozen=True, tag="hold"):
     on: bool
 
 
-class ResetModel(Action, frozen=True, tag="reset_model"):
-    """Put one model back as it came, with its joints, at rest and with its motors off."""
-
-    model: Name
-
-
 class PlaceJoint(Action, frozen=True, tag="place_joint"):
     """Set the position of a joint at once; its velocity stays, and no motor is switched."""
 
@@ -183,7 +177,6 @@ EditAction: TypeAlias = (
     | Pull
     | LetGo
     | HoldModel
-    | ResetModel
     | SetTwist
     | SetMass
     | SetFriction

@@ -96,4 +96,18 @@ class RenderModel(Action, frozen=True, tag="model_picture"):
 
 
 InsertAction: TypeAlias = ListModels | InsertModel | InsertLight
-ModelAction: TypeAlias = CopyModel | DeleteModel | RestoreModel | DeleteLight | RestoreLight
+
+
+class ResetModel(Action, frozen=True, tag="reset_model"):
+    """Put one model back as it came, with its joints, at rest and with its motors off; its plugins are reset."""
+
+    model: Name
+
+
+class UndoReset(Action, frozen=True, tag="undo_reset"):
+    """Give a model the state that it had before its newest reset; its motors stay off, its plugins as they are."""
+
+    model: Name
+
+
+ModelAction: TypeAlias = CopyModel | DeleteModel | RestoreModel | ResetModel | UndoReset | DeleteLight | RestoreLight

@@ -46,7 +46,7 @@ class Hooks:
         return True
 
     def reset(self) -> None:
-        """Clear commands and integrals; called when the simulation is reset."""
+        """Clear commands and integrals; called when the simulation, or its model alone, is reset."""
 
 
 class Plugin(Hooks):

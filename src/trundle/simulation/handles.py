@@ -181,13 +181,17 @@ class ModelHandle:
             link.set_pose(there)
 
     def reset(self) -> None:
-        """Put the model back as it was loaded or spawned, with its joints, at rest, with motors off and no loads."""
+        """Put the model back as it was loaded or spawned, with its joints, at rest, with motors off and no loads.
+
+        Its plugins are reset afterwards, as in Gazebo's Model::Reset.
+        """
         self._simulation.engine.writer.reset_links([link.index for link in self.links])
         for link in self.links:
             link.apply_wrench(Wrench())
         for joint in self.joints:
             for axis in range(len(joint.axes)):
                 joint.command_effort(0.0, axis=axis)
+        self._simulation.finish_reset(self)
 
     def set_twist(self, twist: Twist) -> None:
         """Set the model's twist on its free trees once, world axes."""

@@ -1,11 +1,14 @@
 """Interface of a running world as its handles and actors see it."""
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from trundle.model import World
 from trundle.physics import Engine
 
 from .applied_loads import AppliedLoads
+
+if TYPE_CHECKING:
+    from .handles import ModelHandle
 
 
 class Runtime(Protocol):
@@ -37,4 +40,8 @@ class Runtime(Protocol):
 
     def edit(self, world: World) -> None:
         """Continue with an edited world of the same models, links and joints."""
+        ...
+
+    def finish_reset(self, model: "ModelHandle") -> None:
+        """Call what waits for resets of one model."""
         ...

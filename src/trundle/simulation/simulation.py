@@ -97,7 +97,7 @@ class Simulation:
         for walk in self.actors.values():
             wanted = partial(walk.enabled, self.models)
             self.add_hook(walk, period_ns=walk.period_ns, enabled=wanted)
-        self._on_reset: list[Callable[[], None]] = []
+        self._on_reset: list[tuple[Callable[[], None], ModelHandle | None]] = []
 
     @property
     def time_ns(self) -> int:
@@ -304,12 +304,18 @@ class Simulation:
             self._schedule.restart(0)
         self.engine.set_time(self.time_ns / NS_PER_S)
         if poses:
-            for call in self._on_reset:
+            for call, _ in self._on_reset:
                 call()
 
-    def on_reset(self, call: Callable[[], None]) -> None:
-        """Call a function after each reset of poses."""
-        self._on_reset.append(call)
+    def on_reset(self, call: Callable[[], None], *, model: ModelHandle | None = None) -> None:
+        """Call a function after each reset of poses, and after each reset of `model` alone."""
+        self._on_reset.append((call, model))
+
+    def finish_reset(self, model: ModelHandle) -> None:
+        """Call what waits for resets of one model; for its handle only."""
+        for call, of in self._on_reset:
+            if of is model:
+                call()
 
     # -- spawning and deleting
 

@@ -12,7 +12,7 @@ from trundle.bringup.run.run_options import RunOptions
 from trundle.bringup.run.running_world import RunningWorld
 from trundle.bringup.simulation_page.model_edits import ModelEdits
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.page import CopyModel, DeleteModel, RestoreModel
+from trundle.page import CopyModel, DeleteModel, ResetModel, RestoreModel
 from trundle.spatial import Pose
 
 WORLD = """<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity><model name="cart"><link name="base">
@@ -93,6 +93,32 @@ def test_what_is_put_back_is_in_the_state_that_it_had_and_its_plugins_drive_it(
     until(moves)
     with pytest.raises(UsageError, match="there is a model 'cart' already"):
         edits.handle(RestoreModel("cart"))
+
+
+def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: RunningWorld) -> None:
+    """As Gazebo's Model::Reset: what the cart was told is forgotten, its copy drives on."""
+    client = graph.node("/client")
+    velocity = client.advertise("/go", "geometry_msgs/Twist", queue_size=1)
+    edits, simulation = _model_edits(world), world.simulation
+    edits.handle(CopyModel("cart", "cart_0", (3, 0, 0)))
+
+    def both_move() -> bool:
+        velocity.publish({"linear": {"x": 1.0}})
+        world.advance(simulation.time_ns + 10_000_000)
+        return simulation["cart"].pose.position[0] > 0.05 and simulation["cart_0"].pose.position[0] > 3.05
+
+    def both_are_fast() -> bool:
+        world.advance(simulation.time_ns + 10_000_000)
+        return all(simulation[name].twist.linear[0] > 1.5 for name in ("cart", "cart_0"))
+
+    until(both_move)
+    velocity.publish({"linear": {"x": 2.0}})
+    until(both_are_fast)  # all that was published before has come
+    before = simulation["cart_0"].pose.position[0]
+    edits.handle(ResetModel("cart"))
+    world.advance(simulation.time_ns + 500_000_000)
+    assert simulation["cart"].pose.position == pytest.approx((0, 0, 0), abs=1e-6)
+    assert simulation["cart_0"].pose.position[0] == pytest.approx(before + 1.0, abs=0.05)
 
 
 def test_the_timeline_begins_again_where_plugins_go(world: RunningWorld) -> None:

@@ -1,13 +1,17 @@
 """Edits from the page: what they do to the simulation, their bounds, and that a timeline repeats them."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
+from msgspec.structs import replace
 from tests.bringup.simulation_page.worlds import loaded
 
 from trundle.bringup.simulation_page.edits import edit
+from trundle.bringup.simulation_page.model_edits import ModelEdits
+from trundle.bringup.world_contents import BareContents
 from trundle.diagnostics import UsageError
 from trundle.page import (
     ApplyWrench,
@@ -20,8 +24,10 @@ from trundle.page import (
     SetPhysics,
     SetPose,
     SetTwist,
+    UndoReset,
 )
 from trundle.simulation import Simulation
+from trundle.spatial import Pose, Twist
 from trundle.timeline import Timeline
 
 _WORLD = """<gravity>0 0 0</gravity><light name="sun" type="directional"><diffuse>1 1 1 1</diffuse></light>
@@ -31,6 +37,13 @@ _WORLD = """<gravity>0 0 0</gravity><light name="sun" type="directional"><diffus
 <link name="arm"><pose>0 0 1 0 0 0</pose></link><joint name="lift" type="prismatic"><parent>base</parent>
 <child>arm</child><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint></model>
 <model name="outer"><model name="inner"><link name="l"><pose>0 5 0 0 0 0</pose></link></model></model>"""
+
+
+def _model_edits(sim: Simulation) -> ModelEdits:
+    def do(command: Callable[[Simulation], None]) -> None:
+        command(sim)
+
+    return ModelEdits(sim, BareContents(do), do)
 
 
 @pytest.fixture
@@ -74,7 +87,7 @@ def test_one_model_is_put_back_as_it_came_and_no_other(sim: Simulation) -> None:
     edit(MoveJoint("cart", "lift", velocity=0.5), sim)
     edit(ApplyWrench("cart", "base", (5, 0, 0), (0, 0, 0), 10.0), sim)
     sim.run(0.5)
-    edit(ResetModel("cart"), sim)
+    _model_edits(sim).handle(ResetModel("cart"))
 
     assert cart.pose.position == pytest.approx((1, 0, 0.5))
     assert cart.pose.quaternion == pytest.approx((1, 0, 0, 0))
@@ -83,6 +96,39 @@ def test_one_model_is_put_back_as_it_came_and_no_other(sim: Simulation) -> None:
     assert cart.pose.position == pytest.approx((1, 0, 0.5), abs=1e-6)
     assert cart.joint("lift").position == pytest.approx(0.0, abs=1e-6)
     assert outer.pose.position == pytest.approx((0, -5, 2))
+
+
+def test_a_reset_is_undone_to_the_state_before_one_at_a_time(sim: Simulation) -> None:
+    cart, edits = sim["cart"], _model_edits(sim)
+    first = Pose((3.0, 4.0, 5.0), (0.6, 0.0, 0.0, 0.8))
+    cart.set_pose(first)
+    cart.set_twist(Twist((1.0, 0.0, 2.0), (0.0, 0.0, 0.5)))
+    cart.joint_positions, cart.joint_velocities = [0.25], [0.125]
+    edits.handle(ResetModel("cart"))
+    edit(SetTwist("cart", (0, 7, 0), (0, 0, 0)), sim)
+    edits.handle(ResetModel("cart"))
+    assert cart.twist == Twist()
+
+    edits.handle(UndoReset("cart"))
+    assert cart.pose.position == pytest.approx((1, 0, 0.5), abs=1e-12)
+    assert cart.twist.linear == pytest.approx((0, 7, 0), abs=1e-12)
+    edits.handle(UndoReset("cart"))
+    assert cart.pose.position == pytest.approx(first.position, abs=1e-12)
+    assert cart.pose.quaternion == pytest.approx(first.quaternion, abs=1e-12)
+    assert cart.twist.linear == pytest.approx((1, 0, 2), abs=1e-12)
+    assert cart.twist.angular == pytest.approx((0, 0, 0.5), abs=1e-12)
+    assert (cart.joint_positions, cart.joint_velocities) == (pytest.approx([0.25]), pytest.approx([0.125]))
+    with pytest.raises(UsageError, match="the page has not reset model 'cart'"):
+        edits.handle(UndoReset("cart"))
+
+
+def test_a_state_is_given_to_no_model_with_other_joints(sim: Simulation) -> None:
+    edits = _model_edits(sim)
+    edits.handle(ResetModel("cart"))
+    sim.delete("cart")
+    sim.spawn(replace(sim["outer"].model, name="cart"))
+    with pytest.raises(UsageError, match="other links or joints now"):
+        edits.handle(UndoReset("cart"))
 
 
 def test_mass_takes_the_inertia_with_it(sim: Simulation) -> None:

@@ -16,7 +16,6 @@ from trundle.page import (
     PlaceJoint,
     PlaceLight,
     Pull,
-    ResetModel,
     SetFriction,
     SetLight,
     SetMass,
@@ -55,8 +54,6 @@ def edit(action: EditAction, simulation: Simulation) -> None:
             let_go(simulation, find_model(simulation, model).name)
         case HoldModel(model, on):
             hold(simulation, find_model(simulation, model), on=on)
-        case ResetModel(model):
-            find_model(simulation, model).reset()
         case SetTwist(model, linear, angular):
             find_model(simulation, model).set_twist(Twist(linear, angular))
         case SetMass():

@@ -1,26 +1,36 @@
-"""Copies and deletions of whole models, with their sensors and plugins; what was deleted can be put back."""
+"""Copies, deletions and resets of whole models, with their sensors and plugins; all can be undone."""
 
+from collections import deque
 from typing import TypeVar
 
 from msgspec.structs import replace
 
 from trundle.diagnostics import UsageError
 from trundle.model import Light
-from trundle.page import CopyModel, DeleteLight, DeleteModel, ModelAction, RestoreLight, RestoreModel
+from trundle.page import (
+    CopyModel,
+    DeleteLight,
+    DeleteModel,
+    ModelAction,
+    ResetModel,
+    RestoreLight,
+    RestoreModel,
+    UndoReset,
+)
 from trundle.robot import Robot
-from trundle.simulation import Simulation
+from trundle.simulation import ModelHandle, Simulation
 
 from ..world_contents import Do, WorldContents
 from .edits import find_model
 from .saved_model import SavedModel, saved_model
 
 _Value = TypeVar("_Value")
-_MAX_DELETED = 200
-"""Models, and lights, that can be put back: as many as the page's edits that can be undone."""
+_MAX_KEPT = 200
+"""Deleted models, deleted lights and states before resets that are kept: as many as edits that can be undone."""
 
 
 class ModelEdits:
-    """Copies and deletes models and lights of one simulation."""
+    """Copies, deletes and resets models and lights of one simulation."""
 
     def __init__(self, simulation: Simulation, contents: WorldContents, do: Do) -> None:
         """Prepare.
@@ -33,6 +43,7 @@ class ModelEdits:
         self._simulation, self._contents, self._do = simulation, contents, do
         self._models: dict[str, tuple[SavedModel, Robot | None]] = {}
         self._lights: dict[str, Light] = {}
+        self._before_resets: deque[SavedModel] = deque(maxlen=_MAX_KEPT)
 
     def handle(self, action: ModelAction) -> None:
         """Do what a person asks for.
@@ -50,6 +61,10 @@ class ModelEdits:
                 if name not in self._models:
                     raise UsageError(f"the page has deleted no model {name!r}")
                 self._spawn(*self._models[name])
+            case ResetModel(name):
+                self._reset(find_model(self._simulation, name))
+            case UndoReset(name):
+                self._undo_reset(find_model(self._simulation, name))
             case DeleteLight(name):
                 self._delete_light(name)
             case RestoreLight(name):
@@ -63,6 +78,19 @@ class ModelEdits:
         saved = saved_model(self._simulation, self._simulation[name]), self._contents.robot(name)
         self._contents.delete(name)
         _remember(self._models, name, saved)
+
+    def _reset(self, model: ModelHandle) -> None:
+        self._before_resets.append(saved_model(self._simulation, model))
+        self._do(lambda sim: sim[model.name].reset())
+
+    def _undo_reset(self, model: ModelHandle) -> None:
+        before = next((saved for saved in reversed(self._before_resets) if saved.model.name == model.name), None)
+        if before is None:
+            raise UsageError(f"the page has not reset model {model.name!r}, or too long ago")
+        if not before.fits(model):
+            raise UsageError(f"model {model.name!r} has other links or joints now than when it was reset")
+        self._before_resets.remove(before)
+        self._do(before.apply)
 
     def _delete_light(self, name: str) -> None:
         lights = {light.name: light for light in self._simulation.world.lights}
@@ -96,5 +124,5 @@ def _remember(kept: dict[str, _Value], name: str, value: _Value) -> None:
     """Keep a value as the newest one, and drop the oldest beyond the limit."""
     kept.pop(name, None)
     kept[name] = value
-    if len(kept) > _MAX_DELETED:
+    if len(kept) > _MAX_KEPT:
         del kept[next(iter(kept))]

@@ -1,4 +1,4 @@
-"""Models with their state, to be copied, or put back after they were deleted."""
+"""Models with their state, to be copied, or put back after they were deleted or reset."""
 
 import numpy as np
 from msgspec import Struct
@@ -30,8 +30,15 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
         model = replace(self.model, name=name, world_from_model=away @ self.model.world_from_model)
         return replace(self, model=model, links=tuple((away @ pose, twist) for pose, twist in self.links))
 
+    def fits(self, model: ModelHandle) -> bool:
+        """Tell if a model has the links and joints of this state."""
+        links, joints = self.model.links, self.model.joints
+        return [each.name for each in model.links] == [each.name for each in links] and [
+            (each.name, each.joint.type) for each in model.joints
+        ] == [(each.name, each.type) for each in joints]
+
     def apply(self, simulation: Simulation) -> None:
-        """Give a model of its name, just spawned, its state."""
+        """Give the model of its name its state."""
         there = simulation[self.model.name]
         there.joint_positions = self.positions
         for link, (pose, twist) in zip(there.links, self.links, strict=True):

@@ -18,9 +18,10 @@ export function holdModel(shell: Shell, model: string, on: boolean): void {
   void editWorld(shell, `${on ? "Hold" : "Release"} of ${model}`, "hold", { model, on }, { model, on: !on });
 }
 
-/** Put a model back as it came, with its joints, at rest. */
+/** Put a model back as it came, with its joints, at rest, and its plugins as at their start. */
 export function resetModel(shell: Shell, model: string): void {
-  shell.request(`Reset of ${model}`, "reset_model", { model });
+  const reset = { request: "reset_model", fields: { model } };
+  void change(shell, `Reset of ${model}`, reset, { request: "undo_reset", fields: { model } });
 }
 
 /** Put a copy beside a model, or onto a point of the world [m], and select it. */
