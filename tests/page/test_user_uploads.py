@@ -1,6 +1,8 @@
 """A person uploads a model by the browser, inserts it and saves the world."""
 
 import io
+import random
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -123,6 +125,32 @@ def test_what_is_wrong_is_said_in_the_dialog(user: WorldUser) -> None:
     chooser.value.set_files(_archive("notes.zip", {"readme.txt": ""}))
     dialog.get_by_text("notes.zip: no model.config, .sdf or .urdf in it").wait_for()
     user.page.keyboard.press("Escape")
+
+
+def test_a_large_upload_says_how_much_is_sent_and_is_cancelled(user: WorldUser, folder: Path) -> None:
+    """20 MB at 2 MB/s; of what was cancelled nothing stays, and it can be sent again."""
+    with ZipFile(folder / "big.zip", "w") as packed:
+        for name, text in _files("big").items():
+            packed.writestr(name, text)
+        packed.writestr("big/noise.bin", random.Random(1).randbytes(20_000_000))
+    network = user.page.context.new_cdp_session(user.page)
+    limits = {"offline": False, "latency": 0, "downloadThroughput": -1}
+    network.send("Network.emulateNetworkConditions", {**limits, "uploadThroughput": 2_000_000})
+    _choose(user, "Choose a file", folder / "big.zip")
+    dialog = user.page.get_by_role("dialog", name="Upload a model")
+    bar = dialog.get_by_role("progressbar", name="Sent")
+    dialog.get_by_text(re.compile(r"^[1-9].* MB of 20(\.0)? MB$")).wait_for()
+    share = bar.evaluate("bar => bar.value")
+    user.until(lambda: share < bar.evaluate("bar => bar.value") < 1)
+    dialog.get_by_role("button", name="Cancel").click()
+    dialog.get_by_role("button", name="Choose a file").wait_for()
+    assert dialog.get_by_role("alert").count() == 0
+    user.until(lambda: not list((folder / "temporary").glob("*/trundle-upload-*")), what="for the files to go")
+    network.send("Network.emulateNetworkConditions", {**limits, "uploadThroughput": -1})
+    with user.page.expect_file_chooser() as chooser:
+        dialog.get_by_role("button", name="Choose a file").click()
+    chooser.value.set_files(folder / "big.zip")
+    _entry(user, "My big").wait_for()
 
 
 def test_a_folder_with_code_is_uploaded_and_its_code_asked_for(user: WorldUser, folder: Path) -> None:

@@ -53,15 +53,30 @@ export function titleOf(files: readonly ModelFile[]): string {
   return files[0]?.path.split("/")[0] ?? "";
 }
 
+/** Bytes that are sent of all. */
+export type Progress = (sent: number, total: number) => void;
+
 /** Send a model to the server; returns the names of the models in it, or throws a sentence. */
-export async function sendModel(files: readonly ModelFile[]): Promise<readonly string[]> {
+export async function sendModel(files: readonly ModelFile[], signal: AbortSignal, progress: Progress): Promise<readonly string[]> {
   if (files.length === 0) throw new Error("there is no file in it");
   if (files.length > MOST_FILES) throw new Error(`it has more than ${MOST_FILES} files`);
   if (files.reduce((sum, { file }) => sum + file.size, 0) > MOST_BYTES) throw new Error(`it is too large: a model has at most ${MOST_BYTES / 2 ** 20} MiB`);
   const form = new FormData();
   for (const { path, file } of files) form.append(path, file);
-  const answer = await fetch(`models${location.search}`, { method: "POST", body: form });
-  if (!answer.ok) throw new Error((await answer.text()).trim());
-  const { models } = (await answer.json()) as { readonly models: readonly string[] };
+  const { models } = JSON.parse(await post(`models${location.search}`, form, signal, progress)) as { readonly models: readonly string[] };
   return models;
+}
+
+/** Post a form; unlike fetch, a request of this kind says in every browser how much of it is sent. */
+function post(url: string, form: FormData, signal: AbortSignal, progress: Progress): Promise<string> {
+  const request = new XMLHttpRequest();
+  return new Promise((resolve, reject) => {
+    request.upload.onprogress = ({ loaded, total }) => progress(loaded, total);
+    request.onload = () => (request.status === 200 ? resolve(request.responseText) : reject(new Error(request.responseText.trim())));
+    request.onerror = () => reject(new Error("the connection was lost"));
+    request.onabort = () => reject(new DOMException("cancelled", "AbortError"));
+    signal.addEventListener("abort", () => request.abort());
+    request.open("POST", url);
+    request.send(form);
+  });
 }

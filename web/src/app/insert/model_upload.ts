@@ -9,9 +9,13 @@ import { sendModel, titleOf, type ModelFile } from "./model_files";
 export class ModelUpload {
   /** What is being sent; null: nothing is. */
   readonly title = signal<string | null>(null);
+  /** Bytes that are sent, and those of all; null: none is yet. */
+  readonly progress = signal<{ readonly sent: number; readonly total: number } | null>(null);
   readonly fault = signal("");
   /** Uploads so far; pictures of those before are old. */
   readonly count = signal(0);
+
+  private aborter = new AbortController();
 
   constructor(private readonly shell: Shell) {}
 
@@ -20,20 +24,28 @@ export class ModelUpload {
     this.shell.dialog.value = "upload";
   }
 
+  cancel(): void {
+    this.aborter.abort();
+  }
+
   /** Upload files; what is wrong is said by the dialog. */
   async send(chosen: Promise<readonly ModelFile[]> | readonly ModelFile[]): Promise<void> {
     if (this.title.peek() !== null) return;
     this.fault.value = "";
     this.title.value = "";
+    this.aborter = new AbortController();
+    const { signal } = this.aborter;
     try {
       const files = await chosen;
       this.title.value = titleOf(files);
-      this.end(await sendModel(files));
+      this.end(await sendModel(files, signal, (sent, total) => (this.progress.value = { sent, total })));
     } catch (error) {
+      if (signal.aborted) return;
       const title = this.title.peek() ?? "";
       this.fault.value = title === "" ? sentence(error) : `${title}: ${sentence(error)}`;
     } finally {
       this.title.value = null;
+      this.progress.value = null;
     }
   }
 
