@@ -1,5 +1,6 @@
 """An .rviz file is saved below the folder where Trundle was started, and never over another one unasked."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -7,7 +8,7 @@ from typing import Any
 import pytest
 from tests.page_client import ProtocolClient
 
-from trundle.page import PageServer, Session
+from trundle.page import PageServer, RvizFile, Session
 from trundle.page_address import PageAddress
 
 TEXT = "Panels: []\n"
@@ -51,6 +52,31 @@ def test_a_file_that_is_there_is_replaced_only_when_that_is_asked_for(client: Pr
     assert path.read_text() == "mine"
     assert _save(client, "mine.rviz", replace=True)["file"] == "mine.rviz"
     assert (path.read_text(), path.stat().st_mode & 0o777) == (TEXT, 0o600)
+
+
+def test_the_session_names_the_newest_file_until_its_owner_has_another(folder: Path) -> None:
+    given = RvizFile(name="given.rviz", text="given", writable=True)
+
+    def session() -> dict[str, Any]:
+        with ProtocolClient(page.url) as late:
+            late.subscribe("trundle/session")
+            late.until(lambda: late.payloads("trundle/session"))
+            return json.loads(late.payloads("trundle/session")[-1])
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        page = PageServer.start(
+            Session(title="t", kind="graph", rviz=given, fixed_frame="odom"), at=PageAddress(port=0)
+        )
+    with page, ProtocolClient(page.url) as client:
+        _save(client, "newest.rviz", "newest")
+        found = session()
+        assert found["rviz"] == {"name": "newest.rviz", "text": "newest", "writable": True, "saved": True}
+        assert found["fixed_frame"] is None
+        page.set_session(Session(title="other", kind="graph", rviz=given))
+        assert session()["rviz"]["name"] == "newest.rviz"
+        page.set_session(Session(title="other", kind="graph", rviz=RvizFile(name="b", text="b", writable=False)))
+        client.until(lambda: session()["rviz"]["name"] == "b")
 
 
 @pytest.mark.parametrize("replace", [False, True])

@@ -39,6 +39,12 @@ def _switch(user: SceneUser, display: str) -> None:
     user.page.keyboard.press(" ")
 
 
+def _save_as(user: SceneUser) -> None:
+    user.page.keyboard.press("Control+k")
+    user.page.get_by_role("combobox", name="Search commands").fill("Save as .rviz")
+    user.page.keyboard.press("Enter")
+
+
 def _is_enabled(file: Path, display: str) -> bool:
     import yaml
 
@@ -74,6 +80,30 @@ def test_it_is_saved_below_the_folder_and_then_again_there(user: SceneUser, tmp_
     user.button("Save").click()
     user.page.get_by_text("not saved").wait_for(state="detached")
     assert _is_enabled(tmp_path / "seen.rviz", "Grid")
+
+
+def test_a_page_opened_later_shows_and_saves_the_newest_file(user: SceneUser, tmp_path: Path) -> None:
+    for name in ("first", "second"):
+        _switch(user, "Grid")
+        _save_as(user)
+        user.page.get_by_role("dialog", name="Save as .rviz").wait_for()
+        user.page.keyboard.type(name)
+        user.page.keyboard.press("Enter")
+        user.page.get_by_role("dialog").wait_for(state="detached")
+    assert (_is_enabled(tmp_path / "first.rviz", "Grid"), _is_enabled(tmp_path / "second.rviz", "Grid")) == (
+        False,
+        True,
+    )
+    user.page.reload()
+    _switch(user, "Grid")
+    user.button("Save").click()
+    user.page.get_by_text("not saved").wait_for(state="detached")
+    assert (_is_enabled(tmp_path / "first.rviz", "Grid"), _is_enabled(tmp_path / "second.rviz", "Grid")) == (
+        False,
+        False,
+    )
+    _save_as(user)
+    assert user.field("File").input_value() == "second.rviz"
 
 
 def test_a_file_that_is_there_is_replaced_only_when_that_is_pressed(user: SceneUser, tmp_path: Path) -> None:

@@ -84,6 +84,15 @@ def test_what_is_changed_is_saved_and_the_same_when_it_runs_again(user: PanelUse
     assert subprocess.run(words, capture_output=True, text=True, check=False).returncode == 0
 
 
+def test_a_page_opened_later_offers_the_newest_file(user: PanelUser) -> None:
+    user.page.reload()
+    user.page.get_by_role("treeitem").filter(has_text="crate").first.wait_for()
+    user.page.locator("canvas").first.focus()
+    user.page.keyboard.press("Control+s")
+    assert _dialog(user).get_by_label("File").input_value() == "worlds/mine.sdf"
+    user.page.keyboard.press("Escape")
+
+
 def test_no_file_is_replaced_unasked(user: PanelUser, folder: Path) -> None:
     """The menu above the tree leads there, too; a name that leads elsewhere is refused in the dialog."""
     user.button("World's menu").click()

@@ -38,7 +38,7 @@ from .protocol import (
 )  # fmt: skip
 from .requests import ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs
 from .ros_graph import RosGraph
-from .session import Session
+from .session import RvizFile, Session
 from .session_channel import SessionChannel
 from .uploads import Uploads
 from .view_only import allows, allows_binary, allows_request
@@ -79,6 +79,8 @@ class Page:
         """Create; `send` writes a message to the owner."""
         self.addresses = Served(url="", foxglove_url="", view_url="")
         self._session: Session = start.session
+        self._saved_rviz: RvizFile | None = None
+        """The newest .rviz file, if it was saved by `SaveRvizAs`."""
         self._has_graph = start.graph is not None
         self._messages = loop.messages
         self._assets = assets
@@ -126,6 +128,8 @@ class Page:
         """Handle a message of the owner."""
         match message:
             case SetSession(session):
+                if session.rviz != self._session.rviz:
+                    self._saved_rviz = None
                 self._session = session
                 self._session_channel.publish_change()
             case SetNotice(notice_id, text):
@@ -162,7 +166,10 @@ class Page:
 
     def session_json(self, is_view_only: bool) -> bytes:
         """Return what `/session.json` says; who may only look gets no address that allows more."""
-        fields = msgspec.to_builtins(self._session)
+        session = self._session
+        if self._saved_rviz is not None:
+            session = msgspec.structs.replace(session, rviz=self._saved_rviz, fixed_frame=None)  # the file has one
+        fields = msgspec.to_builtins(session)
         at = self.addresses
         more = {
             "version": version("trundle"),
@@ -315,8 +322,10 @@ class Page:
             is_saved = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
         except UsageError as error:
             respond(client, client_id, str(error))
-        else:
-            respond(client, client_id, **{"file" if is_saved else "exists": action.file})
+            return
+        if is_saved:
+            self._saved_rviz = RvizFile(name=action.file, text=action.text, writable=True, saved=True)
+        respond(client, client_id, **{"file" if is_saved else "exists": action.file})
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Have the bag or the owner do what a client asks for."""

@@ -6,12 +6,14 @@ import msgspec
 
 
 class RvizFile(msgspec.Struct, frozen=True, kw_only=True):
-    """The .rviz file that the page was started with."""
+    """The .rviz file that the page was started with, or that was saved there last."""
 
     name: str
     text: str
     writable: bool
-    """True if `SaveRviz` may replace it."""
+    """True if it may be replaced."""
+    saved: bool = False
+    """True if it was saved at the page: `name` is its path from the working folder, and `SaveRvizAs` replaces it."""
 
 
 class JointSlider(msgspec.Struct, frozen=True, kw_only=True):

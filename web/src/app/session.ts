@@ -9,7 +9,8 @@ export interface Session {
   readonly kind: "simulation" | "graph" | "log" | "bag";
   readonly version: string;
   readonly robot: string | null;
-  readonly rviz: { readonly name: string; readonly text: string; readonly writable: boolean } | null;
+  /** `saved`: at the page, by `save_rviz_as`; else it was given at the start. */
+  readonly rviz: { readonly name: string; readonly text: string; readonly writable: boolean; readonly saved: boolean } | null;
   readonly fixed_frame: string | null;
   /** The namespace and remappings of the launch's rviz, in which the names of the file are. */
   readonly namespace: string;

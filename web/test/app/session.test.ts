@@ -10,7 +10,7 @@ import { FakeConnection } from "../fake_connection";
 import { changeSession, fakePage, SESSION, type FakePage } from "../fake_page";
 
 const shellOf = (page: FakePage): Shell => new Shell(page, page.commands, document.createElement("div"), signal(false));
-const file = (text: string) => ({ rviz: { name: "a.rviz", text, writable: true } });
+const file = (text: string) => ({ rviz: { name: "a.rviz", text, writable: true, saved: false } });
 
 describe("a session that changes", () => {
   it("adds curves once, and names another topic to drive", () => {

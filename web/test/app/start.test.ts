@@ -31,7 +31,7 @@ describe("what a page shows first", () => {
     const page = fakePage();
     startView(shellOf(page));
     page.scene.element.dispatchEvent(new Event("pointerdown"));
-    const filed = fakePage({ rviz: { name: "a.rviz", text: "", writable: false } });
+    const filed = fakePage({ rviz: { name: "a.rviz", text: "", writable: false, saved: false } });
     startView(shellOf(filed));
     for (const each of [page, filed]) {
       each.world.manifest.value = MANIFEST;

@@ -184,6 +184,8 @@ class SimulationPage:
             except TrundleError as error:
                 self._server.respond(request.id, reason_of(error))
         self._show_draft()
+        if self._saver.poll_newest():
+            self._streams.show_offered_file()
         self._controls.let_lapsed_go()
         if self._controls.step(pacer) or requests:
             self.update(pacer, paused=paused, at_once=True)

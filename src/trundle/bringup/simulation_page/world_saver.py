@@ -36,15 +36,29 @@ class WorldSaver:
         self._root = root
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-save")
         self._waiting = 0
+        self._newest: str | None = None
+        """Path from the root of the file that was saved last."""
+        self._announced: str | None = None
 
     def offered_file(self, world: World) -> str | None:
-        """Return the path to offer, from the root: the world's own file, or one named after it; None: not writable."""
+        """Return the path to offer, from the root; None: not writable.
+
+        The file that was saved last, the world's own, or one named after it.
+        """
         if not os.access(self._root, os.W_OK):
             return None
+        if self._newest is not None and (self._root / self._newest).is_file():
+            return self._newest
         source = Path(os.path.abspath(world.at.file))
         if source.is_relative_to(self._root) and source.suffix in _SUFFIXES and source.is_file():
             return source.relative_to(self._root).as_posix()
         return f"{re.sub(r'[^A-Za-z0-9_-]+', '_', world.name).strip('_') or 'world'}.sdf"
+
+    def poll_newest(self) -> bool:
+        """Tell if another file is the newest since the last call."""
+        is_other = self._newest != self._announced
+        self._announced = self._newest
+        return is_other
 
     def save(self, request_id: int, request: SaveWorld, world: World, seed: int) -> None:
         """Write a world; returns at once.
@@ -84,7 +98,10 @@ class WorldSaver:
         if name is None:
             return {"sdf": sdf, **lost}
         is_saved = save_files(self._root, {file: sdf}, replace=request.replace)
-        return {"file": name, **lost} if is_saved else {"exists": name}
+        if not is_saved:
+            return {"exists": name}
+        self._newest = name
+        return {"file": name, **lost}
 
     def close(self) -> None:
         """Stop after the world that is being saved."""

@@ -179,6 +179,12 @@ class WorldStreams:
         if self._built is not None:
             self._server.set_world(self._with_draft(self._built), draft.files)
 
+    def show_offered_file(self) -> None:
+        """Offer another file to save the world at."""
+        if self._built is not None:
+            self._built.manifest["file"] = self._offered_file(self._simulation.world)
+            self._server.set_world(self._with_draft(self._built), {})
+
     def _with_draft(self, built: BuiltWorld) -> dict[str, Any]:
         """Return a manifest with the draft, whose files stay as long as it is there."""
         resources = [*built.manifest["resources"], *self._draft.resources]

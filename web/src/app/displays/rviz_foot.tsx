@@ -53,9 +53,10 @@ export function newName({ robot, page }: Shell): string {
 export function save(shell: Shell): void {
   const { connection, displays } = shell.page;
   const text = displays.save();
-  const own = shell.ownFile.peek();
-  const saved = own === null ? connection.request("save_rviz", { text }) : connection.request("save_rviz_as", { file: own.name, text, replace: true });
-  saved.then(() => displays.markSaved(), (error: unknown) => shell.notices.report("Save", sentence(error)));
+  const { rviz } = shell.page.session;
+  const saved = shell.ownFile.peek() ?? (rviz?.saved === true ? rviz : null);
+  const done = saved === null ? connection.request("save_rviz", { text }) : connection.request("save_rviz_as", { file: saved.name, text, replace: true });
+  done.then(() => displays.markSaved(), (error: unknown) => shell.notices.report("Save", sentence(error)));
 }
 
 /** Hand the text to the browser. */
