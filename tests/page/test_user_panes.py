@@ -2,10 +2,12 @@
 
 import io
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from numpy.typing import NDArray
 from PIL import Image
 from tests.page.built_client import needs_client
@@ -186,6 +188,25 @@ def test_a_link_shows_all_panes_again(chromium: Any, url: str, user: PaneUser) -
     other.page.get_by_role("treeitem").first.wait_for()
     assert other.page.locator(".panename").count() == 0
     other.close()
+
+
+def test_a_file_shows_all_panes_again(user: PaneUser, tmp_path: Path) -> None:
+    """rviz finds the active pane's view where it looks for one."""
+    names, active = user.names(), user.active()
+    with user.page.expect_download() as download:
+        user.run("Download as .rviz")
+    file = tmp_path / "four.rviz"
+    download.value.save_as(file)
+    views = yaml.safe_load(file.read_text())["Visualization Manager"]["Views"]
+    panes = views["Trundle Panes"]
+    assert views["Current"] == panes["Panes"][panes["Active"]]
+    user.run("One view")
+    user.page.locator(".panename").first.wait_for(state="detached")
+    with user.page.expect_file_chooser() as chooser:
+        user.run("Open an .rviz file")
+    chooser.value.set_files(file)
+    user.page.locator(".panename").nth(3).wait_for()
+    assert (user.names(), user.active()) == (names, active)
 
 
 def test_only_one_pane_is_left_and_what_is_chosen_is_remembered(user: PaneUser) -> None:

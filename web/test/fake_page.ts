@@ -12,7 +12,7 @@ import { UndoHistory } from "../src/app/undo";
 import type { FrameTree } from "../src/frames/frame_tree";
 import { NoTransform } from "../src/frames/transform";
 import type { SceneView } from "../src/scene/scene_view";
-import type { JointState, Manifest, SimulatedWorld, WorldState } from "../src/scene/simulated_world";
+import type { JointStates, Manifest, SimulatedWorld, WorldState } from "../src/scene/simulated_world";
 import type { PaneLayout } from "../src/scene/panes/pane_layout";
 import type { ViewController, ViewPane, Views } from "../src/scene/view_controller";
 import type { Tool, ToolBox } from "../src/tools/tool";
@@ -47,7 +47,7 @@ export class FakeWorld implements SimulatedWorld {
   readonly state = signal<WorldState | null>({ time_ns: 12.48e9, paused: false, real_time_factor: 1, speed: 1, recording: null });
   readonly progress = signal(1);
   readonly faults = signal<readonly string[]>([]);
-  readonly joints = signal<readonly JointState[]>([]);
+  readonly joints = signal<JointStates>([]);
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
   onPoses(): () => void {
@@ -120,6 +120,9 @@ export class FakeViews implements Views {
   readonly layout = signal<PaneLayout>("one");
   readonly active = signal<ViewPane>(fakePane(this.current));
   readonly panes = signal<readonly ViewPane[]>([this.active.value]);
+  onFileLayout: (layout: PaneLayout) => void = (layout) => {
+    this.layout.value = layout;
+  };
   activate(pane: ViewPane): void {
     this.active.value = pane;
   }

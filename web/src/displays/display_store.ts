@@ -145,9 +145,9 @@ export class DisplayStore implements DisplayList {
     this.edits.run(title, redo, undo);
   }
 
-  /** From where one looks, as a text. */
+  /** From where one looks, in all panes, as a text. */
   private lookText(): string {
-    return JSON.stringify(this.parts.views.save()["Current"]);
+    return JSON.stringify({ ...this.parts.views.save(), Saved: null });
   }
 
   private content(): RvizContent {

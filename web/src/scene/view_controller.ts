@@ -32,6 +32,8 @@ export interface ViewPane {
 
 export interface Views {
   readonly layout: Signal<PaneLayout>;
+  /** Splits the scene as a file says; a page that keeps to a layout of its own sets another one. */
+  onFileLayout: (layout: PaneLayout) => void;
   /** Panes that are shown. */
   readonly panes: ReadonlySignal<readonly ViewPane[]>;
   /** The pane whose view all else here is about. */
@@ -60,7 +62,7 @@ export interface Views {
   ride(target: string, from: Triple): void;
   /** Keep a body (`model::link`) or frame in the middle; null: stop. */
   follow(target: string | null): void;
-  /** The `Views` mapping of an .rviz file. */
+  /** The `Views` mapping of an .rviz file; several panes are under a key of ours, which rviz passes over. */
   save(): YamlMapping;
   load(yaml: YamlMapping): string[];
 }

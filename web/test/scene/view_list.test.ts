@@ -143,3 +143,39 @@ test("further panes look at the same place from top, front and right; what is as
   views.stepPane(1);
   expect(panes.active.value).toBe(pane);
 });
+
+test("a file keeps every pane's view, and rviz the active one's", () => {
+  const from = setUp().views;
+  from.layout.value = "beside";
+  const [first, second] = from.panes.value;
+  first?.current.value.load({ Class: "rviz/Orbit", Distance: 3 });
+  second?.load({ Class: "rviz/TopDownOrtho", Scale: 55, X: 2 });
+  if (second !== undefined) from.activate(second);
+  const file = from.save();
+  expect(file["Current"]).toMatchObject({ Class: "rviz/TopDownOrtho", Scale: 55 });
+
+  const { views } = setUp();
+  expect(views.load(file)).toEqual([]);
+  expect(views.layout.value).toBe("beside");
+  expect(views.panes.value.map((pane) => pane.current.value.save())).toEqual(from.panes.value.map((pane) => pane.current.value.save()));
+  expect(views.active.value).toBe(views.panes.value[1]);
+  expect(views.save()).toEqual(file);
+  views.layout.value = "one";
+  expect(setUp().views.load(views.save())).toEqual([]);
+  expect(views.save()["Trundle Panes"]).toBeNull();
+});
+
+test("a page of one pane shows a file's active view, and leaves its panes to the file", () => {
+  const { views } = setUp();
+  views.onFileLayout = () => undefined;
+  const current = { Class: "rviz/Orbit", Distance: 4 };
+  views.load({ Current: current, "Trundle Panes": { Layout: "four", Active: 1, Panes: [{ Class: "rviz/FPS" }, current] } });
+  expect(views.current.value.save()).toMatchObject(current);
+  expect(views.save()).not.toHaveProperty("Trundle Panes");
+});
+
+test.each([null, 3, {}, { Layout: "six", Panes: [] }, { Layout: "four", Panes: 1 }, { Layout: "beside", Active: 1e9, Panes: [1, { Class: "x" }] }])("panes that are none do no harm: %j", (panes) => {
+  const { views } = setUp();
+  views.load({ Current: { Class: "rviz/Orbit", Distance: 4 }, "Trundle Panes": panes });
+  expect(views.panes.value.length).toBeGreaterThan(0);
+});

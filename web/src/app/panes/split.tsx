@@ -15,6 +15,9 @@ const TITLES: Readonly<Record<PaneLayout, string>> = { one: "One view", beside: 
 /** The remembered layout, which the scene has unless the page is a phone's. */
 export function recallSplit({ views }: Pick<Page, "views">, layout: Layout): Signal<PaneLayout> {
   const split = signal(recall<PaneLayout>("split", "one", isOneOf(...PANE_LAYOUTS)));
+  views.onFileLayout = (asked) => {
+    split.value = asked;
+  };
   effect(() => {
     views.layout.value = layout.isPhone.value ? "one" : split.value;
   });

@@ -2,16 +2,14 @@
 
 import type { Signal } from "@preact/signals";
 
-import { PANE_LAYOUTS, type PaneLayout } from "../../scene/panes/pane_layout";
+import type { PaneLayout } from "../../scene/panes/pane_layout";
 import { isMapping, type Yaml, type YamlMapping } from "../../rviz/properties";
 import type { Views } from "../../scene/view_controller";
-import { isOneOf } from "../storage";
+import { loadPanes, savedLayout, savePanes } from "../../scene/views/saved_panes";
 
 const KEY = "#view=";
 /** Longest text of a view [characters]. */
 const LONGEST = 8000;
-
-const isLayout = isOneOf(...PANE_LAYOUTS);
 
 /** The page's address with the current view, or those of all panes; with a token, another address of the page. */
 export function linkTo(views: Pick<Views, "current" | "layout" | "panes" | "active">, address: string, token: string | null = null): string {
@@ -34,25 +32,14 @@ export function linkedView(hash: string): YamlMapping | null {
 }
 
 /** The current view, or the views of several panes. */
-function shownViews({ current, layout, panes, active }: Pick<Views, "current" | "layout" | "panes" | "active">): YamlMapping {
-  if (layout.peek() === "one") return current.peek().save();
-  const shown = panes.peek();
-  return { Layout: layout.peek(), Active: shown.indexOf(active.peek()), Panes: shown.map((pane) => pane.current.peek().save()) };
+function shownViews(views: Pick<Views, "current" | "layout" | "panes" | "active">): YamlMapping {
+  return views.layout.peek() === "one" ? views.current.peek().save() : savePanes(views);
 }
 
 /** Show what a link holds: a view in the active pane, or several panes. */
 export function showLinkedView(views: Views, split: Signal<PaneLayout>, linked: YamlMapping): void {
-  const layout = linked["Layout"];
-  if (!isLayout(layout) || !Array.isArray(linked["Panes"])) {
-    split.value = "one";
-    views.load({ ...views.save(), Current: linked });
-    return;
-  }
-  split.value = layout;
-  views.panes.peek().forEach((pane, index) => {
-    const view: Yaml | undefined = (linked["Panes"] as readonly Yaml[])[index];
-    if (isMapping(view)) pane.load(view);
-  });
-  const active = views.panes.peek()[Number(linked["Active"])];
-  if (active !== undefined) views.activate(active);
+  const layout = savedLayout(linked);
+  split.value = layout ?? "one";
+  if (layout === null) views.load({ Current: linked, Saved: views.save()["Saved"] ?? null });
+  else loadPanes(views, linked);
 }

@@ -8,16 +8,21 @@ import type { Transform } from "../../frames/transform";
 import type { Pane } from "../panes/pane";
 import type { CameraInfo } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
+import type { PaneLayout } from "../panes/pane_layout";
 import type { SixSides, ViewController, ViewPane, Views } from "../view_controller";
 import { CameraMotion } from "./camera_motion";
 import { Orbit } from "./orbit";
 import { PaneView } from "./pane_view";
+import { loadPanes, savedLayout, savePanes } from "./saved_panes";
 import { SensorCamera } from "./sensor_camera";
 import type { View } from "./view";
 import { classOfView, copyOfView, createView, loadView, VIEW_CLASSES } from "./view_classes";
 
 /** From where further panes look first, without perspective. */
 const FURTHER: readonly SixSides[] = ["top", "front", "right"];
+
+/** Key of the panes among the views of a file. */
+const PANES = "Trundle Panes";
 
 /** What views need of the scene. */
 export type ViewScene = Pick<ThreeScene, "panes" | "onTick" | "invalidate">;
@@ -26,9 +31,14 @@ export class ViewList implements Views {
   readonly classes = VIEW_CLASSES;
   readonly saved = signal<readonly ViewController[]>([]);
   readonly layout;
+  onFileLayout: (layout: PaneLayout) => void = (layout) => {
+    this.layout.value = layout;
+  };
   private readonly known = new Map<Pane, PaneView>();
   /** Saved views of other classes, kept as they were. */
   private unknown: readonly YamlMapping[] = [];
+  /** True if the file has panes, which are as they are now. */
+  private hasPanes = false;
   private readonly stop: () => void;
 
   /** `targetPose`: pose of a frame or body (`model::link`) in the fixed frame; null: there is none. */
@@ -113,16 +123,26 @@ export class ViewList implements Views {
 
   save(): YamlMapping {
     const saved = [...this.saved.peek().map((view) => view.save()), ...this.unknown];
-    return { Current: this.current.value.save(), Saved: saved.length === 0 ? null : saved };
+    const panes = this.layout.value !== "one" ? { [PANES]: savePanes(this) } : this.hasPanes ? { [PANES]: null } : {};
+    return { Current: this.current.value.save(), Saved: saved.length === 0 ? null : saved, ...panes };
   }
 
   load(yaml: YamlMapping): string[] {
-    const current = yaml["Current"];
-    const faults = isMapping(current) ? this.active.peek().load(current) : [];
+    const faults = this.loadShown(yaml);
     const saved = Array.isArray(yaml["Saved"]) ? yaml["Saved"].filter((entry: Yaml) => isMapping(entry)) : [];
     this.unknown = saved.filter((entry) => createView(classOfView(entry)) === null);
     this.saved.value = saved.flatMap((entry) => (this.unknown.includes(entry) ? [] : (loadView(entry, faults) ?? [])));
     return [...faults, ...this.unknown.map((entry) => `Views: there is no view ${classOfView(entry)}`)];
+  }
+
+  /** The current view, or those of several panes. */
+  private loadShown(yaml: YamlMapping): string[] {
+    const [current, panes] = [yaml["Current"], yaml[PANES]];
+    const layout = isMapping(panes) ? savedLayout(panes) : null;
+    if (layout !== null) this.onFileLayout(layout);
+    this.hasPanes = layout !== null && this.layout.peek() === layout;
+    if (this.hasPanes && isMapping(panes)) return [...loadPanes(this, panes)];
+    return isMapping(current) ? this.active.peek().load(current) : [];
   }
 
   private tick(elapsed: number): void {
