@@ -144,6 +144,11 @@ export interface JointState {
   readonly effort: number;
 }
 
+/** States of all joints at a moment, by the index that the manifest gives each. */
+export interface JointStates {
+  at(index: number): JointState | undefined;
+}
+
 export interface SimulatedWorld {
   /** Null where nothing is simulated or recorded. */
   readonly manifest: ReadonlySignal<Manifest | null>;
@@ -153,7 +158,7 @@ export interface SimulatedWorld {
   /** Sentences about files that could not be shown. */
   readonly faults: ReadonlySignal<readonly string[]>;
   /** Changes at 10 Hz while something listens. */
-  readonly joints: ReadonlySignal<readonly JointState[]>;
+  readonly joints: ReadonlySignal<JointStates>;
   /** What of the world is shown. */
   readonly shown: ShownParts;
   /** Names (`model` or `model::link`) that are hidden. */

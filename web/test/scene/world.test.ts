@@ -68,11 +68,16 @@ test("joints are read in order", () => {
   [1, 2, 3, 4, 5, 6].forEach((number, i) => {
     view.setFloat64(16 + 8 * i, number, true);
   });
-  expect(readJoints(view, 4)).toEqual([
+  const joints = readJoints(view, 4);
+  expect([0, 1, 2, -1, NaN].map((index) => joints?.at(index))).toEqual([
     { position: 1, velocity: 2, effort: 3 },
     { position: 4, velocity: 5, effort: 6 },
+    undefined,
+    undefined,
+    undefined,
   ]);
   expect(readJoints(view, 5)).toBeNull();
+  expect(readJoints(new DataView(view.buffer, 0, 16 + 47), 4)).toBeNull();
 });
 
 function lineMessage(lines: readonly { readonly id: string; readonly kind: number; readonly points: readonly number[] }[]): DataView {

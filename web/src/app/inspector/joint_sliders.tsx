@@ -38,7 +38,7 @@ export function ModelJoints({ shell, name, model }: { readonly shell: Shell; rea
 }
 
 export function JointSection({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element {
-  const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
+  const state = joint.index === null ? undefined : shell.page.world.joints.value.at(joint.index);
   const rows: readonly (readonly [string, string])[] = [
     ["Type", joint.type],
     ["Parent", joint.parent],
@@ -115,7 +115,7 @@ function driveJoint(shell: Shell, model: string, joint: string, after: Target, b
 function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element | null {
   const held = useSignal<number | null>(null);
   const start = useSignal(0);
-  const state = joint.index === null ? undefined : shell.page.world.joints.value[joint.index];
+  const state = joint.index === null ? undefined : shell.page.world.joints.value.at(joint.index);
   if (state === undefined) return null;
   const { isVelocity, value, unit } = jointValue(joint, state);
   const [lower, upper] = isVelocity ? [-FASTEST, FASTEST] : [joint.lower ?? 0, joint.upper ?? 0];

@@ -112,7 +112,7 @@ function makeRow(shell: Shell, { node, depth, isOpen }: SeenNode, selected: bool
 
 function JointValue({ shell, node }: { readonly shell: Shell; readonly node: WorldNode }): JSX.Element {
   const joint = typeof node.detail === "string" ? null : node.detail.joint;
-  const state = joint?.index === null || joint === null ? undefined : shell.page.world.joints.value[joint.index];
+  const state = joint?.index === null || joint === null ? undefined : shell.page.world.joints.value.at(joint.index);
   return <>{joint === null || state === undefined ? (joint?.type ?? "") : jointValue(joint, state).text}</>;
 }
 

@@ -3,6 +3,7 @@
 import { signal, type ReadonlySignal } from "@preact/signals";
 
 import type { Page } from "../../app/page";
+import type { JointStates } from "../../scene/simulated_world";
 import { perPage } from "../per_page";
 import { movingJoints } from "../plots/simulated_joints";
 
@@ -75,7 +76,7 @@ export class JointsState {
     }));
   }
 
-  private simulated(model: string, positions: ReadonlySignal<readonly { readonly position: number }[]>): readonly JointSlider[] {
+  private simulated(model: string, states: ReadonlySignal<JointStates>): readonly JointSlider[] {
     return movingJoints(this.page.world.manifest.value)
       .filter((joint) => joint.model === model)
       .map(({ joint, index }) => {
@@ -88,7 +89,7 @@ export class JointsState {
           lower: joint.lower ?? -free,
           upper: joint.upper ?? free,
           hasLimits: joint.lower !== null && joint.upper !== null,
-          position: positions.value[index]?.position ?? 0,
+          position: states.value.at(index)?.position ?? 0,
           set: (value: number) => this.send("joint", { model, joint: joint.name, position: value }),
         };
       });

@@ -108,7 +108,7 @@ export class Curve {
   private followJoint(index: number, field: "position" | "velocity" | "effort"): void {
     this.fault.value = "";
     const close = this.page.world.joints.subscribe((joints) => {
-      const value = joints[index]?.[field];
+      const value = joints.at(index)?.[field];
       const state = this.page.world.state.peek();
       if (value !== undefined && state !== null) this.add(state.time_ns / 1e9, value);
     });

@@ -118,7 +118,7 @@ export class BodyOverlays {
 
   private moveJoints(): void {
     const states = this.world.joints.value;
-    for (const { index, drawing } of this.joints) drawing.move(states[index]?.position ?? 0);
+    for (const { index, drawing } of this.joints) drawing.move(states.at(index)?.position ?? 0);
     if (this.joints.length > 0) this.scene.invalidate();
   }
 

@@ -7,7 +7,7 @@ import type { FrameTree } from "../../frames/frame_tree";
 import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
 import { ShownParts } from "../overlays/shown_parts";
-import type { JointState, Manifest, SimulatedWorld, WorldState } from "../simulated_world";
+import type { JointStates, Manifest, SimulatedWorld, WorldState } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
 import { modelOf, type GlbModel } from "./glb_model";
@@ -21,7 +21,7 @@ import { WorldLighting } from "./world_lighting";
 export class WorldFeed implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
   readonly state = signal<WorldState | null>(null);
-  readonly joints: ReadonlySignal<readonly JointState[]>;
+  readonly joints: ReadonlySignal<JointStates>;
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
   private readonly lighting = new WorldLighting();
@@ -127,9 +127,9 @@ export class WorldFeed implements SimulatedWorld {
   }
 
   /** Joints are asked for only while something listens. */
-  private listenToJoints(): ReadonlySignal<readonly JointState[]> {
+  private listenToJoints(): ReadonlySignal<JointStates> {
     let stop: (() => void) | null = null;
-    const joints = signal<readonly JointState[]>([], {
+    const joints = signal<JointStates>([], {
       watched: () => {
         const subscription = this.connection.subscribeRaw("trundle/joints", (payload) => {
           const read = readJoints(payload, this.manifest.peek()?.generation ?? -1);

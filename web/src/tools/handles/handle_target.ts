@@ -111,7 +111,7 @@ function jointTarget(editor: WorldEditor, model: string, name: string): HandleTa
     pose,
     begin: () => {
       const start = pose();
-      const from = editor.world.joints.peek()[index]?.position ?? 0;
+      const from = editor.world.joints.peek().at(index)?.position ?? 0;
       const request = editor.world.state.peek()?.paused === true ? "place_joint" : "joint"; // at rest no motor moves it
       const positionAt = (to: Transform): number => {
         const by = start === null ? 0 : turns ? turnAbout(direction, start, to) : wayAlong(direction, start, to);
