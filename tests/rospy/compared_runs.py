@@ -2,8 +2,9 @@
 
     TRUNDLE_ROSPY_REPOSITORIES=FOLDER:… python -m tests.rospy.compared_runs
 
-prints how many are the same. ORIGINAL_MODULES names folders with modules of the original that Debian's Python lacks.
-Each folder is one repository, as checked out. Numbers are masked: the programs run at other times.
+prints how many are the same. Each folder is one repository, as checked out. ORIGINAL_MODULES names folders with modules
+of the original that Debian's Python lacks, SHARED_MODULES such of other libraries, for both. Numbers are masked, for
+programs run at other times, but in messages whose values repeat from run to run.
 """
 
 import difflib
@@ -15,8 +16,9 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -28,9 +30,12 @@ from tests.rospy.original_messages import generate
 from tests.rospy.programs import DEBIAN, environment
 
 REPOSITORIES = [Path(each) for each in os.environ.get("TRUNDLE_ROSPY_REPOSITORIES", "").split(os.pathsep) if each]
-_OBSERVER = Path(__file__).parent / "observer.py"
+_OBSERVER, _TURTLES = Path(__file__).parent / "observer.py", Path(__file__).parent / "turtles.py"
+_INSTALLED = Path("/usr/lib/python3/dist-packages")
 _START_S, _STOP_S, _OBSERVE_S = 25.0, 20.0, 150.0
 _NUMBER = re.compile(r" *-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+_FOLDER = re.compile(r'File "[^"]*/')
+_STAMP = re.compile(r"\b(secs|nsecs|seq):.*")
 _MISSING = re.compile(r"(?:ModuleNotFoundError|ImportError): (?:No module named|cannot import name) '?([\w.]+)")
 _AT_ONCE = 3
 Run = dict[str, Any]
@@ -38,46 +43,47 @@ Run = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class Repositories:
-    """Repositories whose programs are compared, and the original's modules of their packages."""
+class Repository:
+    """A repository whose programs are compared, and the original's modules of its messages."""
 
-    folders: list[Path]
+    folder: Path
     generated: Path
 
     @property
     def packages(self) -> list[Path]:
         """Folders with a package.xml."""
-        return sorted({path.parent for folder in self.folders for path in folder.rglob("package.xml")})
+        return sorted(path.parent for path in self.folder.rglob("package.xml"))
 
     def environment(self, python: str, uri: str, home: Path) -> dict[str, str]:
         """Environment of a program; the original finds messages and modules as after catkin_make."""
         env = environment(python, uri, home)
-        env["ROS_PACKAGE_PATH"] = os.pathsep.join([*map(str, self.folders), "/usr/share"])
+        env["ROS_PACKAGE_PATH"] = f"{self.folder}{os.pathsep}/usr/share"
         env |= {"PYTHONUNBUFFERED": "1", "MPLBACKEND": "Agg", "QT_QPA_PLATFORM": "offscreen"}
+        folders = [os.environ.get("SHARED_MODULES", "")]
         if python == DEBIAN:
-            sources = [str(each / "src") for each in self.packages if (each / "src" / each.name).is_dir()]
-            more = os.environ.get("ORIGINAL_MODULES", "")
-            env["PYTHONPATH"] = os.pathsep.join(filter(None, [str(self.generated), *sources, more]))
+            packages = [each for each in self.packages if not (_INSTALLED / each.name).is_dir()]
+            sources = [str(each / "src") for each in packages if (each / "src" / each.name).is_dir()]
+            folders += [str(self.generated), *sources, os.environ.get("ORIGINAL_MODULES", "")]
+        env["PYTHONPATH"] = os.pathsep.join(filter(None, [env.get("PYTHONPATH", ""), *folders]))
         return env
 
 
-def find_programs(folders: Iterable[Path]) -> Iterator[tuple[str, Path]]:
-    """Nodes of repositories: pairs (path from the repository's parent, path)."""
-    for folder in map(Path.resolve, folders):
-        yield from ((str(path.relative_to(folder.parent)), path) for path in find_nodes(folder))
+def find_programs(folder: Path) -> dict[str, Path]:
+    """Nodes of a repository: path from the repository's parent → path."""
+    return {str(path.relative_to(folder.resolve().parent)): path for path in find_nodes(folder.resolve())}
 
 
-def run(repositories: Repositories, python: str, program: Path) -> Run:
+def run(repository: Repository, python: str, program: Path) -> Run:
     """What a program printed, published, answered and ended with."""
     with running_graph() as graph, tempfile.TemporaryDirectory() as home:
-        env = repositories.environment(python, graph.core.uri, Path(home))
-        ours = repositories.environment(sys.executable, graph.core.uri, Path(home))
-        with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        env = repository.environment(python, graph.core.uri, Path(home))
+        ours = repository.environment(sys.executable, graph.core.uri, Path(home))
+        with _turtles(program, ours), tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
             process = subprocess.Popen(
                 [python, program], env=env, cwd=program.parent, stdin=subprocess.DEVNULL, stdout=out, stderr=err
             )
             try:
-                command = [sys.executable, _OBSERVER, str(_START_S)]
+                command = [sys.executable, _OBSERVER, str(process.pid), str(_START_S)]
                 seen = subprocess.run(
                     command, env=ours, stdout=subprocess.PIPE, text=True, timeout=_OBSERVE_S, check=True
                 )
@@ -86,9 +92,28 @@ def run(repositories: Repositories, python: str, program: Path) -> Run:
                 process.kill()
                 process.wait()
             streams = [(stream.seek(0), stream.read().decode(errors="replace"))[1] for stream in (out, err)]
+    published = json.loads(seen.stdout)["messages"]
     observed = json.loads(_NUMBER.sub(" #", seen.stdout))
+    observed["values"] = {
+        _NUMBER.sub(" #", name): _STAMP.sub(r"\1 #", "\n".join(kept)).splitlines() for name, kept in published.items()
+    }
     observed["messages"] = {name: mask("\n".join(kept)) for name, kept in observed["messages"].items()}
     return {**observed, "exit code": code, "stdout": mask(streams[0]), "stderr": mask(streams[1])}
+
+
+@contextmanager
+def _turtles(program: Path, env: Mapping[str, str]) -> Generator[None]:
+    """A stand-in for turtlesim, for programs that use it."""
+    if b"turtlesim" not in program.read_bytes():
+        yield
+        return
+    with subprocess.Popen([sys.executable, _TURTLES], env=dict(env), stdout=subprocess.PIPE, text=True) as turtles:
+        assert turtles.stdout is not None
+        assert turtles.stdout.readline() == "ready\n"
+        try:
+            yield
+        finally:
+            turtles.kill()
 
 
 def _interrupt(process: subprocess.Popen[bytes]) -> int | None:
@@ -108,20 +133,20 @@ def mask(text: str) -> list[str]:
         if is_traceback and line.startswith(" "):
             continue
         is_traceback = line.startswith("Traceback")
-        masked = _NUMBER.sub(" #", line).rstrip()
+        masked = _NUMBER.sub(" #", _FOLDER.sub('File "', line)).rstrip()
         if masked and masked not in lines:
             lines.append(masked)
     return lines
 
 
-def compare(repositories: Repositories, program: Path) -> str:
+def compare(repository: Repository, program: Path) -> str:
     """'same', 'not comparable: WHY', or the differences that two runs of each show."""
     kept: list[str] = []
     for attempt in range(2):
-        original = run(repositories, DEBIAN, program)
+        original = run(repository, DEBIAN, program)
         if (reason := _why_not_comparable("\n".join(original["stderr"]))) is not None:
             return f"not comparable: {reason}"
-        found = list(_differences(original, run(repositories, sys.executable, program)))
+        found = list(_differences(original, run(repository, sys.executable, program)))
         kept = found if attempt == 0 else [line for line in found if line in kept]
         if not kept:
             return "same"
@@ -143,14 +168,14 @@ def _differences(original: Run, ours: Run) -> Iterator[str]:
 
 
 def compare_all(folders: Iterable[Path]) -> Iterator[tuple[str, str]]:
-    """Pairs (program, outcome)."""
-    with tempfile.TemporaryDirectory() as generated:
-        repositories = Repositories(list(folders), Path(generated))
-        generate(repositories.packages, Path(generated))
-        programs = [path for _, path in find_programs(repositories.folders)]
-        names = [name for name, _ in find_programs(repositories.folders)]
-        with ThreadPoolExecutor(_AT_ONCE) as pool:
-            yield from zip(names, pool.map(partial(compare, repositories), programs), strict=True)
+    """Pairs (program, outcome); each repository by itself."""
+    for folder in folders:
+        with tempfile.TemporaryDirectory() as generated, ThreadPoolExecutor(_AT_ONCE) as pool:
+            repository = Repository(folder, Path(generated))
+            generate(repository.packages, repository.generated)
+            programs = find_programs(folder)
+            outcomes = pool.map(partial(compare, repository), programs.values())
+            yield from zip(programs, outcomes, strict=True)
 
 
 def main() -> None:

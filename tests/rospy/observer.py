@@ -1,9 +1,9 @@
 """Node that observes the nodes of a graph, sends them messages and requests, and prints what they did as JSON.
 
-    python tests/rospy/observer.py START_S
+    python tests/rospy/observer.py PROCESS_ID START_S
 
-Waits until the graph has been unchanged for a while, records the first messages of every topic, publishes a default
-message three times on topics that are only subscribed to, and calls every service with a default request.
+Waits until the graph has been unchanged for a while, then records the first messages of every topic, publishes a
+default message three times on topics that are only subscribed to, and calls every service with a default request.
 """
 
 import json
@@ -17,8 +17,10 @@ import rosservice
 
 _LOGGERS = ("/get_loggers", "/set_logger_level")
 _QUIET = ("/rosout", "/rosout_agg", "/clock", "/statistics")
+_OTHERS = {"/observer", "/rosout", "/turtlesim"}
 _SETTLED_S = 2.0
-_FIRST = 3
+_FIRST, _LONG = 3, 10_000
+"""Messages recorded of a topic, and characters of each."""
 master = rosgraph.Master("/observer")
 messages = {}
 
@@ -27,10 +29,7 @@ def graph():
     """Publishers, subscribers and services of the observed nodes: pairs (name, type)."""
     state = master.getSystemState()
     types = dict(master.getTopicTypes())
-    return [
-        sorted((name, types.get(name, "")) for name, nodes in kind if set(nodes) - {"/observer", "/rosout"})
-        for kind in state
-    ]
+    return [sorted((name, types.get(name, "")) for name, nodes in kind if set(nodes) - _OTHERS) for kind in state]
 
 
 def message_class(type_name):
@@ -45,23 +44,31 @@ def record(topic, type_name):
 
     def keep(message):
         if len(kept) < _FIRST:
-            kept.append(str(message))
+            kept.append(str(message)[:_LONG])
 
     return rospy.Subscriber(topic, cls, keep) if cls else None
 
 
-def wait_settled(end):
-    """Wait until there is a node whose endpoints stay; False if there is none in time."""
+def has_ended(process):
+    """True if a process has ended, or its parent has not asked yet how."""
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def wait_settled(process, end):
+    """Wait until there is a node whose endpoints stay; False if there is none in time, or its process ended."""
     before, since = None, time.time()
     while time.time() < end:
         now = graph()
         if now != before:
             before, since = now, time.time()
-        for topic, type_name in now[0]:
-            if topic not in messages and topic not in _QUIET:
-                record(topic, type_name)
         if any(now) and time.time() - since > _SETTLED_S:
             return True
+        if has_ended(process):
+            return False
         time.sleep(0.1)
     return False
 
@@ -87,11 +94,13 @@ def answer(name):
 
 
 rospy.init_node("observer", disable_rosout=True)
-found = wait_settled(time.time() + float(sys.argv[1]))
+found = wait_settled(sys.argv[1], time.time() + float(sys.argv[2]))
 publishers, subscribers, services = graph()
 answers = {}
 if found:
     published = {topic for topic, _ in publishers}
+    recording = [record(*pair) for pair in publishers if pair[0] not in _QUIET]
+    time.sleep(_SETTLED_S)
     send([pair for pair in subscribers if pair[0] not in published and pair[0] not in _QUIET])
     names = [name for name, _ in services if not name.endswith(_LOGGERS)]
     answers = {name: answer(name) for name in names}

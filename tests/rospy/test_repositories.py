@@ -7,7 +7,7 @@ comparison works.
 from pathlib import Path
 
 import pytest
-from tests.rospy.compared_runs import REPOSITORIES, Repositories, compare, find_programs
+from tests.rospy.compared_runs import REPOSITORIES, Repository, compare, find_programs
 from tests.rospy.original_messages import generate
 
 pytestmark = [
@@ -15,7 +15,7 @@ pytestmark = [
     pytest.mark.real_ros,
     pytest.mark.skipif(not Path("/usr/lib/python3/dist-packages/rospy").is_dir(), reason="no rospy is installed"),
 ]
-_PROGRAMS = dict(find_programs(REPOSITORIES))
+_PROGRAMS = {name: (folder, path) for folder in REPOSITORIES for name, path in find_programs(folder).items()}
 _TALKER = """#!/usr/bin/env python3
 import rospy
 from talking.msg import Said
@@ -32,16 +32,20 @@ rospy.spin()
 
 
 @pytest.fixture(scope="module")
-def repositories(tmp_path_factory: pytest.TempPathFactory) -> Repositories:
-    made = Repositories(REPOSITORIES, tmp_path_factory.mktemp("generated"))
-    generate(made.packages, made.generated)
+def repositories(tmp_path_factory: pytest.TempPathFactory) -> dict[Path, Repository]:
+    made = {folder: Repository(folder, tmp_path_factory.mktemp("generated")) for folder in REPOSITORIES}
+    for repository in made.values():
+        generate(repository.packages, repository.generated)
     return made
 
 
 @pytest.mark.skipif(not _PROGRAMS, reason="TRUNDLE_ROSPY_REPOSITORIES names no repositories")
 @pytest.mark.parametrize("name", _PROGRAMS)
-def test_nodes_of_repositories_do_what_they_do_with_the_original(repositories: Repositories, name: str) -> None:
-    outcome = compare(repositories, _PROGRAMS[name])
+def test_nodes_of_repositories_do_what_they_do_with_the_original(
+    repositories: dict[Path, Repository], name: str
+) -> None:
+    folder, program = _PROGRAMS[name]
+    outcome = compare(repositories[folder], program)
     if outcome.startswith("not comparable"):
         pytest.skip(outcome)
     assert outcome == "same"
@@ -56,6 +60,8 @@ def test_nodes_of_repositories_do_what_they_do_with_the_original(repositories: R
             {
                 'messages: -   "words: \\"one\\""',
                 'messages: +   "words: \\"other\\""',
+                'values: -   "words: \\"one\\""',
+                'values: +   "words: \\"other\\""',
                 'answers: -  "/repeat": "words: \\"one\\""',
                 'answers: +  "/repeat": "words: \\"other\\""',
             },
@@ -74,8 +80,8 @@ def test_a_difference_in_what_a_node_publishes_and_answers_is_found(
     }.items():
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         (package / name).write_text(text)
-    repositories = Repositories([package.parent], tmp_path / "generated")
-    generate(repositories.packages, repositories.generated)
-    verdict, *found = compare(repositories, package / "scripts/talker.py").splitlines()
+    repository = Repository(package.parent, tmp_path / "generated")
+    generate(repository.packages, repository.generated)
+    verdict, *found = compare(repository, package / "scripts/talker.py").splitlines()
     assert verdict == ("different" if differences else "same")
     assert set(found) == differences
