@@ -13,3 +13,14 @@ print(
 )
 print(rostopic.msgevalgen("/poses[1]/position/y")(poses), rostopic.msgevalgen("/nope")(twist))
 print(rostopic.msgevalgen("/ranges[a]"), rostopic.msgevalgen("/poses[9]")(poses))
+
+from genpy.message import strify_message
+from sensor_msgs.msg import JointState
+
+state = JointState(name=["a", "b"], position=[1.5, 2.5])
+state.header.frame_id = "base"
+for without_strings in (False, True):
+    for without_arrays in (False, True):
+        shown = rostopic.create_field_filter(without_strings, without_arrays)
+        print(without_strings, without_arrays, list(shown(state)), list(shown(state.header)))
+        print(strify_message(state, field_filter=shown))

@@ -39,6 +39,22 @@ def msgevalgen(pattern: str) -> _Evaluate | None:
     return (lambda message: _evaluated(message, steps, pattern)) if steps else None
 
 
+def create_field_filter(echo_nostr: bool, echo_noarr: bool) -> Callable[[Any], list[str]]:
+    """Function for `strify_message` that returns the fields of a message to be shown.
+
+    Args:
+        echo_nostr: leave strings out.
+        echo_noarr: leave arrays out.
+    """
+    left_out = [mark for mark, is_left_out in (("string", echo_nostr), ("[", echo_noarr)) if is_left_out]
+
+    def shown(message: Any) -> list[str]:
+        pairs = zip(message.__slots__, message._slot_types, strict=True)
+        return [name for name, kind in pairs if not any(mark in kind for mark in left_out)]
+
+    return shown
+
+
 def _index(text: str) -> int | slice:
     if not text.endswith("]"):
         raise ValueError("missing closing ']'")
