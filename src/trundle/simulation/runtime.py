@@ -1,14 +1,11 @@
 """Interface of a running world as its handles and actors see it."""
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from trundle.model import World
 from trundle.physics import Engine
 
 from .applied_loads import AppliedLoads
-
-if TYPE_CHECKING:
-    from .handles import ModelHandle
 
 
 class Runtime(Protocol):
@@ -42,6 +39,6 @@ class Runtime(Protocol):
         """Continue with an edited world of the same models, links and joints."""
         ...
 
-    def finish_reset(self, model: "ModelHandle") -> None:
-        """Call what waits for resets of one model."""
+    def finish_reset(self, model: object) -> None:
+        """Call what waits for resets of one model, by its handle."""
         ...

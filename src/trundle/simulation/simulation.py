@@ -311,8 +311,8 @@ class Simulation:
         """Call a function after each reset of poses, and after each reset of `model` alone."""
         self._on_reset.append((call, model))
 
-    def finish_reset(self, model: ModelHandle) -> None:
-        """Call what waits for resets of one model; for its handle only."""
+    def finish_reset(self, model: object) -> None:
+        """Call what waits for resets of one model, by its handle."""
         for call, of in self._on_reset:
             if of is model:
                 call()
