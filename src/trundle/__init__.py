@@ -11,6 +11,7 @@ TYPE_CHECKING = False  # not from `typing`: its import is half of a light comman
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from os import PathLike
+    from typing import Literal
 
     from trundle.bringup.dataset.dataset import DatasetResult
     from trundle.bringup.loaded_simulation import LoadedSimulation
@@ -50,6 +51,7 @@ def sweep(
     output: "str | PathLike[str] | None" = None,
     workers: int | None = None,
     address: str | None = None,
+    device: 'Literal["cpu", "cuda"]' = "cpu",
 ) -> "SweepResult":
     """Run a world many times with different values; needs the extra `sweep`.
 
@@ -61,6 +63,8 @@ def sweep(
         workers: number of processes; None: one for each processor.
         address: of a Ray cluster, "auto" for the one of this machine, "local" for a new one; None: processes of this
             machine, without Ray.
+        device: "cuda" steps many rows at once on an NVIDIA GPU, in single precision; without one a line says so, and
+            the processors run them.
 
     Raises:
         TrundleError: one sentence with file and line.
@@ -70,7 +74,8 @@ def sweep(
 
     from trundle.bringup.sweep.sweep import sweep_plan
 
-    return sweep_plan(plan, output=None if output is None else Path(output), workers=workers, address=address)
+    folder = None if output is None else Path(output)
+    return sweep_plan(plan, output=folder, workers=workers, address=address, device=device)
 
 
 def dataset(

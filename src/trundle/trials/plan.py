@@ -110,3 +110,5 @@ class Plan:
     measures: tuple[Measure, ...] = ()
     criteria: tuple[Formula, ...] = ()
     """Conditions on the measures; a run that does not meet one has failed."""
+    keys: Mapping[str, Source] = field(default_factory=dict[str, Source])
+    """Key of the plan → its line."""

@@ -118,6 +118,7 @@ def read_plan(text: str, *, file: str, folder: Path) -> Plan:
         stop=_formulas(found, "stop"),
         measures=measures,
         criteria=_formulas(found, "pass"),
+        keys=root.keys,
     )
     check_used(plan)
     return plan

@@ -27,7 +27,9 @@ _JOURNAL, _GROUPS, _PLAN, RESULTS = "journal.jsonl", "groups", "plan.json", "res
 class Results:
     """Results of one plan in a folder."""
 
-    def __init__(self, folder: Path, table: Table, *, rows: int, digest: str, text: str) -> None:
+    def __init__(
+        self, folder: Path, table: Table, *, rows: int, digest: str, text: str, device: str | None = None
+    ) -> None:
         """Open a folder; what is there of the same plan counts.
 
         Args:
@@ -36,9 +38,10 @@ class Results:
             rows: number of rows.
             digest: of everything that the results depend on.
             text: of the plan, kept beside its results.
+            device: that runs the rows; None: whichever did, to read them.
 
         Raises:
-            UsageError: the folder has the results of another plan, or cannot be written.
+            UsageError: the folder has the results of another plan or device, or cannot be written.
         """
         self.folder = folder
         self._table = table
@@ -47,7 +50,7 @@ class Results:
             (folder / _GROUPS).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"{folder}: {error.strerror}; give another folder with -o") from None
-        self._check_plan(digest, text)
+        self._check_plan(digest, text, device)
         self._waiting: dict[int, dict[int, RowResult]] = {}
         """Group → its rows in the journal."""
         self._full = {int(each.stem) for each in (folder / _GROUPS).glob("*.parquet")}
@@ -63,14 +66,18 @@ class Results:
             self._read_journal()
         self._journal: IO[bytes] | None = None
 
-    def _check_plan(self, digest: str, text: str) -> None:
+    def _check_plan(self, digest: str, text: str, device: str | None) -> None:
         path, now = self.folder / _PLAN, {"digest": digest, "rows": self._rows}
         if not path.exists():
-            write_atomically(path, json.dumps({**now, "text": text}))
+            write_atomically(path, json.dumps({**now, "device": device, "text": text}))
             return
-        if {key: value for key, value in json.loads(path.read_text()).items() if key in now} != now:
+        found = json.loads(path.read_text())
+        if {key: value for key, value in found.items() if key in now} != now:
             what = "has the results of another plan, or the plan or its world has changed since"
             raise UsageError(f"{self.folder} {what}; give another folder with -o, or delete this one")
+        before = found.get("device")
+        if None not in (before, device) and before != device:
+            raise UsageError(f"{self.folder} has rows that ran on {before!r}; give another folder with -o")
 
     def _read_journal(self) -> None:
         """Read the journal; a line that a kill cut short is left out, and its row is run again."""

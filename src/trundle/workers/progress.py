@@ -33,6 +33,11 @@ class Progress:
         self._failed += not is_ok
 
     @property
+    def left(self) -> int:
+        """Number of rows to come."""
+        return self._total - self._done
+
+    @property
     def rate(self) -> float:
         """Rows per second of wall time."""
         return (self._done - self._before) / max(time.monotonic() - self._started_s, 1e-9)
@@ -45,7 +50,7 @@ class Progress:
         self._shown_s = now_s
         text = f"{self._done} of {self._total} {self._what}, {self._failed} not ok"
         if self._done > self._before:
-            left_s = (self._total - self._done) / self.rate
+            left_s = self.left / self.rate
             text += f", {self.rate:.3g} a second, about {_format_duration(left_s)} left"
         if self._on_terminal:
             self._stream.write(f"\r{text:<{self._width}}")

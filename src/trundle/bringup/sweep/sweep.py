@@ -5,21 +5,22 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from trundle.atomic_write import write_atomically
 from trundle.diagnostics import TrundleError
-from trundle.trials import Plan, Results, RowResult, Rows, Table, load_plan, lock_folder
-from trundle.workers import Job, JobResult, Progress, check_workers, run_job
+from trundle.trials import Plan, Results, Rows, Table, load_plan, lock_folder
+from trundle.workers import Progress, check_workers
 
 from ..console import say
 from ..signals import stop_flag
 from .argument_rows import argument_rows
+from .device.device import Device, gpu_of
+from .device.row_check import check_worlds
 from .digest import RunInputs, plan_digest
 from .launch_trial import LaunchTrialRunner
-from .trial import Trial, TrialRunner, run_row, runner_of
+from .processes import run_in_processes
+from .trial import TrialRunner, runner_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,14 +60,23 @@ def results_folder(plan: Plan, output: Path | None) -> Path:
     return output or Path(plan.file).with_suffix(".sweep")
 
 
-def open_results(plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | LaunchTrialRunner) -> Results:
+def open_results(
+    plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | LaunchTrialRunner, *, device: Device | None = None
+) -> Results:
     """Open the results of a plan in a folder.
 
+    Args:
+        plan: as read.
+        rows: its rows.
+        folder: of the results.
+        runner: of the rows.
+        device: see `Results`.
+
     Raises:
-        UsageError: the folder has the results of another plan, or cannot be written.
+        UsageError: the folder has the results of another plan or device, or cannot be written.
     """
     digest = plan_digest(plan, _inputs(plan, rows, runner))
-    return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text)
+    return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text, device=device)
 
 
 def _inputs(plan: Plan, rows: Rows, runner: TrialRunner | LaunchTrialRunner) -> Iterator[RunInputs]:
@@ -78,7 +88,12 @@ def _inputs(plan: Plan, rows: Rows, runner: TrialRunner | LaunchTrialRunner) -> 
 
 
 def sweep(
-    plan: Plan, *, output: Path | None = None, workers: int | None = None, address: str | None = None
+    plan: Plan,
+    *,
+    output: Path | None = None,
+    workers: int | None = None,
+    address: str | None = None,
+    device: Device = "cpu",
 ) -> SweepResult:
     """Run the rows of a plan that have no result yet.
 
@@ -87,55 +102,33 @@ def sweep(
         output: folder of the results; None: beside the plan.
         workers: number of processes; None: one for each processor.
         address: of a Ray cluster; None: this machine, without Ray.
+        device: "cuda": a GPU steps the rows in this process, in single precision; without one a line says so, and the
+            processors run them.
 
     Raises:
         TrundleError: the plan cannot be run, or its results not be written.
     """
     check_workers(workers)
+    gpu = gpu_of(plan, device, workers=workers, address=address)
     rows, runner = Rows(plan), runner_of(plan)
     for warning in runner.check(rows.row(0)):
         say(warning, sys.stderr)
+    if gpu is not None:
+        assert isinstance(runner, TrialRunner)
+        check_worlds(plan, rows.row(0), runner)
     folder = results_folder(plan, output)
-    job = Job(make=partial(run_row, plan), time_limit_s=plan.time_limit_s, memory_limit_bytes=plan.memory_limit_bytes)
     with lock_folder(folder), stop_flag() as stop:
-        results = open_results(plan, rows, folder, runner)
-        left = len(rows) - results.done
+        results = open_results(plan, rows, folder, runner, device="cpu" if gpu is None else device)
         progress = Progress(len(rows), results.done)
-
-        def add_outcome(outcome: JobResult[Trial]) -> bool:
-            result = _kept(outcome, folder)
-            results.add(result)
-            return result.status == "ok"
-
         with closing(results):
-            run_job(
-                job,
-                results.missing(),
-                add_outcome,
-                count=left,
-                progress=progress,
-                workers=workers,
-                address=address,
-                is_ending=stop.is_set,
-            )
+            if gpu is None:
+                run_in_processes(plan, results, progress, workers=workers, address=address, is_ending=stop.is_set)
+            else:
+                from .device.run import run_on_gpu  # Warp takes seconds to load
+
+                missing = results.missing()
+                run_on_gpu(plan, missing, results.add, gpu=gpu, progress=progress, is_ending=stop.is_set)
         return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
-
-
-def _kept(outcome: JobResult[Trial], folder: Path) -> RowResult:
-    """Write a row's bag, if it has one, and return its result."""
-    if outcome.failure is not None:
-        return RowResult(outcome.row, outcome.failure, outcome.reason)
-    assert outcome.value is not None
-    if outcome.value.bag is not None:
-        file = bag_file(folder, outcome.row)
-        file.parent.mkdir(exist_ok=True)
-        write_atomically(file, outcome.value.bag)
-    return outcome.value.result
-
-
-def bag_file(folder: Path, row: int) -> Path:
-    """Return the bag of a row in a folder of results."""
-    return folder / "bags" / f"row_{row}.bag"
 
 
 def sweep_plan(
@@ -144,9 +137,10 @@ def sweep_plan(
     output: Path | None,
     workers: int | None,
     address: str | None,
+    device: Device,
 ) -> SweepResult:
     """See `trundle.sweep`."""
-    result = sweep(load_plan(plan), output=output, workers=workers, address=address)
+    result = sweep(load_plan(plan), output=output, workers=workers, address=address, device=device)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

@@ -144,9 +144,13 @@ class Batch:
 
     def _part(self, part: mujoco.mjtState) -> _Array:
         """Return a part of the states as a view."""
-        model, below = self._compiled.model, int(part) - 1
-        first = mujoco.mj_stateSize(model, STATE & below)
-        return self.states[:, first : first + mujoco.mj_stateSize(model, int(part))]
+        return part_of(self._compiled.model, self.states, part)
+
+
+def part_of(model: mujoco.MjModel, states: _Array, part: mujoco.mjtState) -> _Array:
+    """Return a part of (rows, …) states, mjSTATE_INTEGRATION, as a view."""
+    first = mujoco.mj_stateSize(model, STATE & (int(part) - 1))
+    return states[:, first : first + mujoco.mj_stateSize(model, int(part))]
 
 
 def _make_worker(compiled: CompiledWorld) -> tuple[mujoco.MjModel, mujoco.MjData]:

@@ -1,21 +1,12 @@
 """Batch of states that a GPU steps; poses, twists and resets are computed by this machine's processors."""
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from ...compile.compiled_world import CompiledWorld
 from ..batch import Batch
+from .gpu_states import advance
 from .stepper import GpuStepper
-
-_INPUTS = {
-    "qpos": mujoco.mjtState.mjSTATE_QPOS,
-    "qvel": mujoco.mjtState.mjSTATE_QVEL,
-    "qacc_warmstart": mujoco.mjtState.mjSTATE_WARMSTART,
-    "ctrl": mujoco.mjtState.mjSTATE_CTRL,
-    "qfrc_applied": mujoco.mjtState.mjSTATE_QFRC_APPLIED,
-    "xfrc_applied": mujoco.mjtState.mjSTATE_XFRC_APPLIED,
-}
 
 
 class GpuBatch(Batch):
@@ -50,12 +41,13 @@ class GpuBatch(Batch):
 
     def _advance(self, count: int, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Step the states of chosen rows; return the stable ones among them."""
-        inputs = {name: self._part(part) for name, part in _INPUTS.items()}
-        inputs["xfrc_applied"] = inputs["xfrc_applied"].reshape(len(self.states), -1, 6)
-        after = self._stepper_on_gpu.step(count, inputs, self._max_efforts, self._rates)
-        stable = chosen & np.isfinite(after["qpos"]).all(axis=1)
-        stable &= (np.abs(after["qvel"]) < self._max_speed).all(axis=1)
-        for name, values in after.items():
-            self._part(_INPUTS[name])[stable] = values[stable]
-        self._part(mujoco.mjtState.mjSTATE_TIME)[stable] += count * self._compiled.model.opt.timestep
-        return stable
+        return advance(
+            self._stepper_on_gpu,
+            self._compiled.model,
+            self.states,
+            max_efforts=self._max_efforts,
+            rates=self._rates,
+            count=count,
+            chosen=chosen,
+            max_speed=self._max_speed,
+        )

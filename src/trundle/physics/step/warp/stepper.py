@@ -1,6 +1,7 @@
 """Stepper: states of one world on a GPU."""
 
 import copy
+from collections.abc import Mapping
 
 import mujoco
 import mujoco_warp
@@ -14,6 +15,7 @@ from ...compile.compiled_world import CompiledWorld
 from ...compile.law_tables import find_table
 from .kernels import drive
 from .limits import gpu_limits, gpu_model
+from .varied_numbers import GRAVITY
 
 _Array = NDArray[np.float64]
 _CONTACTS_PER_PAIR, _MOST_CONTACTS = 8, 256
@@ -24,7 +26,14 @@ _OVERFLOWS = ("NEFC", "NJMAX_NNZ", "BROADPHASE", "NARROWPHASE", "CCD", "HFIELD",
 class GpuStepper:
     """Worlds in the memory of a GPU, in single precision."""
 
-    def __init__(self, compiled: CompiledWorld, model: mujoco.MjModel, worlds: int, device: str) -> None:
+    def __init__(
+        self,
+        compiled: CompiledWorld,
+        model: mujoco.MjModel,
+        worlds: int,
+        device: str,
+        numbers: Mapping[str, _Array] | None = None,
+    ) -> None:
         """Bring a model to the GPU, and compile what steps it, which takes minutes the first time on a machine.
 
         Args:
@@ -32,6 +41,7 @@ class GpuStepper:
             model: copy of its model, in which nothing sleeps.
             worlds: number of states.
             device: as Warp calls it.
+            numbers: field of the model → (worlds, …) values; None: each world has the model's own.
 
         Raises:
             UsageError: a law of the world, or a part of its model, is not known there.
@@ -39,6 +49,8 @@ class GpuStepper:
         limits = gpu_limits(compiled)
         if limits:
             raise UsageError("\n".join(["a GPU cannot step this world; use device='cpu':", *limits]))
+        numbers = numbers or {}
+        sizes = dict.fromkeys(["tendon_frictionloss", *(name for name in numbers if name != GRAVITY)], worlds)
         model = copy.copy(model)
         gpu_model(model)
         contacts = min(_CONTACTS_PER_PAIR * max(model.npair, model.ngeom), _MOST_CONTACTS)
@@ -47,10 +59,11 @@ class GpuStepper:
         wp.config.log_level = wp.LOG_WARNING
         with wp.ScopedDevice(device):
             try:
-                self._model = mujoco_warp.put_model(model, batch_sizes={"tendon_frictionloss": worlds})
+                self._model = mujoco_warp.put_model(model, batch_sizes=sizes)
             except (NotImplementedError, ValueError) as error:
                 raise UsageError(f"a GPU cannot step this world; use device='cpu': {error}") from None
             self._model.opt.warn_overflow = 0
+            self._write(numbers)
             self._data = mujoco_warp.make_data(model, nworld=worlds, nconmax=contacts, njmax=rows)
             self._motors = wp.array(find_table(model, "motors")[:, [0, 2]].astype(np.int32), dtype=int, ndim=2)
             self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
@@ -61,6 +74,13 @@ class GpuStepper:
             with wp.ScopedCapture() as capture:
                 mujoco_warp.step(self._model, self._data)
             self._graph = capture.graph
+
+    def _write(self, numbers: Mapping[str, _Array]) -> None:
+        for name, values in numbers.items():
+            if name == GRAVITY:
+                self._model.opt.gravity = wp.array(values.astype(np.float32), dtype=wp.vec3)
+            else:
+                getattr(self._model, name).assign(values.astype(np.float32))
 
     def _drive(self, _model: object, data: "mujoco_warp.Data") -> None:
         efc = data.efc

@@ -1,0 +1,1 @@
+"""Rows of a sweep that a GPU steps together."""
