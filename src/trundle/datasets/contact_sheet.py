@@ -14,7 +14,8 @@ from trundle.atomic_write import write_atomically
 
 from .annotation import PictureAnnotation
 from .dataset_folder import picture_path
-from .overlay import box_edges, category_colour, draw_overlay
+from .label_places import is_beside, place_labels
+from .overlay import box_edges, box_rect, category_colour, draw_overlay, middle
 from .plan import DatasetPlan
 
 _SHOWN = 24
@@ -22,6 +23,8 @@ _COLUMNS = 4
 _CELL_PX = 400
 _GAP_PX = 6
 _PAPER = (24, 28, 34)
+_LETTER = 0.6
+"""Width of a letter in the page's font, of its height."""
 _STYLE = """
 :root{color-scheme:light dark;--ink:#1d232b;--paper:#f6f7f9;--card:#fff;--line:#d8dde4}
 @media(prefers-color-scheme:dark){:root{--ink:#e6eaf0;--paper:#14181d;--card:#1d232b;--line:#333c47}}
@@ -31,7 +34,7 @@ h1{font-size:20px;margin:0 0 4px}p{margin:0 0 16px}
 figure{margin:0;background:var(--card);border:1px solid var(--line);border-radius:6px;overflow:hidden}
 figure>div{position:relative}img,svg{display:block;width:100%}svg{position:absolute;inset:0;height:100%}
 figcaption{padding:4px 8px;font-size:12px}
-text{font-family:system-ui,sans-serif;font-weight:600;paint-order:stroke;stroke:#000a;stroke-width:3px}
+text{font-family:system-ui,sans-serif;font-weight:600;fill:#0a0e14}
 table{border-collapse:collapse;margin:0 0 16px}td,th{padding:2px 12px 2px 0;text-align:left}
 td+td,th+th{text-align:right}i{display:inline-block;width:10px;height:10px;border-radius:2px;margin-right:6px}
 label{margin-right:16px;cursor:pointer}fieldset{border:0;padding:0;margin:0 0 12px}
@@ -101,7 +104,7 @@ def _figure(plan: DatasetPlan, picture: PictureAnnotation, small: Image.Image) -
     file = BytesIO()
     small.save(file, "WEBP", quality=82)
     data = base64.b64encode(file.getvalue()).decode()
-    shapes = "".join(_shapes(plan, picture))
+    shapes = "".join([*_shapes(plan, picture), *_labels(plan, picture)])
     overlay = f'<svg viewBox="0 0 {picture.width} {picture.height}">{shapes}</svg>'
     image = f'<img alt="" src="data:image/webp;base64,{data}">'
     caption = f"{picture.number:06}, {len(picture.objects)} objects"
@@ -113,10 +116,7 @@ def _shapes(plan: DatasetPlan, picture: PictureAnnotation) -> Iterator[str]:
         colour, box = _css(plan.categories.index(each.category)), each.box
         style = f'fill="none" stroke="{colour}" stroke-width="2" vector-effect="non-scaling-stroke"'
         size = f'width="{box.width:g}" height="{box.height:g}"'
-        high = picture.width / 28
-        place = f'x="{box.left:g}" y="{max(box.top - 4, high):g}" font-size="{high:.1f}"'
-        label = f'<text {place} fill="{colour}">{escape(each.category)}</text>'
-        yield f'<g class="box"><rect x="{box.left:g}" y="{box.top:g}" {size} {style}/>{label}</g>'
+        yield f'<rect class="box" x="{box.left:g}" y="{box.top:g}" {size} {style}/>'
         path = "".join(f"M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" for (x, y), (u, v) in box_edges(each.box_3d, picture.camera))
         yield f'<path class="solid" d="{path}" {style}/>'
         for point in each.key_points:
@@ -126,6 +126,23 @@ def _shapes(plan: DatasetPlan, picture: PictureAnnotation) -> Iterator[str]:
                 title = f"<title>{escape(point.name)}</title>"
                 ring = f'stroke="{colour}" stroke-width="2"'
                 yield f'<circle class="point" cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{fill}" {ring}>{title}</circle>'
+
+
+def _labels(plan: DatasetPlan, picture: PictureAnnotation) -> Iterator[str]:
+    """Yield labels whose texts do not cover each other; a thin line joins one that is not at its box."""
+    high = picture.width / 30
+    boxes = [box_rect(each) for each in picture.objects]
+    sizes = [(high * (_LETTER * len(each.category) + 0.4), high * 1.25) for each in picture.objects]
+    places = place_labels(boxes, sizes, (picture.width, picture.height))
+    for each, box, place in zip(picture.objects, boxes, places, strict=True):
+        colour, (left, top, right, bottom) = _css(plan.categories.index(each.category)), place
+        line = ""
+        if not is_beside(place, box):
+            (x, y), (u, v) = middle(place), middle(box)
+            line = f'<path d="M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" stroke="{colour}"/>'
+        card = f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}"'
+        text = f'<text x="{left + 0.2 * high:.1f}" y="{top + 0.95 * high:.1f}" font-size="{high:.1f}">'
+        yield f'<g class="box">{line}{card} fill="{colour}"/>{text}{escape(each.category)}</text></g>'
 
 
 def _css(number: int) -> str:

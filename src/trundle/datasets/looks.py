@@ -40,12 +40,16 @@ class Looks:
         self._placed = {each.model for each in instances}
         self.textures: list[Texture] = []
         """Every texture that a picture may show."""
+        for each in instances:
+            if each.model in plan.materials and _has_look(each.paint):
+                what = f"object {each.model!r} has a look of its own; give one of them"
+                raise DescriptionError(plan.materials[each.model].at, f"materials: {what}")
         paints = {each.model: each.paint for each in instances} | dict(plan.materials)
         for name, paint in paints.items():
             if name not in models:
                 there = ", ".join(dict.fromkeys(models)) or "none"
                 raise DescriptionError(paint.at, f"there is no model {name!r} with a visual; models: {there}")
-            if paint.colour is not None or paint.textures:
+            if _has_look(paint):
                 self._painted.append((name, paint, [i for i, model in enumerate(models) if model == name]))
             for texture in paint.textures:
                 self.textures.append(texture)
@@ -58,6 +62,8 @@ class Looks:
                 there = ", ".join(sorted(named)) or "none"
                 what = f"the world has no light {light.name!r}; lights: {there}; `type: directional` or point adds one"
                 raise DescriptionError(light.at, what)
+            if light.kind is None:
+                _check_kind(light, next(each for each in self._lights if each.name == light.name))
 
     def scene(self, number: int, arrangement: Arrangement) -> Scene:
         """Draw the looks of a picture."""
@@ -92,11 +98,28 @@ class Looks:
             if plan.kind is None:
                 lights[place[plan.name]] = _varied(lights[place[plan.name]], plan, random)
             else:
-                new = SceneLight(name=plan.name, kind=plan.kind, casts_shadows=plan.shadows)
+                new = SceneLight(name=plan.name, kind=plan.kind, casts_shadows=True)
                 if plan.kind == "point":
                     new = replace(new, attenuation=_FALL_OFF)
                 lights.append(_varied(new, plan, random))
         return lights
+
+
+def _has_look(paint: Paint) -> bool:
+    return paint.colour is not None or bool(paint.textures)
+
+
+def _check_kind(plan: LightPlan, light: SceneLight) -> None:
+    """Refuse numbers that a light of the world does not have.
+
+    Raises:
+        DescriptionError: with the light's line.
+    """
+    if light.kind == "point" and plan.elevation is not None:
+        raise DescriptionError(plan.at, f"light {plan.name}: a point light has no `elevation`; leave it out")
+    if light.kind == "directional" and plan.position is not None:
+        what = "a directional light has no `position`; give `azimuth` and `elevation`"
+        raise DescriptionError(plan.at, f"light {plan.name}: {what}")
 
 
 def _painted(shapes: Sequence[Shape], paint: Paint, random: np.random.Generator) -> list[Shape]:
@@ -135,7 +158,7 @@ def _varied(light: SceneLight, plan: LightPlan, random: np.random.Generator) -> 
         specular=_scaled(light.specular, intensity),
         direction=direction,
         position=position,
-        casts_shadows=light.casts_shadows and plan.shadows,
+        casts_shadows=light.casts_shadows if plan.shadows is None else plan.shadows,
     )
 
 

@@ -89,7 +89,10 @@ def read_paint(node: YamlNode, folder: Path, what: str) -> Paint:
     Raises:
         DescriptionError: with its line.
     """
-    return _paint(node, node.check_keys(what, *_PAINT), folder)
+    found = node.check_keys(what, *_PAINT)
+    if not {"colour", "textures"} & found.keys():
+        node.fail(f"{what} need `colour: …` or `textures: …`")
+    return _paint(node, found, folder)
 
 
 def _placement(node: YamlNode, found: dict[str, YamlNode]) -> Placement:
@@ -106,6 +109,8 @@ def _placement(node: YamlNode, found: dict[str, YamlNode]) -> Placement:
         found["position"].fail("`surface` draws the position; give one of them")
     if "within" in found and "surface" not in found:
         found["within"].fail("`within` is a part of the surface that `surface: MODEL` names")
+    if "rotation" in found and not {"surface", "position"} & found.keys():
+        found["rotation"].fail("`rotation` turns what is placed; add `surface: MODEL` or `position: [x, y, z]`")
     return Placement(
         at=node.at,
         surface=found["surface"].text("surface") if "surface" in found else None,
@@ -124,6 +129,8 @@ def _within(node: YamlNode) -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def _paint(node: YamlNode, found: dict[str, YamlNode], folder: Path) -> Paint:
+    if "repeat" in found and "textures" not in found:
+        found["repeat"].fail("`repeat` is that of an image; add `textures: …`")
     textures = (
         tuple(file for item in found["textures"].items() for file in _textures(item, folder))
         if "textures" in found

@@ -9,7 +9,8 @@ from PIL import Image, ImageDraw
 
 from trundle.spatial import matrix_from_quaternion, pose_from_row, transform_points
 
-from .annotation import Box3d, CameraAnnotation, PictureAnnotation
+from .annotation import Box3d, CameraAnnotation, ObjectAnnotation, PictureAnnotation
+from .label_places import Rect, is_beside, place_labels
 
 Rgb = tuple[int, int, int]
 Line = tuple[tuple[float, float], tuple[float, float]]
@@ -18,6 +19,8 @@ _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5)
 """Corners of a box that an edge joins."""
 _NEAR_M = 1e-3
 _DARK, _LIGHT = (10, 14, 20), (255, 255, 255)
+_PAD = 2
+"""Margin of a label's text [px]."""
 
 
 def category_colour(number: int) -> Rgb:
@@ -74,12 +77,46 @@ def draw_overlay(
             continue
         low, high = at(each.box.left, each.box.top), at(each.box.right, each.box.bottom)
         pen.rectangle([low, high], outline=colour, width=2)
-        label = each.category if each.occlusion < 0.05 else f"{each.category} {100 * each.occlusion:.0f} % hidden"
-        left, top, right, bottom = pen.textbbox((0, 0), label)
-        x, y = low[0], max(low[1] - (bottom - top) - 5, 0.0)
-        pen.rectangle([x, y, x + right - left + 5, y + bottom - top + 5], fill=colour)
-        pen.text((x + 2 - left, y + 2 - top), label, fill=_DARK)
+    if not solid:
+        _draw_labels(pen, annotation, categories, scale, (image.width, image.height))
     return image
+
+
+def _draw_labels(
+    pen: ImageDraw.ImageDraw,
+    annotation: PictureAnnotation,
+    categories: Sequence[str],
+    scale: float,
+    bounds: tuple[float, float],
+) -> None:
+    texts = [label_of(each) for each in annotation.objects]
+    rooms = [pen.textbbox((0, 0), text) for text in texts]
+    boxes = [box_rect(each, scale) for each in annotation.objects]
+    sizes = [(right - left + 2 * _PAD, bottom - top + 2 * _PAD) for left, top, right, bottom in rooms]
+    places = place_labels(boxes, sizes, bounds)
+    for each, box, place in zip(annotation.objects, boxes, places, strict=True):
+        if not is_beside(place, box):
+            pen.line([middle(place), middle(box)], fill=category_colour(categories.index(each.category)), width=1)
+    for each, text, room, place in zip(annotation.objects, texts, rooms, places, strict=True):
+        pen.rectangle(place, fill=category_colour(categories.index(each.category)))
+        pen.text((place[0] + _PAD - room[0], place[1] + _PAD - room[1]), text, fill=_DARK)
+
+
+def label_of(annotated: ObjectAnnotation) -> str:
+    """Return the category, and how much of the object is hidden."""
+    hidden = annotated.occlusion
+    return annotated.category if hidden < 0.05 else f"{annotated.category} {100 * hidden:.0f} % hidden"
+
+
+def box_rect(annotated: ObjectAnnotation, scale: float = 1.0) -> Rect:
+    """Return the box around the visible pixels, in a picture of another scale."""
+    box = annotated.box
+    return box.left * scale, box.top * scale, box.right * scale, box.bottom * scale
+
+
+def middle(rect: Rect) -> tuple[float, float]:
+    """Return the middle of a rectangle."""
+    return (rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2
 
 
 def depth_colours(depth: NDArray[np.float32]) -> NDArray[np.uint8]:

@@ -141,7 +141,8 @@ class LightPlan:
     """Direction from which a directional light comes [rad]; None: as written."""
     position: Numbers | None
     """Position of a point light in the world [m]."""
-    shadows: bool
+    shadows: bool | None
+    """None: as written; a light that the plan adds casts them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -192,6 +192,7 @@ def _light(name: str, node: YamlNode) -> LightPlan:
         kind = "point" if text == "point" else "directional"
         if kind == "point" and "position" not in found:
             node.fail(f"light {name}: a point light needs `position: [x, y, z]`")
+    _check_light(name, found, kind)
     return LightPlan(
         name=name,
         at=node.at,
@@ -205,8 +206,20 @@ def _light(name: str, node: YamlNode) -> LightPlan:
         if "elevation" in found
         else (constant(1.0) if kind == "directional" else None),
         position=read_numbers(found["position"], "position") if "position" in found else None,
-        shadows="shadows" not in found or found["shadows"].flag("shadows"),
+        shadows=found["shadows"].flag("shadows") if "shadows" in found else None,
     )
+
+
+def _check_light(name: str, found: dict[str, YamlNode], kind: Literal["directional", "point"] | None) -> None:
+    """Refuse numbers that a light of this kind does not have."""
+    for angle in ("azimuth", "elevation"):
+        if kind == "point" and angle in found:
+            found[angle].fail(f"light {name}: a point light has no `{angle}`; leave it out")
+    if kind == "directional" and "position" in found:
+        what = "a directional light has no `position`; give `azimuth` and `elevation`"
+        found["position"].fail(f"light {name}: {what}")
+    if kind is None and "azimuth" in found and "elevation" not in found:
+        found["azimuth"].fail(f"light {name}: `azimuth` alone changes nothing; add `elevation: …`")
 
 
 def _lidar(node: YamlNode) -> LidarPlan:

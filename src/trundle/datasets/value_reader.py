@@ -24,8 +24,12 @@ def read_quantity(node: YamlNode, what: str, *, at_least: float = -math.inf, at_
     """
     if isinstance(node.value, dict):
         found = read_variation(what, node, node.at)
+        if found.beside is not None:
+            node.value["with"].fail(f"{what}: `with` pairs values of sweeps; each number of a picture is drawn alone")
         if found.distribution is None:
             choices = [value for value in found.values if isinstance(value, int | float)]
+            if len(choices) < len(found.values):
+                node.fail(f"{what} must be {_FORMS}")
             quantity = Quantity(choices=tuple(float(value) for value in choices))
         else:
             quantity = Quantity(distribution=found.distribution)

@@ -264,3 +264,37 @@ def test_a_robot_s_own_camera_makes_the_pictures(tmp_path: Path) -> None:
 def test_a_camera_that_is_not_there_is_refused(tmp_path: Path, changed: str, by: str, said: str) -> None:
     with pytest.raises(DescriptionError, match=said):
         _rover(tmp_path, OF_THE_ROVER.replace(changed, by))
+
+
+LIGHTS = """<light name="sun" type="directional"><direction>0.6 0 -0.8</direction></light>
+<light name="lamp" type="point"><pose>0 0 3 0 0 0</pose></light>"""
+LIT = HEAD + "objects: {box: {model: box.sdf, position: [0, 0, 0.5], colour: any}}\n"
+
+
+def _lit(folder: Path, more: str) -> AnnotatedPicture:
+    (folder / "world.sdf").write_text(WORLD.replace("</world>", f"{LIGHTS}</world>"))
+    (folder / "box.sdf").write_text(BOX)
+    return picture_maker(read_dataset_plan(LIT + more, file="plan.yaml", folder=folder)).make(0)
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("lights: {sun: {position: [0, 0, 1]}}", "light sun: a directional light has no `position`; give `azimuth`"),
+        ("lights: {lamp: {elevation: 1}}", "light lamp: a point light has no `elevation`; leave it out"),
+        ("materials: {box_0: {colour: any}}", "materials: object 'box_0' has a look of its own; give one of them"),
+    ],
+)
+def test_what_the_world_s_light_or_object_would_not_use_is_refused(tmp_path: Path, more: str, said: str) -> None:
+    with pytest.raises(DescriptionError) as caught:
+        _lit(tmp_path, more)
+    assert str(caught.value).startswith(f"plan.yaml:7: error: {said}")
+
+
+def test_a_light_of_the_world_casts_shadows_as_the_plan_says(tmp_path: Path) -> None:
+    written, cast, none = (
+        _lit(tmp_path, f"lights: {{sun: {{{shadows}}}}}").rgb for shadows in ("", "shadows: true", "shadows: false")
+    )
+
+    assert np.array_equal(written, none)
+    assert (cast < written).any()
