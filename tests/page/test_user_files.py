@@ -38,6 +38,12 @@ Window Geometry:
   Height: 800
 """
 """As RViz 2 writes it."""
+_DROP = """([name, text]) => {
+    const carried = new DataTransfer();
+    carried.items.add(new File([text], name));
+    for (const kind of ["dragover", "drop"])
+        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: carried, bubbles: true, cancelable: true}));
+}"""
 
 
 @pytest.fixture(scope="module")
@@ -97,18 +103,32 @@ def test_a_file_of_ros_2_is_opened_and_what_is_not_understood_comes_back(user: S
     assert (found["Panels"], found["Window Geometry"]) == (expected["Panels"], expected["Window Geometry"])
 
 
+def test_the_details_of_the_notice_name_every_display_without_data(user: SceneUser) -> None:
+    """One of them is shown among the displays, with its reason."""
+    silent = [
+        {"Class": "rviz/LaserScan", "Name": "Front laser", "Enabled": True, "Topic": "/front"},
+        {"Class": "rviz/LaserScan", "Name": "Rear laser", "Enabled": True, "Topic": "/rear"},
+        {"Class": "rviz/PointCloud2", "Name": "Depth cloud", "Enabled": True, "Topic": "/depth"},
+    ]
+    user.page.evaluate(_DROP, ["silent.rviz", rviz_text(*silent)])
+    line = user.page.get_by_role("status").filter(has_text="3 displays have no data")
+    line.get_by_role("button", name="Details").click()
+    dialog = user.page.get_by_role("dialog", name="What is missing")
+    rows = dialog.locator(".fault-row")
+    user.until(lambda: rows.count() == 3)
+    assert [rows.nth(i).locator("b").inner_text() for i in range(3)] == [display["Name"] for display in silent]
+    rows.filter(has_text="Rear laser").get_by_role("button", name="Show").click()
+    dialog.wait_for(state="detached")
+    user.page.get_by_role("treeitem").filter(has_text="Rear laser").first.wait_for()
+    user.page.get_by_text("No messages received").first.wait_for()
+
+
 IN_GROUP = {
     "Class": "rviz/Group",
     "Name": "Things",
     "Enabled": True,
     "Displays": [{"Class": "rviz/Marker", "Name": "Cube", "Enabled": True, "Marker Topic": "/cube", "Queue Size": 7}],
 }
-_DROP = """([name, text]) => {
-    const carried = new DataTransfer();
-    carried.items.add(new File([text], name));
-    for (const kind of ["dragover", "drop"])
-        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: carried, bubbles: true, cancelable: true}));
-}"""
 
 
 def test_a_file_that_is_dropped_is_shown_and_its_group_switched_as_one(user: SceneUser) -> None:

@@ -12,7 +12,7 @@ import { TextField } from "../theme/text_field";
 import { logState } from "./log/log_state";
 import { timeText } from "./messages/format";
 import type { Panel, PanelProps } from "./panel";
-import { Bands, Lane, type ShareProps } from "./timeline/lane";
+import { Bands, ContactLanes, Lane, type ShareProps } from "./timeline/lane";
 import { rulerTimes, timelineState, type Mark, type TimelineState } from "./timeline/timeline_state";
 import { useShown, useTick } from "./use";
 
@@ -50,6 +50,7 @@ function Timeline({ page }: PanelProps): JSX.Element {
               <Lane name="Drive">
                 <Bands weak bands={state.drives.bands} span={span} share={share} />
               </Lane>
+              <ContactLanes lanes={state.contacts.all} span={span} share={share} />
             </>
           )}
           <Lane name="Log">

@@ -3,6 +3,7 @@
 import { describe, expect, it } from "vitest";
 
 import { requestTo } from "../../src/app/dialogs/time_dialog";
+import { ContactLanes, touchingPairs } from "../../src/panels/timeline/contact_lanes";
 import { Lanes, lanesOf, type BagLanes } from "../../src/panels/timeline/lanes";
 import { Spells } from "../../src/panels/timeline/spells";
 import { FakeConnection } from "../fake_connection";
@@ -45,6 +46,41 @@ describe("spells", () => {
     const spells = new Spells();
     for (const [isOn, time] of [[true, 1], [true, 4], [false, 5], [true, 7], [true, 8], [false, 3]] as const) spells.note(isOn, time);
     expect(spells.bands).toEqual([[1, 3]]);
+  });
+});
+
+function contacts(...pairs: readonly (readonly [number, number])[]): DataView {
+  const view = new DataView(new ArrayBuffer(16 + 72 * pairs.length));
+  view.setUint32(8, 3, true);
+  view.setUint32(12, pairs.length, true);
+  pairs.flat().forEach((body, i) => view.setFloat64(16 + 72 * (i >> 1) + 8 * (i & 1), body, true));
+  return view;
+}
+
+describe("contacts", () => {
+  const models = new Map([[0, "floor"], [1, "cart"], [2, "cart"], [3, "crate"]]);
+
+  it("are of pairs of models, in either order, and not within one", () => {
+    expect([...touchingPairs(contacts([1, 0], [0, 2], [3, 2], [1, 2], [-1, 3]), 3, models)]).toEqual(["cart · floor", "cart · crate"]);
+    expect(touchingPairs(contacts([1, 0]), 4, models).size).toBe(0);
+    expect(touchingPairs(new DataView(contacts([1, 0], [3, 2]).buffer, 0, 100), 3, models).size).toBe(1);
+  });
+
+  it("are kept with when they were, once for each moment", () => {
+    const lanes = new ContactLanes();
+    const floor = new Set(["cart · floor"]);
+    for (const [touching, time, known] of [[floor, 1, 1], [new Set([...floor, "cart · crate"]), 2, 1], [floor, 3, 2], [new Set(["a · b"]), 1.5, 3]] as const) lanes.note(touching, time, known);
+    expect(lanes.all).toEqual([
+      { pair: "cart · crate", bands: [[2, 3]] },
+      { pair: "cart · floor", bands: [[1, 3]] },
+    ]);
+  });
+
+  it("of many pairs are kept of those that touched last", () => {
+    const lanes = new ContactLanes();
+    for (let i = 0; i < 1000; i += 1) lanes.note(new Set([`a · ${i}`, "b · floor"]), i, 0);
+    expect(lanes.all.length).toBe(40);
+    expect(lanes.all.map(({ pair }) => pair)).toContain("b · floor");
   });
 });
 

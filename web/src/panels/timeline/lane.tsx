@@ -2,6 +2,7 @@
 
 import type { JSX } from "preact";
 
+import type { ContactLane } from "./contact_lanes";
 import type { Span } from "./timeline_state";
 
 export interface ShareProps {
@@ -43,6 +44,20 @@ export function Lane({ name, title = name, children }: LaneProps): JSX.Element {
       <div class="lane" role="group" aria-label={name}>
         {children}
       </div>
+    </>
+  );
+}
+
+/** A lane for each pair of models that touched. */
+export function ContactLanes({ lanes, span, share }: ShareProps & { readonly lanes: readonly ContactLane[] }): JSX.Element {
+  if (lanes.length === 0) return <Lane name="Contacts">{[]}</Lane>;
+  return (
+    <>
+      {lanes.map(({ pair, bands }) => (
+        <Lane key={pair} name={pair} title={`Contacts of ${pair.replace(" · ", " and ")}`}>
+          <Bands weak bands={bands} span={span} share={share} />
+        </Lane>
+      ))}
     </>
   );
 }

@@ -1,11 +1,13 @@
 /** The times that can be shown, what is known to have happened in them, and marks. */
 
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 
 import { canControl } from "../../app/looking";
 import type { Page } from "../../app/page";
+import { bodiesOf } from "../../app/world/nodes";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
+import { ContactLanes, touchingPairs } from "./contact_lanes";
 import { Lanes } from "./lanes";
 import { Spells } from "./spells";
 
@@ -39,6 +41,11 @@ export class TimelineState {
   /** When the robot was driven from this page, and when the simulation was recorded. */
   readonly drives = new Spells();
   readonly recordings = new Spells();
+  readonly contacts = new ContactLanes();
+  private readonly models = computed(() => {
+    const models = this.page.world.manifest.value?.models ?? [];
+    return new Map(models.flatMap((model) => bodiesOf(model).map((body) => [body, model.name] as const)));
+  });
   private markCount = 0;
   private asked: number | null = null;
   private isAsking = false;
@@ -46,6 +53,7 @@ export class TimelineState {
   constructor(private readonly page: Page) {
     this.lanes = new Lanes(page.connection);
     setInterval(() => this.look(), PERIOD);
+    if (page.session.kind === "simulation") page.connection.subscribeRaw("trundle/contacts", (payload) => this.noteContacts(payload));
   }
 
   /** Times of the recording, or of the simulation so far; null before anything is known. */
@@ -104,6 +112,13 @@ export class TimelineState {
     this.lanes.look(span, this.now());
     this.drives.note(this.page.drive.command.peek() !== null, span.known);
     this.recordings.note((this.page.world.state.peek()?.recording ?? null) !== null, span.known);
+  }
+
+  private noteContacts(payload: DataView): void {
+    const generation = this.page.world.manifest.peek()?.generation;
+    if (payload.byteLength < 8) return;
+    const time = Number(payload.getBigUint64(0, true)) / NS;
+    this.contacts.note(touchingPairs(payload, generation, this.models.peek()), time, this.span()?.known ?? 0);
   }
 
   private async ask(): Promise<void> {

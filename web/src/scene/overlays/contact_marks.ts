@@ -8,14 +8,10 @@ import type { Connection } from "../../protocol/connection";
 import { NOT_PICKED } from "../picking";
 import type { SceneView } from "../scene_view";
 import type { Manifest, SimulatedWorld } from "../simulated_world";
+import { contactCount, HEADER, MOST, SIZE } from "../world/contact_rows";
 import type { NamedModel } from "./body_overlays";
 import { COLOURS, flat, inFront } from "./overlay_shapes";
 
-const HEADER = 16;
-/** Both bodies, position, force, depth: f64 each. */
-const NUMBERS = 9;
-/** Most contacts that the server sends. */
-const MOST = 2000;
 /** Diameters of a ball and an arrow's shaft and head, longest arrow [m]. */
 const [BALL, SHAFT_WIDTH, HEAD_WIDTH, LONGEST] = [0.03, 0.012, 0.03, 2];
 /** Length of the arrow of a force as large as the weight of the mean model [m]. */
@@ -68,11 +64,11 @@ export class ContactMarks {
   }
 
   private draw(payload: DataView): void {
-    if (payload.byteLength < HEADER || payload.getUint32(8, true) !== this.world.manifest.peek()?.generation) return;
-    const rows = Math.min(MOST, payload.getUint32(12, true), Math.floor((payload.byteLength - HEADER) / (8 * NUMBERS)));
+    const { generation } = this.world.manifest.peek() ?? {};
+    const rows = contactCount(payload, generation);
     const { shown, still, scale } = this.chosen.peek();
     let count = 0;
-    for (let at = HEADER; at < HEADER + 8 * NUMBERS * rows; at += 8 * NUMBERS) {
+    for (let at = HEADER; at < HEADER + SIZE * rows; at += SIZE) {
       const [first, second] = [payload.getFloat64(at, true), payload.getFloat64(at + 8, true)];
       if (!shown.has(first) && !shown.has(second)) continue;
       point.set(payload.getFloat64(at + 16, true), payload.getFloat64(at + 24, true), payload.getFloat64(at + 32, true));

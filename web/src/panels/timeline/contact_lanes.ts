@@ -1,0 +1,46 @@
+/** When which models touched each other, as far as this page has seen it. */
+
+import { contactCount, HEADER, SIZE } from "../../scene/world/contact_rows";
+import { Spells } from "./spells";
+
+/** Most pairs that are kept; the one that touched longest ago goes. */
+const MOST = 40;
+
+export interface ContactLane {
+  readonly pair: string;
+  readonly bands: readonly (readonly [number, number])[];
+}
+
+export class ContactLanes {
+  private readonly spells = new Map<string, Spells>();
+
+  get all(): readonly ContactLane[] {
+    const lanes = [...this.spells].map(([pair, { bands }]) => ({ pair, bands }));
+    return lanes.filter(({ bands }) => bands.length > 0).sort((one, other) => one.pair.localeCompare(other.pair));
+  }
+
+  /** Note the pairs that touch at a time [s]; what is simulated up to `known` [s] has been noted already. */
+  note(touching: ReadonlySet<string>, time: number, known: number): void {
+    if (time < known) return;
+    for (const pair of touching) if (!this.spells.has(pair)) this.spells.set(pair, new Spells());
+    for (const [pair, spells] of this.spells) spells.note(touching.has(pair), time);
+    while (this.spells.size > MOST) this.dropOldest();
+  }
+
+  private dropOldest(): void {
+    const ends = [...this.spells].map(([pair, { bands }]) => ({ pair, end: bands.at(-1)?.[1] ?? -Infinity }));
+    const oldest = ends.reduce((one, other) => (other.end < one.end ? other : one));
+    this.spells.delete(oldest.pair);
+  }
+}
+
+/** Pairs of models that touch in a message; `models`: of each body. Contacts of a model with itself do not count. */
+export function touchingPairs(message: DataView, generation: number | undefined, models: ReadonlyMap<number, string>): ReadonlySet<string> {
+  const pairs = new Set<string>();
+  const end = HEADER + SIZE * contactCount(message, generation);
+  for (let at = HEADER; at < end; at += SIZE) {
+    const [one, other] = [models.get(message.getFloat64(at, true)), models.get(message.getFloat64(at + 8, true))];
+    if (one !== undefined && other !== undefined && one !== other) pairs.add(one < other ? `${one} · ${other}` : `${other} · ${one}`);
+  }
+  return pairs;
+}
