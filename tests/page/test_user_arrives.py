@@ -31,7 +31,11 @@ def test_what_is_loaded_is_said_with_how_much_of_it_came(chromium: Any, tmp_path
         tab = chromium.new_page()
         tab.set_default_timeout(PATIENCE_MS)
         held: list[Any] = []
-        tab.route(re.compile(r"\.glb"), held.append)
+
+        def hold(route: Any) -> None:
+            held.append(route)
+
+        tab.route(re.compile(r"\.glb"), hold)
         tab.goto(url)
         bar = tab.get_by_role("progressbar", name="Loading the world")
         bar.wait_for()
@@ -83,7 +87,7 @@ def test_from_another_machine_one_drives_and_is_told_what_its_browser_keeps_back
         user.page.keyboard.press("Control+k")
         user.page.get_by_role("combobox", name="Search commands").fill("link to this view")
         user.page.keyboard.press("Enter")
-        user.button("Select").click()
+        user.page.get_by_role("dialog").get_by_role("button", name="Select", exact=True).click()
         link = user.field("Link")
         assert link.evaluate("field => field.selectionEnd - field.selectionStart") == len(link.input_value())
         user.page.keyboard.press("Escape")

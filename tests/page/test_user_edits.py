@@ -122,8 +122,8 @@ def _reset(user: WorldUser, model: str) -> None:
 def test_a_torque_that_is_typed_turns_a_body_for_its_time(user: WorldUser) -> None:
     """2 N·m on 1 kg·m² for half a second: 0.25 rad by then, and 1 rad/s for the other half."""
     _reset(user, "raft")
-    user.page.get_by_role("searchbox", name="Search the world").fill("raft")
-    user.pick("base")
+    user.page.get_by_role("treeitem").filter(has_text="raft").first.click(button="right")
+    user.page.locator('.menu [data-title="Apply force or torque…"]').click()
     user.type("torque z", "2")
     user.type("duration [s]", "0.5")
     user.button("Apply").click()
@@ -135,7 +135,6 @@ def test_a_torque_that_is_typed_turns_a_body_for_its_time(user: WorldUser) -> No
         return 2.0 * math.atan2(pose[5], pose[6])
 
     user.until(lambda: turned() == pytest.approx(0.75, abs=0.03), what=f"for a turn, not {turned()}")
-    user.page.get_by_role("searchbox", name="Search the world").fill("")
 
 
 def test_the_timeline_shows_when_which_models_touched(user: WorldUser) -> None:
@@ -173,6 +172,25 @@ def test_a_joint_s_target_is_typed(user: WorldUser, target: str, value: str) -> 
     _in_dialog(user, "Steps", "50", "Take")
     user.until(lambda: user.place("crane", 1)[0] > -0.1, what=f"{user.place('crane', 1)}")
     user.page.get_by_role("searchbox", name="Search the world").fill("")
+
+
+_FITS = """rows => rows.map((row) => {
+    const [name, fields] = [...row.children].map((each) => {
+        const range = document.createRange();
+        range.selectNodeContents(each);
+        return range.getBoundingClientRect();
+    });
+    return name.right <= fields.left && fields.right <= row.getBoundingClientRect().right + 0.5;
+})"""
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1280, 760)])
+def test_three_numbers_stand_beside_their_name(user: WorldUser, size: tuple[int, int]) -> None:
+    user.page.set_viewport_size({"width": size[0], "height": size[1]})
+    user.pick("yard")
+    user.field("gravity x").wait_for()
+    rows = user.page.locator("aside .kv.numbers")
+    user.until(lambda: rows.evaluate_all(_FITS) == [True] * 3, what="for gravity, wind and time step to fit")
 
 
 def test_wind_and_time_step_are_typed_and_undone(user: WorldUser) -> None:

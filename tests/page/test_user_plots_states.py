@@ -116,25 +116,6 @@ def test_curves_are_saved_as_csv_parquet_and_svg(user: PanelUser) -> None:
     user.button("Go on").click()
 
 
-def test_the_value_at_the_cursor_is_that_of_its_time(user: PanelUser) -> None:
-    """The window of a paused plot ends with its newest point."""
-    user.until(lambda: legend(user, POSITION) is not None)
-    user.button("Pause").last.click()
-    _, *rows = csv.reader(saved(user, "CSV").decode().splitlines())
-    swing = np.array([(float(row[0]), float(row[3])) for row in rows if row[3] != ""])
-    area = user.page.locator(".u-over").first.bounding_box()
-    for share in (0.9, 0.97):
-        user.page.mouse.move(area["x"] + share * area["width"], area["y"] + area["height"] / 2)
-        at = swing[-1, 0] - 30.0 * (1.0 - share)
-        near = swing[abs(swing[:, 0] - at) < 0.2]
-        assert len(near) > 2, "the simulation has run long enough"
-        seen = legend(user, POSITION)
-        assert seen is not None
-        user.until(lambda: abs(near[:, 1] - (legend(user, POSITION) or 0.0)).min() < 2e-3)  # noqa: B023
-    user.page.mouse.move(5, 5)
-    user.button("Go on").click()
-
-
 def test_scrubbing_shows_the_values_of_that_time(user: PanelUser) -> None:
     """Going back in time keeps the curves, and the legend has what was then."""
     user.open("Timeline")
