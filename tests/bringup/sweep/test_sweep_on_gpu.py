@@ -205,6 +205,17 @@ def test_quantities_of_another_model_are_refused_with_their_line(check: Callable
     assert check(f"vary: {{{path}: {{uniform: [0.1, 0.2]}}}}").startswith(f"3: error: {path}: {apart}")
 
 
+def test_masses_and_frictions_of_a_robot_are_numbers_of_its_model(plan: Path) -> None:
+    plan.write_text(
+        "world: model://rp2w\nduration: 1\n"
+        "vary: {models/rp2w/links/chassis/inertial/mass: {uniform: [2, 5]}, mu: {log_uniform: [0.01, 1]}}\n"
+        "set: {models/rp2w/links/*/collisions/*/friction: mu}\n"
+    )
+    read = load_plan(plan)
+
+    check_worlds(read, Rows(read).row(0), TrialRunner(read))
+
+
 def test_a_world_with_a_law_that_a_gpu_lacks_is_refused(check: Callable[[str], str]) -> None:
     found = check("set: {models/ball/links/l/collisions/c/surface/mu2: '0.2'}")
 

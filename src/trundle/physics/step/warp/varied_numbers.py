@@ -14,8 +14,8 @@ GRAVITY = "opt.gravity"
 _HELD = (
     "body_inertia", "body_invweight0", "body_ipos", "body_iquat", "body_mass", "body_pos", "body_quat",
     "body_subtreemass", "dof_armature", "dof_damping", "dof_frictionloss", "dof_invweight0", "geom_friction",
-    "jnt_range", "jnt_stiffness", "pair_friction", "qpos0", "qpos_spring", "tendon_invweight0", "tendon_length0",
-    "tendon_lengthspring",
+    "jnt_range", "jnt_stiffness", "pair_friction", "pair_solimp", "pair_solref", "pair_solreffriction", "qpos0",
+    "qpos_spring", "tendon_invweight0", "tendon_length0", "tendon_lengthspring",
 )  # fmt: skip
 _PRESENT = ("dof_damping", "dof_frictionloss", "jnt_stiffness")
 """Fields of which zero and another number are different models."""
