@@ -16,7 +16,7 @@ from .device_row import DeviceRow
 from .row_check import why_not_beside
 
 _TOGETHER = 1024
-"""Most worlds at once; each takes some megabytes of this machine's memory, by its model."""
+"""Most worlds at once; each takes a megabyte or less of this machine's memory."""
 _MOST_STEPS = 1000
 """Most steps between two looks at Ctrl-C."""
 
