@@ -105,7 +105,7 @@ def test_the_session_says_what_the_nodes_asked_for(shown: Shown) -> None:
     assert session["drive_topic"] == "/base/cmd_vel"
     assert session["images"] == ["/camera/image_raw"]
     assert session["plots"] == ["/odom/twist/twist/linear/x"]
-    assert session["rviz"] == {"name": "car.rviz", "text": shown.config.read_text(), "writable": True}
+    assert session["rviz"] == {"name": "car.rviz", "text": shown.config.read_text(), "writable": True, "saved": False}
 
 
 def test_names_of_the_file_are_those_of_the_rviz_node(shown: Shown) -> None:

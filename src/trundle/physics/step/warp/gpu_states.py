@@ -1,11 +1,15 @@
 """States of many worlds in the memory of this machine, stepped by a GPU."""
 
+from typing import TYPE_CHECKING
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from ..batch import part_of
-from .stepper import GpuStepper
+
+if TYPE_CHECKING:
+    from .stepper import GpuStepper
 
 _Array = NDArray[np.float64]
 _INPUTS = {
@@ -19,7 +23,7 @@ _INPUTS = {
 
 
 def advance(
-    stepper: GpuStepper,
+    stepper: "GpuStepper",
     model: mujoco.MjModel,
     states: _Array,
     *,

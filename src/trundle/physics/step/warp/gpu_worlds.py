@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from ..engine import MAX_SPEED, Engine
 from .gpu_states import advance
-from .stepper import GpuStepper
 from .varied_numbers import model_on_gpu, varied_numbers
 
 
@@ -24,6 +23,8 @@ class GpuWorlds:
         Raises:
             UsageError: the GPU cannot step such a world; says why.
         """
+        from .stepper import GpuStepper  # needs mujoco_warp, which not everybody has
+
         self._engines = engines
         self._compiled = engines[0].compiled
         models = [model_on_gpu(engine.compiled) for engine in engines]
