@@ -73,17 +73,30 @@ def test_a_curve_has_an_axis_of_its_own(user: PanelUser) -> None:
     user.until(lambda: _height(user, SMALL) > 60 and _height(user, LARGE) > 60, what="for two axes")
 
 
+def _time_at(user: PanelUser, share: float) -> float:
+    """Point at a share of the plot's width; return the time that is shown for it [s]."""
+    box = user.page.locator(".u-over").bounding_box()
+    user.page.mouse.move(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+    minutes, seconds = user.page.locator(".dock .cursor").inner_text().rsplit(":", 1)
+    return 60 * int(minutes) + float(seconds)
+
+
+def test_the_legend_shows_the_values_at_the_cursor(user: PanelUser) -> None:
+    """Those of the second before it: there is a point each second."""
+    share = int(_time_at(user, 0.85) - 100) / SECONDS
+    assert 0 < share < 1
+    shown = user.page.locator(".legend b")
+
+    user.until(lambda: shown.all_inner_texts() == [f"{share:.3f}", f"{1000 + 1000 * share:.0f}"], what="for both")
+
+    user.page.mouse.move(0, 0)
+    user.until(lambda: shown.all_inner_texts() == ["1.000", "2000"], what="for the newest")
+
+
 def test_a_drag_zooms_in_and_a_button_goes_back(user: PanelUser) -> None:
-    area = user.page.locator(".u-over")
-    box = area.bounding_box()
+    box = user.page.locator(".u-over").bounding_box()
     y = box["y"] + box["height"] / 2
-
-    def time_at(share: float) -> float:
-        user.page.mouse.move(box["x"] + share * box["width"], y)
-        minutes, seconds = user.page.locator(".dock .cursor").inner_text().rsplit(":", 1)
-        return 60 * int(minutes) + float(seconds)
-
-    first, last = time_at(0.5), time_at(0.75)
+    first, last = _time_at(user, 0.5), _time_at(user, 0.75)
     user.page.mouse.move(box["x"] + 0.5 * box["width"], y)
     user.page.mouse.down()
     user.page.mouse.move(box["x"] + 0.75 * box["width"], y, steps=5)
@@ -91,11 +104,11 @@ def test_a_drag_zooms_in_and_a_button_goes_back(user: PanelUser) -> None:
     to_now = user.button("To now")
     to_now.wait_for()
     user.page.wait_for_timeout(200)  # some drawings
-    assert time_at(0.02) == pytest.approx(first, abs=1.0)
-    assert time_at(0.98) == pytest.approx(last, abs=1.0)
+    assert _time_at(user, 0.02) == pytest.approx(first, abs=1.0)
+    assert _time_at(user, 0.98) == pytest.approx(last, abs=1.0)
     to_now.click()
     user.page.wait_for_timeout(200)
-    assert time_at(0.5) == pytest.approx(first, abs=0.5)
+    assert _time_at(user, 0.5) == pytest.approx(first, abs=0.5)
 
 
 def test_all_curves_are_in_one_file(user: PanelUser) -> None:
