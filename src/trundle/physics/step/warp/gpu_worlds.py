@@ -23,7 +23,7 @@ class GpuWorlds:
         Raises:
             UsageError: the GPU cannot step such a world; says why.
         """
-        from .stepper import GpuStepper  # needs mujoco_warp, which not everybody has
+        from .stepper import GpuStepper  # mujoco_warp need not be installed
 
         self._engines = engines
         self._compiled = engines[0].compiled
