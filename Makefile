@@ -43,11 +43,11 @@ demo: $(READY)  ## the RP2W telepresence robot, in the browser (HEADLESS=1: 10 s
 
 test: $(READY)  ## the tests of every day, with what this machine has
 	$(NPM) run --silent test
-	$(BIN)/python -m pytest -n 2 -m "not slow"
+	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow"
 
 test-all: $(READY) dist/.built $(VENV)/.large  ## everything
 	$(NPM) run --silent test
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 # Large, and not for every platform: without one its tests are skipped. As the extras of pyproject.toml say.
 LARGE = import tomllib; extras = tomllib.load(open('pyproject.toml', 'rb'))['project']['optional-dependencies']; \
