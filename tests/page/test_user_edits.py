@@ -238,6 +238,7 @@ def test_a_mark_keeps_its_note_and_leads_back(user: WorldUser) -> None:
 
 def test_what_is_under_the_pointer_lights_up(user: WorldUser) -> None:
     """The raft's outline, while the pointer is over it."""
+    _reset(user, "raft")
     _choose(user, "Select nothing")
     user.page.mouse.move(*user.at((1.5, -1.2)))
     user.until_still(lambda: user.picture().tobytes())
