@@ -39,7 +39,7 @@ _STAMP = re.compile(r"\b(secs|nsecs|seq):.*")
 _MISSING = re.compile(r"(?:ModuleNotFoundError|ImportError): (?:No module named|cannot import name) '?([\w.]+)")
 _AT_ONCE = 3
 Run = dict[str, Any]
-"""What a run did: kind → lines, or a value."""
+"""Observations of a run: kind → lines, or a value."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def find_programs(folder: Path) -> dict[str, Path]:
 
 
 def run(repository: Repository, python: str, program: Path) -> Run:
-    """What a program printed, published, answered and ended with."""
+    """Lines printed, messages published, service answers and exit code of a program."""
     with running_graph() as graph, tempfile.TemporaryDirectory() as home:
         env = repository.environment(python, graph.core.uri, Path(home))
         ours = repository.environment(sys.executable, graph.core.uri, Path(home))

@@ -85,7 +85,7 @@ def send(topics):
 
 
 def answer(name):
-    """What a service answers to a default request."""
+    """Answer of a service to a default request."""
     cls = rosservice.get_service_class_by_name(name)
     try:
         return str(rospy.ServiceProxy(name, cls)())

@@ -43,7 +43,7 @@ def at(time_s, seq, age_s):
     until(lambda: len(received) == count)
 
 
-at(10.0, 1, 0.25)  # its statistics are lost: nobody is connected yet
+at(10.0, 1, 0.25)  # its statistics are lost: no subscriber is connected yet
 until(lambda: watching.get_num_connections() == 1)
 for number in range(24):
     at(10.125 + number / 4 + number % 2 / 16, number + 2 + number // 5, number / 16)

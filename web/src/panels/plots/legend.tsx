@@ -12,7 +12,7 @@ import type { Plot, PlotsState } from "./plots_state";
 import { COLOURS, isDashed } from "./style";
 
 const PERIOD = 200; // ms
-/** Share of a curve's largest value that nobody sees beside it. */
+/** Share of a curve's largest value below which a value is written as 0. */
 const UNSEEN = 1e-4;
 
 export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
