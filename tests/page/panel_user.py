@@ -10,6 +10,13 @@ PATIENCE_MS = 60_000
 _STILL_MS = 300
 """What does not change for this long stands still."""
 
+_DROP = """([name, text]) => {
+    const carried = new DataTransfer();
+    carried.items.add(new File([text], name));
+    for (const kind of ["dragover", "drop"])
+        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: carried, bubbles: true, cancelable: true}));
+}"""
+
 
 class PanelUser:
     """Open panels, and look at what they show."""
@@ -43,6 +50,10 @@ class PanelUser:
         """Type into a field and press Enter."""
         self.field(name).fill(text)
         self.field(name).press("Enter")
+
+    def drop_file(self, name: str, text: str) -> None:
+        """Drop a file onto the page."""
+        self.page.evaluate(_DROP, [name, text])
 
     def sees(self, text: str, *, within: str = ".dockhost") -> None:
         """Wait until a text stands in the dock."""

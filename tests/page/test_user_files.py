@@ -38,12 +38,6 @@ Window Geometry:
   Height: 800
 """
 """As RViz 2 writes it."""
-_DROP = """([name, text]) => {
-    const carried = new DataTransfer();
-    carried.items.add(new File([text], name));
-    for (const kind of ["dragover", "drop"])
-        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: carried, bubbles: true, cancelable: true}));
-}"""
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +104,7 @@ def test_the_details_of_the_notice_name_every_display_without_data(user: SceneUs
         {"Class": "rviz/LaserScan", "Name": "Rear laser", "Enabled": True, "Topic": "/rear"},
         {"Class": "rviz/PointCloud2", "Name": "Depth cloud", "Enabled": True, "Topic": "/depth"},
     ]
-    user.page.evaluate(_DROP, ["silent.rviz", rviz_text(*silent)])
+    user.drop_file("silent.rviz", rviz_text(*silent))
     line = user.page.get_by_role("status").filter(has_text="3 displays have no data")
     line.get_by_role("button", name="Details").click()
     dialog = user.page.get_by_role("dialog", name="What is missing")
@@ -135,7 +129,7 @@ def test_a_file_that_is_dropped_is_shown_and_its_group_switched_as_one(user: Sce
     """What is in the group keeps its own switch."""
     import yaml
 
-    user.page.evaluate(_DROP, ["dropped.rviz", rviz_text(IN_GROUP)])
+    user.drop_file("dropped.rviz", rviz_text(IN_GROUP))
     group = user.page.get_by_role("treeitem").filter(has_text="Things").first
     group.wait_for()
     user.until(lambda: user.sees_at((0.0, 0.0)), what="for the cube")

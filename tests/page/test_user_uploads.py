@@ -168,20 +168,12 @@ def test_a_folder_with_code_is_uploaded_and_its_code_asked_for(user: WorldUser, 
     user.until(lambda: user.model("coded") is not None, what="for the model with code")
 
 
-_DROP = """([name, text]) => {
-    const carried = new DataTransfer();
-    carried.items.add(new File([text], name));
-    for (const kind of ["dragover", "drop"])
-        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: carried, bubbles: true, cancelable: true}));
-}"""
-
-
 def test_a_file_that_is_dropped_is_uploaded_and_once_more_takes_its_own_place(user: WorldUser) -> None:
     for side in ("0.5", "1.0"):
         box = f"<geometry><box><size>{side} {side} {side}</size></box></geometry>"
         link = f'<link name="l"><visual name="v">{box}</visual></link>'
         text = f'<sdf version="1.6"><model name="brick"><static>1</static>{link}</model></sdf>'
-        user.page.evaluate(_DROP, ["brick.sdf", text])
+        user.drop_file("brick.sdf", text)
         user.page.get_by_role("status").get_by_text("brick can be inserted").wait_for()
     _entry(user, "brick").click()
     user.click((1.0, -1.0))
