@@ -75,6 +75,8 @@ def test_what_a_plan_leaves_out_has_a_default(tmp_path: Path) -> None:
         ("{uniform: [0.5, 1]}", "{values: [1, 2], with: a}", "plan.yaml:15: error: intensity: `with` pairs values of"),
         ("intensity", "brightness", "plan.yaml:15: error: light sun has no 'brightness'; it has: type, intensity,"),
         ("uniform: [0.5, 1]", "uniform: [.nan, 1]", "plan.yaml:15: error: "),
+        ("camera:\n", "camera:\n  far: 2e6\n", "plan.yaml:4: error: far may be 1e+06 m at most"),
+        ("count: 4", "count: 4\nlidar: {}", "plan.yaml:3: error: clouds of a lidar are written by kitti and semantic_ki"),
         ("colour: any", "textures: nowhere", "plan.yaml:10: error: textures: "),
     ],
 )

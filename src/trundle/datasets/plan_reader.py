@@ -24,6 +24,8 @@ _LIDAR = ("beams", "columns", "vertical", "horizontal", "range", "pose")
 FORMATS: tuple[Format, ...] = get_args(Format)
 _MAX_COUNT, _MAX_SIDE_PX, _MAX_SAMPLES, _MAX_PX = 100_000_000, 8192, 4, 1 << 25
 _MAX_RAYS = 1 << 20
+_MAX_FAR_M = 1e6
+_CLOUD_FORMATS: tuple[Format, ...] = ("kitti", "semantic_kitti")
 
 
 def load_dataset_plan(
@@ -78,6 +80,8 @@ def read_dataset_plan(text: str, *, file: str, folder: Path) -> DatasetPlan:
     lidar = _lidar(found["lidar"]) if "lidar" in found else None
     if "semantic_kitti" in formats and lidar is None:
         found["formats"].fail("semantic_kitti needs a lidar; add `lidar: …`")
+    if lidar is not None and not {*formats} & {*_CLOUD_FORMATS}:
+        found["lidar"].fail(f"clouds of a lidar are written by {' and '.join(_CLOUD_FORMATS)}; add one to `formats`")
     return DatasetPlan(
         file=file,
         folder=folder,
@@ -150,6 +154,8 @@ def _camera(node: YamlNode, objects: tuple[str, ...]) -> CameraPlan:
             target.fail(f"look_at: there is no object {look_at!r}; objects: {', '.join(objects)}, or a point [x, y, z]")
     near = found["near"].number("near", above=0) if "near" in found else 0.05
     far = found["far"].number("far", above=near) if "far" in found else 100.0
+    if far > _MAX_FAR_M:
+        found["far"].fail(f"far may be {_MAX_FAR_M:g} m at most")
     return CameraPlan(
         at=node.at,
         place=place,
@@ -159,7 +165,7 @@ def _camera(node: YamlNode, objects: tuple[str, ...]) -> CameraPlan:
         if "fov" in found
         else constant(1.047),
         near_m=near,
-        far_m=min(far, 1e6),
+        far_m=far,
         noise=found["noise"].number("noise", at_least=0) if "noise" in found else 0.0,
     )
 

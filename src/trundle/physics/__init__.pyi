@@ -25,6 +25,7 @@ from .step.surface_motion import TrackMotion as TrackMotion
 from .step.surface_motion import WheelGrip as WheelGrip
 from .step.warp.device import NoGpuError as NoGpuError
 from .step.warp.device import find_gpu as find_gpu
+from .step.warp.gpu_states import StepOutcome as StepOutcome
 from .step.warp.gpu_worlds import GpuWorlds as GpuWorlds
 from .step.warp.limits import gpu_limits as gpu_limits
 from .step.warp.varied_numbers import gpu_differences as gpu_differences

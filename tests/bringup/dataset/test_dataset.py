@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from trundle.bringup.dataset.dataset_digest import dataset_digest
 from trundle.bringup.dataset.dataset_world import picture_maker
-from trundle.bringup.dataset.digest import dataset_digest
 from trundle.datasets import DatasetFolder, load_dataset_plan
 from trundle.datasets.annotation import Mask
 from trundle.datasets.run_length import decode_mask

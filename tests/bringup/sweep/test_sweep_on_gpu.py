@@ -1,5 +1,6 @@
 """Sweeps whose rows a GPU steps together; Warp's CPU device stands for one."""
 
+import re
 import subprocess
 import sys
 import time
@@ -10,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.sweep.device import device, run
+from trundle.bringup.sweep.device import batches, device_choice
 from trundle.bringup.sweep.device.row_check import check_worlds
 from trundle.bringup.sweep.trial import TrialRunner
 from trundle.diagnostics import DescriptionError, TrundleError, UsageError
@@ -72,14 +73,14 @@ def plan(tmp_path: Path) -> Path:
 @pytest.fixture
 def stand_in(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let Warp's CPU device stand for the GPU."""
-    monkeypatch.setattr(device, "find_gpu", lambda: "cpu")
+    monkeypatch.setattr(device_choice, "find_gpu", lambda: "cpu")
 
 
 @needs_warp
 @pytest.mark.slow
 @pytest.mark.usefixtures("stand_in")
 def test_rows_come_out_as_on_the_processors(plan: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run, "_TOGETHER", 5)
+    monkeypatch.setattr(batches, "_TOGETHER", 5)
     gpu = trundle.sweep(plan, device="cuda", output=plan.with_name("gpu")).table
     cpu = trundle.sweep(plan, workers=1, output=plan.with_name("cpu")).table
 
@@ -113,8 +114,8 @@ def test_a_killed_sweep_goes_on_and_its_table_is_the_same(plan: Path) -> None:
 
 def _kill_after_a_row(plan: Path) -> None:
     program = (
-        "import sys, trundle\nfrom trundle.bringup.sweep.device import device\n"
-        "device.find_gpu = lambda: 'cpu'\ntrundle.sweep(sys.argv[1], device='cuda')"
+        "import sys, trundle\nfrom trundle.bringup.sweep.device import device_choice\n"
+        "device_choice.find_gpu = lambda: 'cpu'\ntrundle.sweep(sys.argv[1], device='cuda')"
     )
     journal = plan.with_suffix(".sweep") / "journal.jsonl"
     process = subprocess.Popen([sys.executable, "-c", program, plan], stderr=subprocess.DEVNULL)
@@ -150,6 +151,33 @@ def test_a_row_that_cannot_go_on_says_so_and_the_others_do(plan: Path) -> None:
         else:
             assert (row["status"], row["reason"]) == ("ok", "")
     assert [row["status"] for row in rows].count("error") == 2
+
+
+@needs_warp
+@pytest.mark.slow
+@pytest.mark.usefixtures("stand_in")
+def test_a_row_too_crowded_for_the_gpu_says_so_and_the_others_go_on(
+    plan: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from trundle.physics.step.warp import stepper
+
+    monkeypatch.setattr(stepper, "_MOST_CONTACTS", 0)  # one box on the floor has room, four have not
+    boxes = WORLD.replace("<sphere><radius>0.1</radius></sphere>", "<box><size>0.2 0.2 0.2</size></box>")
+    link = re.search(r'<link name="l"><inertial>.*?</link>', boxes, re.DOTALL)
+    assert link is not None
+    links = "".join(link[0].replace('"l">', f'"{y}"><pose>0 {y} 0 0 0 0</pose>') for y in (1, 3, 4))
+    second = f'<model name="second">{links}</model>'
+    plan.with_name("boxes.sdf").write_text(boxes.replace("</world>", f"{second}</world>"))
+    plan.write_text(
+        "world: boxes.sdf\nduration: 0.2\nvary: {height: [2, 0.1001, 3]}\nset: {models/second/pose/z: height}\n"
+        "measure: {z: models.second.z}\n"
+    )
+
+    rows = trundle.sweep(plan, device="cuda").table.to_pylist()
+
+    assert [row["status"] for row in rows] == ["ok", "error", "ok"]
+    assert rows[1]["reason"].startswith("it has more contacts than the GPU has room for between 0 and 0.2 s; ")
+    assert [row["z"] for row in rows[::2]] == pytest.approx([2 - 0.5 * 9.8 * 0.2**2, 3 - 0.5 * 9.8 * 0.2**2], abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -228,7 +256,7 @@ def test_without_a_gpu_a_line_says_so_and_the_processors_run_the_rows(
     def find_none() -> str:
         raise NoGpuError("this machine has no driver of an NVIDIA GPU")
 
-    monkeypatch.setattr(device, "find_gpu", find_none)
+    monkeypatch.setattr(device_choice, "find_gpu", find_none)
     plan.write_text("world: ball.sdf\nduration: 0.1\nmeasure: {x: models.ball.x}\n")
 
     done = trundle.sweep(plan, device="cuda")

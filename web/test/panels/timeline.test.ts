@@ -5,7 +5,7 @@ import { describe, expect, it } from "vitest";
 import { requestTo } from "../../src/app/dialogs/time_dialog";
 import { ContactLanes, touchingPairs } from "../../src/panels/timeline/contact_lanes";
 import { Lanes, lanesOf, type BagLanes } from "../../src/panels/timeline/lanes";
-import { Spells } from "../../src/panels/timeline/spells";
+import { Intervals } from "../../src/panels/timeline/intervals";
 import { FakeConnection } from "../fake_connection";
 
 const BAG: BagLanes = {
@@ -35,17 +35,17 @@ describe("lanes of a bag", () => {
   });
 });
 
-describe("spells", () => {
+describe("intervals", () => {
   it("go on while they are noted", () => {
-    const spells = new Spells();
-    for (const [isOn, time] of [[false, 1], [true, 2], [true, 3], [false, 4], [false, 5], [true, 6]] as const) spells.note(isOn, time);
-    expect(spells.bands).toEqual([[2, 4], [6, 6]]);
+    const intervals = new Intervals();
+    for (const [isOn, time] of [[false, 1], [true, 2], [true, 3], [false, 4], [false, 5], [true, 6]] as const) intervals.note(isOn, time);
+    expect(intervals.bands).toEqual([[2, 4], [6, 6]]);
   });
 
   it("after a time are forgotten when it begins again there", () => {
-    const spells = new Spells();
-    for (const [isOn, time] of [[true, 1], [true, 4], [false, 5], [true, 7], [true, 8], [false, 3]] as const) spells.note(isOn, time);
-    expect(spells.bands).toEqual([[1, 3]]);
+    const intervals = new Intervals();
+    for (const [isOn, time] of [[true, 1], [true, 4], [false, 5], [true, 7], [true, 8], [false, 3]] as const) intervals.note(isOn, time);
+    expect(intervals.bands).toEqual([[1, 3]]);
   });
 });
 

@@ -19,8 +19,8 @@ from trundle.trials import lock_folder
 from trundle.workers import Job, JobResult, Progress, check_workers, run_job
 
 from ..signals import stop_flag
+from .dataset_digest import dataset_digest
 from .dataset_world import picture_maker
-from .digest import dataset_digest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,7 +14,7 @@ from trundle.nodes import Executable, find_node
 from trundle.packages import Packages
 
 from ..launch.loaded_launch import LoadedLaunch
-from .digest import RunInputs
+from .plan_digest import RunInputs
 
 _DATABASE = "-database"
 

@@ -19,11 +19,11 @@ from ..launch.options import LaunchOptions
 from ..launch.running_nodes import RunningNodes
 from ..launch.session import LaunchSession
 from .assignments import Assignments, assignments_of
-from .digest import RunInputs
 from .judge import Judge
 from .launch_check import check_launch
 from .launch_inputs import launch_inputs
 from .launch_setup import LaunchSetup
+from .plan_digest import RunInputs
 from .state_names import StateExpressions
 from .topics import topics_of
 

@@ -15,10 +15,10 @@ from trundle.workers import Progress, check_workers
 from ..console import say
 from ..signals import stop_flag
 from .argument_rows import argument_rows
-from .device.device import Device, gpu_of
+from .device.device_choice import Device, gpu_of
 from .device.row_check import check_worlds
-from .digest import RunInputs, plan_digest
 from .launch_trial import LaunchTrialRunner
+from .plan_digest import RunInputs, plan_digest
 from .processes import run_in_processes
 from .trial import TrialRunner, runner_of
 
@@ -124,7 +124,7 @@ def sweep(
             if gpu is None:
                 run_in_processes(plan, results, progress, workers=workers, address=address, is_ending=stop.is_set)
             else:
-                from .device.run import run_on_gpu  # Warp takes seconds to load
+                from .device.batches import run_on_gpu  # Warp takes seconds to load
 
                 missing = results.missing()
                 run_on_gpu(plan, missing, results.add, gpu=gpu, progress=progress, is_ending=stop.is_set)

@@ -18,9 +18,9 @@ from trundle.trials import PARAMETERS, Plan, Row, RowResult, Rows
 from ..loaded_simulation import LoadedSimulation
 from ..world_setup import LoadedWorld, load_world
 from .assignments import Assignments, assignments_of
-from .digest import RunInputs
 from .judge import Judge
 from .launch_trial import LaunchTrialRunner
+from .plan_digest import RunInputs
 from .script import RunScript
 from .state_names import StateExpressions
 from .topics import TopicReader, topics_of

@@ -1,7 +1,7 @@
 /** When which models touched each other, as far as this page has seen it. */
 
 import { contactCount, HEADER, SIZE } from "../../scene/world/contact_rows";
-import { Spells } from "./spells";
+import { Intervals } from "./intervals";
 
 /** Most pairs that are kept; the one that touched longest ago goes. */
 const MOST = 40;
@@ -12,25 +12,25 @@ export interface ContactLane {
 }
 
 export class ContactLanes {
-  private readonly spells = new Map<string, Spells>();
+  private readonly intervals = new Map<string, Intervals>();
 
   get all(): readonly ContactLane[] {
-    const lanes = [...this.spells].map(([pair, { bands }]) => ({ pair, bands }));
+    const lanes = [...this.intervals].map(([pair, { bands }]) => ({ pair, bands }));
     return lanes.filter(({ bands }) => bands.length > 0).sort((one, other) => one.pair.localeCompare(other.pair));
   }
 
   /** Note the pairs that touch at a time [s]; what is simulated up to `known` [s] has been noted already. */
   note(touching: ReadonlySet<string>, time: number, known: number): void {
     if (time < known) return;
-    for (const pair of touching) if (!this.spells.has(pair)) this.spells.set(pair, new Spells());
-    for (const [pair, spells] of this.spells) spells.note(touching.has(pair), time);
-    while (this.spells.size > MOST) this.dropOldest();
+    for (const pair of touching) if (!this.intervals.has(pair)) this.intervals.set(pair, new Intervals());
+    for (const [pair, intervals] of this.intervals) intervals.note(touching.has(pair), time);
+    while (this.intervals.size > MOST) this.dropOldest();
   }
 
   private dropOldest(): void {
-    const ends = [...this.spells].map(([pair, { bands }]) => ({ pair, end: bands.at(-1)?.[1] ?? -Infinity }));
+    const ends = [...this.intervals].map(([pair, { bands }]) => ({ pair, end: bands.at(-1)?.[1] ?? -Infinity }));
     const oldest = ends.reduce((one, other) => (other.end < one.end ? other : one));
-    this.spells.delete(oldest.pair);
+    this.intervals.delete(oldest.pair);
   }
 }
 

@@ -9,7 +9,7 @@ import { perPage } from "../per_page";
 import { sentence } from "../use";
 import { ContactLanes, touchingPairs } from "./contact_lanes";
 import { Lanes } from "./lanes";
-import { Spells } from "./spells";
+import { Intervals } from "./intervals";
 
 export interface Mark {
   readonly id: number;
@@ -39,8 +39,8 @@ export class TimelineState {
   readonly scrub = signal<number | null>(null);
   readonly lanes: Lanes;
   /** When the robot was driven from this page, and when the simulation was recorded. */
-  readonly drives = new Spells();
-  readonly recordings = new Spells();
+  readonly drives = new Intervals();
+  readonly recordings = new Intervals();
   readonly contacts = new ContactLanes();
   private readonly models = computed(() => {
     const models = this.page.world.manifest.value?.models ?? [];

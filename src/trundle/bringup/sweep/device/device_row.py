@@ -1,10 +1,17 @@
 """Run of one row, whose physics is stepped together with others."""
 
 from trundle.diagnostics import TrundleError
+from trundle.physics import StepOutcome
 from trundle.spatial import NS_PER_S
 from trundle.trials import Row, RowResult
 
 from ..trial import TrialRunner, TrialSimulation
+
+_WHY = {
+    StepOutcome.UNSTABLE: "the physics became unstable {}; a smaller <max_step_size> or more plausible masses and "
+    "inertias may help",
+    StepOutcome.CROWDED: "it has more contacts than the GPU has room for {}; device='cpu' has no such bound",
+}
 
 
 class DeviceRow:
@@ -44,17 +51,14 @@ class DeviceRow:
             return
         self.result = self._runner.result(self._row, simulation)
 
-    def arrive(self, step: int, *, is_stable: bool) -> None:
-        """Go on from a step up to which the physics was computed; a run that became unstable ends."""
-        if is_stable:
+    def arrive(self, step: int, outcome: StepOutcome) -> None:
+        """Go on from a step up to which the physics was computed; a run that is not stable ends."""
+        if outcome is StepOutcome.STABLE:
             self.simulation.steps = step
             self.simulation.loads.expire(step)
             return
         start_s, end_s = self.simulation.time_ns / NS_PER_S, step * self.simulation.step_ns / NS_PER_S
-        self._fail(
-            f"the physics became unstable between {start_s:g} and {end_s:g} s; "
-            f"a smaller <max_step_size> or more plausible masses and inertias may help"
-        )
+        self._fail(_WHY[outcome].format(f"between {start_s:g} and {end_s:g} s"))
 
     def _fail(self, why: str) -> None:
         self.result = RowResult(self._row.number, "error", why, self.simulation.time_ns / NS_PER_S)

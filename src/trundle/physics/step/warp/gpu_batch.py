@@ -3,9 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.diagnostics import TrundleError
+
 from ...compile.compiled_world import CompiledWorld
 from ..batch import Batch
-from .gpu_states import advance
+from .gpu_states import StepOutcome, advance
 from .stepper import GpuStepper
 
 
@@ -33,14 +35,19 @@ class GpuBatch(Batch):
         self._stepper_on_gpu = GpuStepper(compiled, self._workers[0][0], rows, device)
 
     def step(self, count: int, *, chosen: NDArray[np.bool_] | None = None) -> None:
-        """See `Batch`."""
-        chosen = self._all if chosen is None else chosen
-        stable = self._advance(count, chosen) if count else chosen
-        super().step(0, chosen=chosen)
-        self.unstable[chosen] = ~stable[chosen]
+        """See `Batch`.
 
-    def _advance(self, count: int, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Step the states of chosen rows; return the stable ones among them."""
+        Raises:
+            TrundleError: a row has more contacts than the GPU has room for.
+        """
+        chosen = self._all if chosen is None else chosen
+        outcomes = self._advance(count, chosen) if count else np.full(len(chosen), StepOutcome.STABLE)
+        if (outcomes[chosen] == StepOutcome.CROWDED).any():
+            raise TrundleError("a world has more contacts than the GPU has room for; use device='cpu'")
+        super().step(0, chosen=chosen)
+        self.unstable[chosen] = outcomes[chosen] == StepOutcome.UNSTABLE
+
+    def _advance(self, count: int, chosen: NDArray[np.bool_]) -> NDArray[np.int8]:
         return advance(
             self._stepper_on_gpu,
             self._compiled.model,

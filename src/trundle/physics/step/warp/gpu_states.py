@@ -1,5 +1,6 @@
 """States of many worlds in the memory of this machine, stepped by a GPU."""
 
+from enum import IntEnum
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -22,6 +23,16 @@ _INPUTS = {
 }
 
 
+class StepOutcome(IntEnum):
+    """Outcome of the steps of a world."""
+
+    STABLE = 0
+    UNSTABLE = 1
+    """Divergence; the world keeps its state."""
+    CROWDED = 2
+    """More contacts than the GPU has room for; the world keeps its state."""
+
+
 def advance(
     stepper: "GpuStepper",
     model: mujoco.MjModel,
@@ -32,8 +43,8 @@ def advance(
     count: int,
     chosen: NDArray[np.bool_],
     max_speed: float,
-) -> NDArray[np.bool_]:
-    """Step chosen rows; those that diverge keep their states.
+) -> NDArray[np.int8]:
+    """Step chosen rows; those that are not stable keep their states.
 
     Args:
         stepper: of as many worlds as there are rows.
@@ -46,14 +57,16 @@ def advance(
         max_speed: from which on a row has diverged [m/s or rad/s].
 
     Returns:
-        (rows,) True for the stable ones of the chosen.
+        (rows,) a `StepOutcome` for each; without meaning for those that were not chosen.
     """
     inputs = {name: part_of(model, states, part) for name, part in _INPUTS.items()}
     inputs["xfrc_applied"] = inputs["xfrc_applied"].reshape(len(states), -1, 6)
-    after = stepper.step(count, inputs, max_efforts, rates)
-    stable = chosen & np.isfinite(after["qpos"]).all(axis=1)
-    stable &= (np.abs(after["qvel"]) < max_speed).all(axis=1)
+    after, crowded = stepper.step(count, inputs, max_efforts, rates)
+    slow = (np.abs(after["qvel"]) < max_speed).all(axis=1)
+    outcomes = np.where(np.isfinite(after["qpos"]).all(axis=1) & slow, StepOutcome.STABLE, StepOutcome.UNSTABLE)
+    outcomes[crowded] = StepOutcome.CROWDED
+    stable = chosen & (outcomes == StepOutcome.STABLE)
     for name, values in after.items():
         part_of(model, states, _INPUTS[name])[stable] = values[stable]
     part_of(model, states, mujoco.mjtState.mjSTATE_TIME)[stable] += count * model.opt.timestep
-    return stable
+    return outcomes.astype(np.int8)

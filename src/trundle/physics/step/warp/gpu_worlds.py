@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine import MAX_SPEED, Engine
-from .gpu_states import advance
+from .gpu_states import StepOutcome, advance
 from .varied_numbers import model_on_gpu, varied_numbers
 
 
@@ -30,22 +30,19 @@ class GpuWorlds:
         models = [model_on_gpu(engine.compiled) for engine in engines]
         self._stepper = GpuStepper(self._compiled, models[0], len(engines), device, varied_numbers(models))
 
-    def step(self, count: int, *, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Step chosen engines, with their motors and loads; those that diverge keep their states.
+    def step(self, count: int, *, chosen: NDArray[np.bool_]) -> list[StepOutcome]:
+        """Step chosen engines, with their motors and loads; those that are not stable keep their states.
 
         Args:
             count: number of steps.
             chosen: (engines,)
 
         Returns:
-            (engines,) True for the stable ones of the chosen.
-
-        Raises:
-            TrundleError: a world has more contacts than were reserved.
+            One for each engine; without meaning for those that were not chosen.
         """
         rows = [engine.world_row() for engine in self._engines]
         states = np.stack([row.state for row in rows])
-        stable = advance(
+        outcomes = advance(
             self._stepper,
             self._compiled.model,
             states,
@@ -55,6 +52,6 @@ class GpuWorlds:
             chosen=chosen,
             max_speed=MAX_SPEED,
         )
-        for at in np.flatnonzero(stable).tolist():
+        for at in np.flatnonzero(chosen & (outcomes == StepOutcome.STABLE)).tolist():
             self._engines[at].set_row_state(states[at])
-        return stable
+        return [*map(StepOutcome, outcomes.tolist())]

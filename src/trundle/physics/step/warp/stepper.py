@@ -9,7 +9,7 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from trundle.diagnostics import TrundleError, UsageError
+from trundle.diagnostics import UsageError
 
 from ...compile.compiled_world import CompiledWorld
 from ...compile.law_tables import find_table
@@ -20,6 +20,8 @@ from .varied_numbers import GRAVITY
 _Array = NDArray[np.float64]
 _CONTACTS_PER_PAIR, _MOST_CONTACTS = 8, 256
 _ROWS_PER_CONTACT = 3
+_SPARE_CONTACTS = 4096
+"""Contacts that all worlds share, so that a crowded one takes none of another's."""
 _OVERFLOWS = ("NEFC", "NJMAX_NNZ", "BROADPHASE", "NARROWPHASE", "CCD", "HFIELD", "EPA_HORIZON")
 
 
@@ -55,6 +57,7 @@ class GpuStepper:
         gpu_model(model)
         contacts = min(_CONTACTS_PER_PAIR * max(model.npair, model.ngeom), _MOST_CONTACTS)
         rows = model.nv + model.ntendon + 2 * model.njnt + 6 * model.neq + _ROWS_PER_CONTACT * contacts
+        room = worlds * contacts + _SPARE_CONTACTS
         self._device = device
         wp.config.log_level = wp.LOG_WARNING
         with wp.ScopedDevice(device):
@@ -64,7 +67,7 @@ class GpuStepper:
                 raise UsageError(f"a GPU cannot step this world; use device='cpu': {error}") from None
             self._model.opt.warn_overflow = 0
             self._write(numbers)
-            self._data = mujoco_warp.make_data(model, nworld=worlds, nconmax=contacts, njmax=rows)
+            self._data = mujoco_warp.make_data(model, nworld=worlds, naconmax=room, njmax=rows)
             self._motors = wp.array(find_table(model, "motors")[:, [0, 2]].astype(np.int32), dtype=int, ndim=2)
             self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
             self._rates = wp.zeros((worlds, model.ntendon), dtype=float)
@@ -92,7 +95,9 @@ class GpuStepper:
             outputs=[efc.aref],
         )
 
-    def step(self, count: int, before: dict[str, _Array], max_efforts: _Array, rates: _Array) -> dict[str, _Array]:
+    def step(
+        self, count: int, before: dict[str, _Array], max_efforts: _Array, rates: _Array
+    ) -> tuple[dict[str, _Array], NDArray[np.bool_]]:
         """Step all worlds.
 
         Args:
@@ -102,23 +107,20 @@ class GpuStepper:
             rates: (worlds, motors)
 
         Returns:
-            qpos, qvel and qacc_warmstart afterwards.
-
-        Raises:
-            TrundleError: there are more contacts than were reserved.
+            qpos, qvel and qacc_warmstart afterwards; (worlds,) True where contacts were left out for want of room.
         """
         with wp.ScopedDevice(self._device):
             self._model.tendon_frictionloss.assign(max_efforts.astype(np.float32))
             self._rates.assign(rates.astype(np.float32))
             for name, values in before.items():
                 getattr(self._data, name).assign(values.astype(np.float32))
+            self._data.overflow.zero_()
             for _ in range(count):
                 wp.capture_launch(self._graph)
             after = {name: getattr(self._data, name).numpy() for name in ("qpos", "qvel", "qacc_warmstart")}
-            overflow = int(np.bitwise_or.reduce(self._data.overflow.numpy()))
-        if overflow & sum(int(mujoco_warp.OverflowType[name]) for name in _OVERFLOWS):
-            raise TrundleError("a world has more contacts than the GPU has room for; use device='cpu'")
-        return {name: values.astype(np.float64) for name, values in after.items()}
+            overflow = self._data.overflow.numpy()
+        crowded = overflow & sum(int(mujoco_warp.OverflowType[name]) for name in _OVERFLOWS) != 0
+        return {name: values.astype(np.float64) for name, values in after.items()}, crowded
 
 
 def _stops(model: mujoco.MjModel) -> _Array:

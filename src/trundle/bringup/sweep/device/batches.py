@@ -39,9 +39,6 @@ def run_on_gpu(
         gpu: as Warp calls it.
         progress: of the whole; it is closed at the end.
         is_ending: polled; True ends the runs.
-
-    Raises:
-        TrundleError: the GPU has too little room for the contacts of a world.
     """
     batches = _Batches(plan, gpu)
     try:
@@ -97,10 +94,10 @@ class _Batches:
             if not going:
                 return
             count = min(min(run.next_step for run in going) - step, _MOST_STEPS)
-            stable = worlds.step(count, chosen=np.array([run.result is None for run in runs]))
+            outcomes = worlds.step(count, chosen=np.array([run.result is None for run in runs]))
             step += count
-            for run, is_stable in zip(runs, stable.tolist(), strict=True):
+            for run, outcome in zip(runs, outcomes, strict=True):
                 if run.result is None:
-                    run.arrive(step, is_stable=is_stable)
+                    run.arrive(step, outcome)
             yield from (run.result for run in going)
             going = [run for run in going if run.result is None]

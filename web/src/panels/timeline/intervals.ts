@@ -3,7 +3,7 @@
 /** Most that are kept; the oldest go. */
 const MOST = 200;
 
-export class Spells {
+export class Intervals {
   private kept: [number, number][] = [];
   private isOn = false;
   private known = 0; // s
