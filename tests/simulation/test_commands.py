@@ -133,6 +133,19 @@ def test_poses_alone_go_back(sim: Simulation) -> None:
     assert called == [1]
 
 
+def test_what_waits_for_a_models_resets_goes_with_the_model(sim: Simulation) -> None:
+    called: list[str] = []
+    sim.on_reset(lambda: called.append("cart"), model=sim["cart"])
+    sim["cart"].reset()
+    sim.reset()
+    assert called == ["cart", "cart"]
+
+    sim.delete("cart")
+    sim.reset()
+
+    assert called == ["cart", "cart"]
+
+
 def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
     sim = load(tmp_path)
     hinge = sim["cart"].joint("hinge")

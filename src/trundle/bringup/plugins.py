@@ -201,11 +201,7 @@ def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None
     def is_there() -> bool:
         return model is None or any(handle is model for handle in simulation.models)
 
-    def reset() -> None:
-        if is_there():
-            plugin.reset()
-
     simulation.add_hook(
         plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted(), name=name
     )
-    simulation.on_reset(reset, model=model)
+    simulation.on_reset(plugin.reset, model=model)

@@ -308,7 +308,7 @@ class Simulation:
                 call()
 
     def on_reset(self, call: Callable[[], None], *, model: ModelHandle | None = None) -> None:
-        """Call a function after each reset of poses, and after each reset of `model` alone."""
+        """Call a function after each reset of poses, and after each reset of `model` alone, until that is deleted."""
         self._on_reset.append((call, model))
 
     def finish_reset(self, model: object) -> None:
@@ -345,6 +345,7 @@ class Simulation:
         gone = self[name]
         self._replace_world(without_model(self.world, name))
         gone.rebind(None, None)
+        self._on_reset = [each for each in self._on_reset if each[1] is not gone]
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
     def rename(self, name: str, new: str) -> None:
