@@ -187,11 +187,39 @@ def test_a_picture_has_its_pixels_and_their_values(graph: Graph, node: Node, use
     picture.hover(position={"x": 4, "y": 4})
     user.sees("0, 0: r 250 g 10 b 20")
     with user.page.expect_download() as download:
-        user.button("Save as PNG").click()
+        user.button("Save /pixels as PNG").click()
     from PIL import Image
 
     assert Image.open(download.value.path()).convert("RGB").getpixel((0, 0)) == (250, 10, 20)
     publisher.unregister()
+
+
+@pytest.mark.slow
+def test_pictures_stand_side_by_side_and_one_is_enlarged(graph: Graph, node: Node, user: PanelUser) -> None:
+    left, right = (node.advertise(topic, "sensor_msgs/Image", latch=True) for topic in ("/pixels", "/more_pixels"))
+    for publisher in (left, right):
+        publisher.publish({"width": 2, "height": 2, "step": 6, "encoding": "rgb8", "data": bytes(12)})
+    user.open("Images")
+    user.button("Picture").click()
+    user.page.get_by_role("menuitem", name="/more_pixels", exact=True).click()
+    pictures = [user.page.get_by_role("img", name=f"Picture of {topic}") for topic in ("/pixels", "/more_pixels")]
+    for picture in pictures:
+        picture.wait_for()
+    user.page.get_by_label("Zoom of /pixels").select_option("Fit")
+    boxes = [picture.bounding_box() for picture in pictures]
+    assert boxes[0]["x"] + boxes[0]["width"] <= boxes[1]["x"]
+    assert boxes[0]["y"] == pytest.approx(boxes[1]["y"], abs=1)
+
+    user.button("Enlarge /more_pixels").click()
+    pictures[0].wait_for(state="detached")
+    assert pictures[1].bounding_box()["width"] >= boxes[1]["width"]
+
+    user.button("Show /more_pixels beside the others").click()
+    pictures[0].wait_for()
+    user.button("Close /more_pixels").click()
+    pictures[1].wait_for(state="detached")
+    for publisher in (left, right):
+        publisher.unregister()
 
 
 @pytest.mark.slow

@@ -94,13 +94,13 @@ def _remove(user: SceneUser, graph: Graph, *publishers: Publisher) -> None:
         publisher.unregister()
 
 
-def _pixel(user: SceneUser, x: float, y: float) -> tuple[int, int, int]:
-    """Colour of the enlarged picture at shares of its width and height."""
+def _pixel(user: SceneUser, x: float, y: float, index: int = 0) -> tuple[int, int, int]:
+    """Colour of an enlarged picture at shares of its width and height."""
     script = """([canvas, x, y]) => {
         const pixels = canvas.getContext("2d").getImageData(x * canvas.width, y * canvas.height, 1, 1).data;
         return [...pixels.slice(0, 3)];
     }"""
-    canvas = user.page.locator(".tile.large canvas").element_handle()
+    canvas = user.page.locator(".tile.large canvas").nth(index).element_handle()
     return tuple(user.page.evaluate(script, [canvas, x, y]))
 
 
@@ -128,6 +128,35 @@ def test_a_camera_shows_the_scene_over_its_picture(graph: Graph, node: Node, use
     graph.until(lambda: not info.has_subscribers and not image.has_subscribers)
     user.open_rows("Marker")
     _remove(user, graph, cube, info, image)
+
+
+def test_two_enlarged_pictures_stand_side_by_side(graph: Graph, node: Node, user: SceneUser) -> None:
+    """Each in its colour, and none over the other."""
+    publishers = {}
+    for name, colour in (("left", GREEN), ("right", RED)):
+        publishers[name] = _latched(
+            node, f"/{name}/image", "sensor_msgs/Image", PICTURE | {"data": bytes(colour) * WIDTH * HEIGHT}
+        )
+        user.page.get_by_role("tab", name="Topics not shown").click()
+        user.button(f"Show /{name}/image").click()
+    tiles = user.page.get_by_role("group", name="Cameras").locator(".tile")
+    large = user.page.locator(".tile.large")
+    for index in range(2):
+        tiles.nth(index).get_by_role("button", name="Enlarge Image").first.click()
+    user.until(lambda: large.count() == 2 and all(large.nth(i).locator("canvas").count() for i in range(2)), what="two")
+    user.until(lambda: [_pixel(user, 0.5, 0.5, index) for index in range(2)] == [GREEN, RED], what="for their colours")
+    left, right = (large.nth(index).bounding_box() for index in range(2))
+    assert left["x"] + left["width"] <= right["x"]
+    assert left["y"] == pytest.approx(right["y"], abs=1)
+    assert min(left["width"], right["width"]) > 250
+
+    user.page.keyboard.press("Escape")
+    large.first.wait_for(state="detached")
+    for publisher in publishers.values():
+        user.open_rows("Image")
+        user.button("Remove").click()
+        publisher.unregister()
+    user.page.get_by_role("tab", name="By class").click()
 
 
 def test_a_depth_image_is_a_cloud_in_the_colours_of_another(graph: Graph, node: Node, user: SceneUser) -> None:

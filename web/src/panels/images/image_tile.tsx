@@ -69,8 +69,8 @@ export function ImageTile({ connection, topic, isEnlarged, onEnlarge, onClose }:
         <span class="dim sm n">{pixel === null ? size : pixelText(newest.current.message, canvas.current, pixel)}</span>
         <span class="sp" />
         <Select label={`Zoom of ${topic}`} value={zoom} choices={Object.keys(ZOOMS)} onChange={setZoom} />
-        <Button small icon="download" label="Save as PNG" disabled={picture === null} onClick={() => save(canvas.current, topic)} />
-        <Button small icon="enlarge" label={isEnlarged ? "Side by side" : "Enlarge"} on={isEnlarged} onClick={onEnlarge} />
+        <Button small icon="download" label={`Save ${topic} as PNG`} disabled={picture === null} onClick={() => save(canvas.current, topic)} />
+        <Button small icon="enlarge" label={isEnlarged ? `Show ${topic} beside the others` : `Enlarge ${topic}`} on={isEnlarged} onClick={onEnlarge} />
         <Button small icon="close" label={`Close ${topic}`} onClick={onClose} />
       </figcaption>
       {picture !== null && fault !== null && <div class="fault pad" role="alert">{fault}</div>}
