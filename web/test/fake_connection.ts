@@ -2,19 +2,7 @@
 
 import { signal } from "@preact/signals";
 
-import type {
-  Connection,
-  ConnectionState,
-  GraphInfo,
-  ParameterValue,
-  Received,
-  ServiceInfo,
-  Subscription,
-  TopicInfo,
-  TopicStatistics,
-  RequestAnswer,
-  SharedSelection,
-} from "../src/protocol/connection";
+import type { Connection, ConnectionState, GraphInfo, ParameterValue, Received, ServiceInfo, Subscription, TopicInfo, TopicStatistics, RequestAnswer, SharedSelection } from "../src/protocol/connection";
 import type { RosMessage } from "../src/protocol/ros_types";
 
 interface Subscriber {

@@ -6,10 +6,7 @@ import type { UndoStack } from "../src/displays/undo_stack";
 import { Display, type DisplayContext, type Status } from "../src/displays/display";
 import type { StatusLevel } from "../src/rviz/status_level";
 import type { DisplayList, Offer, Unsupported } from "../src/displays/display_list";
-import {
-  BoolProperty, ColorProperty, EnumProperty, FrameProperty, GroupProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty,
-  type Rgb,
-} from "../src/rviz/properties";
+import { BoolProperty, ColorProperty, EnumProperty, FrameProperty, GroupProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty, type Rgb } from "../src/rviz/properties";
 
 export class FakeDisplay extends Display {
   override readonly className: string;

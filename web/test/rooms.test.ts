@@ -12,7 +12,9 @@ const FLOORS = [
   ["shapes", "theme"],
   ["scene"],
   ["displays"],
-  ["app", "editor", "panels", "tools"],
+  ["page"],
+  ["panels", "tools"],
+  ["app", "editor"],
   ["replay"],
 ];
 

@@ -20,22 +20,22 @@ import { SelectionOutline } from "../scene/world/selection_outline";
 import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
 import { CommandList } from "./commands";
-import { Drive } from "./drive/drive";
+import { Drive } from "../page/drive";
 import { firstPicture } from "./first_picture";
 import { freezable } from "./freeze";
 import { outlinedBodies, targetPose } from "./views/framing";
 import { mount } from "./mount";
 import { openSceneMenu, openSelectedMenu } from "./object_menu/object_menu";
-import type { Page } from "./page";
-import { followPeople } from "./people/people";
-import { labelOthers, othersOutlines } from "./people/marks";
-import { liveSession, type Session } from "./session";
+import type { Page } from "../page/page";
+import { followPeople } from "../page/people";
+import { labelOthers, othersOutlines } from "./people_marks";
+import { liveSession, type Session } from "../page/session";
 import { startDisplays, startView } from "./start";
 import { makeTheme } from "./theme";
 import { UndoHistory } from "./undo";
 import type { Shell } from "./shell";
 import { makeEditor } from "./world/edits";
-import { allModels, type ScopedModel } from "./world/nodes";
+import { allModels, type ScopedModel } from "../page/world_nodes";
 
 /** Make the page's parts for a session and draw them into an element. */
 export function boot(root: HTMLElement, first: Session, address: string): void {

@@ -6,7 +6,7 @@ import { useEffect, useState } from "preact/hooks";
 import { fixed, rosTime } from "../theme/format";
 import { MenuButton } from "../theme/menu";
 import { StatusShape } from "../theme/status_shape";
-import { canControl } from "./looking";
+import { canControl } from "../page/looking";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 

@@ -2,7 +2,7 @@
 
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 
-import type { Command, Commands } from "./page";
+import type { Command, Commands } from "../page/page";
 
 export class CommandList implements Commands {
   private readonly added = signal<readonly (readonly Command[])[]>([]);

@@ -10,9 +10,9 @@ import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { Layout } from "./layout";
-import type { Page } from "./page";
-import { forEachNew, type Session } from "./session";
-import { recall, remember } from "./storage";
+import type { Page } from "../page/page";
+import { forEachNew, type Session } from "../page/session";
+import { recall, remember } from "../page/storage";
 
 /** Panels that are open at first, in this order. */
 const FIRST = ["plots", "topics", "log", "graph", "timeline"] as const;

@@ -5,7 +5,7 @@ import { signal } from "@preact/signals";
 import type { Panel } from "../panels/panel";
 import type { Dock } from "./dock";
 import type { Layout } from "./layout";
-import type { Page } from "./page";
+import type { Page } from "../page/page";
 
 export class DockSlot {
   /** Panels that there are; none before they are loaded. */

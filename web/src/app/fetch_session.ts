@@ -1,6 +1,6 @@
 /** The session, which the page asks for before its scripts are there. */
 
-import type { Session } from "./session";
+import type { Session } from "../page/session";
 
 /** Fetch what the page is for; throws a sentence. */
 export async function fetchSession(address: string): Promise<Session> {

@@ -1,7 +1,7 @@
 /** The first picture that a person waits for: what is not in it comes after it. */
 
 import { whenSeen } from "../scene/world/first_sight";
-import type { Page } from "./page";
+import type { Page } from "../page/page";
 
 /** Longest wait for it [ms]: a world may be long on its way. */
 const PATIENCE = 2000;

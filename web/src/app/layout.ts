@@ -3,7 +3,7 @@
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
 import type { Insets } from "../scene/scene_view";
-import { isBoolean, isNumber, isOneOf, recall, remember } from "./storage";
+import { isBoolean, isNumber, isOneOf, recall, remember } from "../page/storage";
 
 const LEFT = ["world", "displays", "insert"] as const;
 const RIGHT = ["inspector", "views", "tool_properties"] as const;

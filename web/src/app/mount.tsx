@@ -24,7 +24,7 @@ import { cameraCommands } from "./views/first_person";
 import { insertionCommands } from "./insert/insertion";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedFiles } from "./dialogs/open_files";
-import type { Page } from "./page";
+import type { Page } from "../page/page";
 import { pageCommands, panelCommands } from "./page_commands";
 import { splitCommands } from "./panes/split";
 import { Shell } from "./shell";

@@ -3,9 +3,9 @@
 import { toggleFirstPerson } from "./views/first_person";
 import { toggleFollowing } from "./views/following";
 import { frameSelection } from "./views/framing";
-import { canControl } from "./looking";
+import { canControl } from "../page/looking";
 import { chooseRviz } from "./dialogs/open_files";
-import type { Command } from "./page";
+import type { Command } from "../page/page";
 import { download, rvizFile, save } from "./displays/rviz_foot";
 import type { Shell } from "./shell";
 import { sidePages } from "./side_pages";

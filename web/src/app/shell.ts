@@ -12,9 +12,9 @@ import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
 import type { OpenMenu } from "./object_menu/object_menu";
-import type { Page } from "./page";
+import type { Page } from "../page/page";
 import { recallSplit } from "./panes/split";
-import { isBoolean, recall, remember } from "./storage";
+import { isBoolean, recall, remember } from "../page/storage";
 import { Videos } from "./video/videos";
 
 export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | "upload" | "time" | null;

@@ -1,7 +1,7 @@
 /** Commands of the simulation's clock. */
 
-import { canControl } from "./looking";
-import type { Command, Page } from "./page";
+import { canControl } from "../page/looking";
+import type { Command, Page } from "../page/page";
 import { saveReplay } from "./dialogs/save_replay";
 import type { Shell } from "./shell";
 

@@ -7,7 +7,7 @@ import type { Rgb, Yaml } from "../rviz/properties";
 import { differs, robotBox, simulatedRobot } from "./views/framing";
 import type { Shell } from "./shell";
 import { linkedView, showLinkedView } from "./views/view_link";
-import { bodiesOf } from "./world/nodes";
+import { bodiesOf } from "../page/world_nodes";
 
 /** Wall seconds in which more of a robot may appear. */
 const SETTLING = 3;

@@ -2,7 +2,7 @@
 
 import { effect, signal, type Signal } from "@preact/signals";
 
-import { isOneOf, recall, remember } from "./storage";
+import { isOneOf, recall, remember } from "../page/storage";
 
 export type Theme = "light" | "dark";
 

@@ -4,9 +4,9 @@ import type { JSX } from "preact";
 
 import { Button } from "../theme/button";
 import { isIcon } from "../theme/icons";
-import type { Tool } from "../tools/tool";
-import { canControl } from "./looking";
-import type { Command } from "./page";
+import type { Tool } from "../page/tool";
+import { canControl } from "../page/looking";
+import type { Command } from "../page/page";
 import type { Shell } from "./shell";
 
 /** rviz's names, shortened where the icon says the rest. */

@@ -2,7 +2,7 @@
 
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 
-import type { DeferredUndo, PageUndo } from "./page";
+import type { DeferredUndo, PageUndo } from "../page/page";
 
 interface Edit {
   readonly title: string;

@@ -3,7 +3,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import type { Selection } from "../app/page";
+import type { Selection } from "../page/page";
 import type { Shell } from "../app/shell";
 import { canEdit } from "../app/world/edits";
 import { Button } from "../theme/button";

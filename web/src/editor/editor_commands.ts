@@ -1,6 +1,6 @@
 /** Commands of the model editor. */
 
-import type { Command } from "../app/page";
+import type { Command } from "../page/page";
 import type { Shell } from "../app/shell";
 import { canEdit } from "../app/world/edits";
 import type { PartPath } from "../scene/draft";

@@ -4,12 +4,12 @@ import { computed, signal } from "@preact/signals";
 import { Box3, Vector3 } from "three";
 
 import type { Notices } from "../app/notices/notices";
-import type { Page } from "../app/page";
-import { poseFields, type Fields } from "../app/world/edits";
-import { bodiesOf } from "../app/world/nodes";
+import type { Page } from "../page/page";
+import { bodiesOf } from "../page/world_nodes";
 import type { Transform } from "../frames/transform";
 import type { RequestAnswer } from "../protocol/connection";
-import { bodyOf, findPart, type Draft, type FieldValue, type PartPath } from "../scene/draft";
+import type { Draft, FieldValue, PartPath } from "../scene/draft";
+import { poseFields, type Fields } from "../page/fields";
 
 /** From what is there to a new model, and half of what the view shows around it [m]. */
 const BESIDE = 1.5;
@@ -113,22 +113,4 @@ export class ModelEditor {
   private select(part: PartPath): void {
     this.page.selection.value = { kind: "part", part };
   }
-}
-
-/** Bodies of a part: of a link its own, of a joint its child's, of the model all. */
-export function bodiesOfPart(draft: Draft | null, path: PartPath): readonly number[] {
-  if (draft === null) return [];
-  const all = draft.parts.flatMap((part) => bodyOf(part) ?? []);
-  if (path.length === 0) return all;
-  const part = findPart(draft, path);
-  if (part?.tag === "joint") {
-    const child = part.sections.flatMap(({ fields }) => fields).find(({ name }) => name === "child")?.value;
-    return typeof child === "string" ? bodiesOfPart(draft, [...path.slice(0, -2), "link", child]) : [];
-  }
-  for (let end = path.length; end > 0; end -= 2) {
-    const around = findPart(draft, path.slice(0, end));
-    const body = around === null ? null : bodyOf(around);
-    if (body !== null) return [body];
-  }
-  return [];
 }

@@ -4,8 +4,8 @@ import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 
-import type { Page } from "../app/page";
-import { forEachNew } from "../app/session";
+import type { Page } from "../page/page";
+import { forEachNew } from "../page/session";
 import { MenuButton } from "../theme/menu";
 import type { MenuItem } from "../theme/menu_list";
 import { ImageTile } from "./images/image_tile";

@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import { canControl, Controls } from "../app/looking";
+import { canControl, Controls } from "../page/looking";
 import { Button } from "../theme/button";
 import { fixed } from "../theme/format";
 import { NumberField } from "../theme/number_field";

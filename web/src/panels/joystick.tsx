@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
-import { canControl, LOOKS_ONLY } from "../app/looking";
+import { canControl, LOOKS_ONLY } from "../page/looking";
 import { fixed } from "../theme/format";
 import { AXIS_NAMES, BUTTON_NAMES } from "./joystick/gamepad_axes";
 import { joystickState, type JoystickState } from "./joystick/joystick_state";

@@ -2,7 +2,7 @@
 
 import type { ComponentType } from "preact";
 
-import type { Page } from "../app/page";
+import type { Page } from "../page/page";
 
 export interface PanelProps {
   readonly page: Page;

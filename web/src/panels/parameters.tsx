@@ -3,8 +3,8 @@
 import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import { Controls } from "../app/looking";
-import type { Page } from "../app/page";
+import { Controls } from "../page/looking";
+import type { Page } from "../page/page";
 import type { ParameterValue } from "../protocol/connection";
 import { Checkbox } from "../theme/checkbox";
 import { TextField } from "../theme/text_field";

@@ -1,6 +1,6 @@
 /** State of a panel that outlives its component: one per page. */
 
-import type { Page } from "../app/page";
+import type { Page } from "../page/page";
 
 /** Returns the page's own instance, created at its first use. */
 export function perPage<T>(create: (page: Page) => T): (page: Page) => T {

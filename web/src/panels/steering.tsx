@@ -3,8 +3,8 @@
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
-import type { Drive, Held } from "../app/drive/drive";
-import { canControl, LOOKS_ONLY } from "../app/looking";
+import type { Drive, Held } from "../page/drive";
+import { canControl, LOOKS_ONLY } from "../page/looking";
 import { Combo } from "../theme/combo";
 import { fixed } from "../theme/format";
 import { NumberField } from "../theme/number_field";

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 
-import type { Page } from "../app/page";
+import type { Page } from "../page/page";
 import { Button } from "../theme/button";
 import { frameBoxes } from "./graph/frame_boxes";
 import { GraphDrawing } from "./graph/graph_drawing";

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 
-import { canControl } from "../app/looking";
+import { canControl } from "../page/looking";
 import { Button } from "../theme/button";
 import { count as messages } from "../theme/format";
 import { Select } from "../theme/select";

@@ -89,3 +89,21 @@ export function pathOfLink(name: string): PartPath {
   const scopes = name.split("::").slice(1);
   return scopes.flatMap((scope, i) => [i === scopes.length - 1 ? "link" : "model", scope]);
 }
+
+/** Bodies of a part: of a link its own, of a joint its child's, of the model all. */
+export function bodiesOfPart(draft: Draft | null, path: PartPath): readonly number[] {
+  if (draft === null) return [];
+  const all = draft.parts.flatMap((part) => bodyOf(part) ?? []);
+  if (path.length === 0) return all;
+  const part = findPart(draft, path);
+  if (part?.tag === "joint") {
+    const child = part.sections.flatMap(({ fields }) => fields).find(({ name }) => name === "child")?.value;
+    return typeof child === "string" ? bodiesOfPart(draft, [...path.slice(0, -2), "link", child]) : [];
+  }
+  for (let end = path.length; end > 0; end -= 2) {
+    const around = findPart(draft, path.slice(0, end));
+    const body = around === null ? null : bodyOf(around);
+    if (body !== null) return [body];
+  }
+  return [];
+}

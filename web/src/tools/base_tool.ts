@@ -2,16 +2,16 @@
 
 import { signal, type ReadonlySignal, type Signal } from "@preact/signals";
 
-import type { Selection } from "../app/page";
+import type { Selection } from "../page/page";
 import type { Property, Yaml, YamlMapping } from "../rviz/properties";
 import type { Connection } from "../protocol/connection";
 import type { GraphNames } from "../protocol/graph_names";
 import type { RosMessage, RosTime } from "../protocol/ros_types";
 import type { SceneView } from "../scene/scene_view";
 import type { Views } from "../scene/view_controller";
-import type { Tool } from "./tool";
+import type { Tool } from "../page/tool";
 import type { PointerInput } from "../scene/pointer_input";
-import type { WorldEditor } from "./world_editor";
+import type { WorldEditor } from "../page/world_editor";
 
 /** What tools work with. */
 export interface ToolContext {

@@ -14,7 +14,7 @@ import { LatestRequest } from "./handles/latest_request";
 import { SelectionHandles, type Handle } from "./handles/selection_handles";
 import { selectionOf } from "./picked";
 import type { PointerInput } from "../scene/pointer_input";
-import type { WorldEditor } from "./world_editor";
+import type { WorldEditor } from "../page/world_editor";
 
 /** Wall seconds after which the server hears again of a drag that rests; after one it lets go. */
 const RENEWAL = 0.3;

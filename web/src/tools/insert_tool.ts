@@ -4,7 +4,8 @@ import { signal } from "@preact/signals";
 import { Color, PerspectiveCamera, Vector3 } from "three";
 
 import { BaseTool } from "./base_tool";
-import type { Insertable } from "./insertable";
+import type { Insertable } from "../page/insertable";
+import type { Inserter } from "../page/tool";
 import { InsertionGhost } from "./insertion_ghost";
 import type { PointerInput } from "../scene/pointer_input";
 
@@ -13,7 +14,7 @@ const FARTHEST = 500;
 /** Heights of the free part of the view, from its middle down, at one of which the ground is met. */
 const DOWN = [0.5, 0.6, 0.7, 0.8, 0.9];
 
-export class InsertTool extends BaseTool {
+export class InsertTool extends BaseTool implements Inserter {
   readonly className = "trundle/Insert";
   readonly name = "Insert";
   readonly shortcut = "e";

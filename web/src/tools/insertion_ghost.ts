@@ -4,7 +4,7 @@ import { Box3, Box3Helper, BoxGeometry, CylinderGeometry, Group, Mesh, MeshBasic
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import { NOT_PICKED } from "../scene/picking";
-import type { Insertable } from "./insertable";
+import type { Insertable } from "../page/insertable";
 
 const OPACITY = 0.6;
 const GREY = 0xb3b3b3;

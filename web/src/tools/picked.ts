@@ -2,7 +2,7 @@
 
 import type { Object3D } from "three";
 
-import type { Selection } from "../app/page";
+import type { Selection } from "../page/page";
 import { isDraftBody, pathOfLink } from "../scene/draft";
 import { SELECTABLE } from "../scene/box_picking";
 import type { Pick, PointerTarget, Selectable } from "../scene/scene_view";

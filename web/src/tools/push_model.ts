@@ -3,7 +3,7 @@
 import { BaseTool, type ToolContext } from "./base_tool";
 import { PulledPoint } from "./handles/pulled_point";
 import type { PointerInput } from "../scene/pointer_input";
-import type { WorldEditor } from "./world_editor";
+import type { WorldEditor } from "../page/world_editor";
 
 export class PushModel extends BaseTool {
   readonly className = "trundle/Push";

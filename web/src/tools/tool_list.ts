@@ -16,7 +16,7 @@ import { RotateModel } from "./rotate_model";
 import { Select } from "./select";
 import { SetGoal } from "./set_goal";
 import { SetInitialPose } from "./set_initial_pose";
-import type { ToolBox } from "./tool";
+import type { ToolBox } from "../page/tool";
 import type { PointerInput } from "../scene/pointer_input";
 
 /** In rviz's order. */

@@ -5,7 +5,7 @@ import { AxesHelper, Box3, BoxGeometry, BufferGeometry, Line, LineBasicMaterial,
 
 import { signal } from "@preact/signals";
 
-import type { Selection } from "../../src/app/page";
+import type { Selection } from "../../src/page/page";
 import { SceneInput } from "../../src/scene/pointer_input";
 import { ThreeScene } from "../../src/scene/three_scene";
 import { ViewList } from "../../src/scene/views/view_list";

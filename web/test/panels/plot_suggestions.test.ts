@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { describe, expect, it } from "vitest";
 
-import type { Page } from "../../src/app/page";
+import type { Page } from "../../src/page/page";
 import { suggestions } from "../../src/panels/plots/suggestions";
 import { MANIFEST } from "../harness/manifest";
 

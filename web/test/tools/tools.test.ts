@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import { Group, Object3D, Ray, Vector3 } from "three";
 import { expect, test } from "vitest";
 
-import type { Selection } from "../../src/app/page";
+import type { Selection } from "../../src/page/page";
 import type { Pick, PictureBox, PointerTarget, SceneView } from "../../src/scene/scene_view";
 import { ToolList } from "../../src/tools/tool_list";
 import type { PointerInput } from "../../src/scene/pointer_input";

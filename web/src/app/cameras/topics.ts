@@ -5,7 +5,7 @@ import { isEnabled, withMembers } from "../../displays/group";
 import { PictureDisplay } from "../../displays/pictures/picture_display";
 import type { TopicInfo } from "../../protocol/connection";
 import type { Manifest } from "../../scene/simulated_world";
-import type { Session } from "../session";
+import type { Session } from "../../page/session";
 
 export interface CameraTopic {
   readonly name: string;

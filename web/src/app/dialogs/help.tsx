@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 
 import { Dialog } from "./dialog";
-import type { Command } from "../page";
+import type { Command } from "../../page/page";
 import type { Shell } from "../shell";
 
 /** Keys and gestures that are no commands. */

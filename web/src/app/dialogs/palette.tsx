@@ -6,7 +6,7 @@ import { useEffect, useRef } from "preact/hooks";
 
 import { Icon } from "../../theme/icons";
 import { Dialog } from "./dialog";
-import type { Command } from "../page";
+import type { Command } from "../../page/page";
 import type { Shell } from "../shell";
 
 export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 
 import { saveFile } from "../../panels/use";
-import type { Command } from "../page";
+import type { Command } from "../../page/page";
 import type { Shell } from "../shell";
 import { canEdit } from "../world/edits";
 import { SaveFile } from "./save_file";

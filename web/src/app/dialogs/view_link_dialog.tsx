@@ -6,7 +6,7 @@ import { useMemo, useRef } from "preact/hooks";
 
 import { Button } from "../../theme/button";
 import { Dialog } from "./dialog";
-import type { Session } from "../session";
+import type { Session } from "../../page/session";
 import type { Shell } from "../shell";
 import { linkTo } from "../views/view_link";
 

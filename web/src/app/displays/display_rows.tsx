@@ -12,7 +12,7 @@ import { StatusShape } from "../../theme/status_shape";
 import { TextField } from "../../theme/text_field";
 import type { TreeRow } from "../../theme/tree";
 import { isSilence } from "../notices/notices";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 import { change, hex } from "./property_editor";
 import { propertyRows, type RowsOf } from "./property_rows";
 

@@ -5,7 +5,7 @@ import type { JSX } from "preact";
 import { Combo } from "../../theme/combo";
 import { StatusShape } from "../../theme/status_shape";
 import type { TreeRow } from "../../theme/tree";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 import { propertyRows, type RowsOf } from "./property_rows";
 
 const WORDS = { ok: "Ok", warn: "Warn", error: "Error", none: "Warn" } as const;

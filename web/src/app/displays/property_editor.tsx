@@ -2,17 +2,14 @@
 
 import type { JSX } from "preact";
 
-import {
-  BoolProperty, ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty,
-  type Property, type Triple, type Yaml,
-} from "../../rviz/properties";
+import { BoolProperty, ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty, type Property, type Triple, type Yaml } from "../../rviz/properties";
 import { Checkbox } from "../../theme/checkbox";
 import { Combo, type Choice } from "../../theme/combo";
 import { parseNumber, plain } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
 import { Select } from "../../theme/select";
 import { TextField } from "../../theme/text_field";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 
 /** Change a property as if a file said so, undoable; words that are no value of its kind change nothing. */
 export function change(page: Page, property: Property<unknown>, yaml: Yaml): void {

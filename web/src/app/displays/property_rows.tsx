@@ -3,7 +3,7 @@
 import type { Property } from "../../rviz/properties";
 import { Icon } from "../../theme/icons";
 import type { TreeRow } from "../../theme/tree";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 import { PropertyEditor } from "./property_editor";
 
 export interface RowsOf {

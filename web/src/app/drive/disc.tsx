@@ -3,7 +3,7 @@
 import type { JSX, TargetedPointerEvent } from "preact";
 
 import { fixed } from "../../theme/format";
-import type { Drive } from "./drive";
+import type { Drive } from "../../page/drive";
 
 const REACH = 32; // of the knob, in the drawing's units; the drawing is 112 wide
 const SOURCE = "disc";

@@ -1,7 +1,7 @@
 /** Keys and gamepads that drive. */
 
 import { takesKeys } from "../commands";
-import type { Drive, Held } from "./drive";
+import type { Drive, Held } from "../../page/drive";
 
 /** W A S D anywhere on the page, unless a field has the focus. */
 export const WASD: Readonly<Record<string, Held>> = {

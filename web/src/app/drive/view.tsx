@@ -6,7 +6,7 @@ import { useEffect } from "preact/hooks";
 import { fixed } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
 import { Select } from "../../theme/select";
-import type { Drive } from "./drive";
+import type { Drive } from "../../page/drive";
 import { DriveDisc } from "./disc";
 import { listenToDriveKeys, WASD } from "./keys";
 import type { Shell } from "../shell";

@@ -3,7 +3,7 @@
 import type { ComponentChildren, JSX, TargetedPointerEvent } from "preact";
 import { useRef } from "preact/hooks";
 
-import type { Insertable } from "../../tools/insertable";
+import type { Insertable } from "../../page/insertable";
 import type { Shell } from "../shell";
 
 /** A shorter way of the pointer is a press [px]. */

@@ -4,12 +4,13 @@ import { effect, signal } from "@preact/signals";
 import type { Vector3 } from "three";
 
 import type { RequestAnswer } from "../../protocol/connection";
-import type { Insertable } from "../../tools/insertable";
-import { findModel } from "../views/framing";
-import type { Command, Selection } from "../page";
+import type { Insertable } from "../../page/insertable";
+import type { Command, Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { ModelUpload } from "./model_upload";
-import { canEdit, type Fields } from "../world/edits";
+import { canEdit } from "../world/edits";
+import { findModel } from "../../page/selected";
+import type { Fields } from "../../page/fields";
 
 /** A model of the model path, as the server lists it. */
 export type ModelEntry = NonNullable<RequestAnswer["models"]>[number];

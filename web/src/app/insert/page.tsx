@@ -6,7 +6,7 @@ import { useEffect } from "preact/hooks";
 
 import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
-import type { Insertable } from "../../tools/insertable";
+import type { Insertable } from "../../page/insertable";
 import { InsertButton } from "./button";
 import type { ModelEntry } from "./insertion";
 import type { Shell } from "../shell";

@@ -6,17 +6,18 @@ import { PartForm } from "../../editor/part_form";
 import { NoTransform } from "../../frames/transform";
 import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
-import { findJoint, findLink, findModel, findPlugin, findSensor, frameSelection } from "../views/framing";
+import { frameSelection } from "../views/framing";
 import { JointSection, ModelJoints } from "./joint_sliders";
 import { LinkSections, ModelSections } from "./link_sections";
-import type { Selection } from "../page";
+import type { Selection } from "../../page/page";
 import { PickedSection } from "./picked_section";
 import { PluginSections, SensorSections } from "./part_sections";
 import { PoseSection } from "./pose_section";
 import type { Shell } from "../shell";
 import { ShownSection } from "../views/view_menu";
-import { sensorIcon } from "../world/nodes";
+import { sensorIcon } from "../../page/world_nodes";
 import { LightSections, WorldSections } from "./world_sections";
+import { findJoint, findLink, findModel, findPlugin, findSensor } from "../../page/selected";
 
 export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
   const selection = shell.page.selection.value;

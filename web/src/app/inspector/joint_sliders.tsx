@@ -12,7 +12,8 @@ import { JOINT_VALUES } from "../../panels/plots/simulated_values";
 import { PlotMenu } from "./plot_menu";
 import type { Shell } from "../shell";
 import { NumbersRow } from "./value_rows";
-import { canEdit, editWorld, type Fields } from "../world/edits";
+import { canEdit, editWorld } from "../world/edits";
+import type { Fields } from "../../page/fields";
 
 /** Range of a velocity slider [rad/s or m/s]. */
 const FASTEST = 10;

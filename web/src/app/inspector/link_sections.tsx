@@ -13,8 +13,9 @@ import type { Shell } from "../shell";
 import type { Twist } from "./twist";
 import { TwistSection } from "./twist_section";
 import { KeyValue, NumbersRow } from "./value_rows";
-import { canEdit, editWorld, poseFields, withNumber, type Fields } from "../world/edits";
-import { bodiesOf } from "../world/nodes";
+import { canEdit, editWorld } from "../world/edits";
+import { bodiesOf } from "../../page/world_nodes";
+import { poseFields, withNumber, type Fields } from "../../page/fields";
 
 /** Lightest and heaviest link that the server takes [kg]. */
 const MASSES = { min: 1e-6, max: 1e6 };

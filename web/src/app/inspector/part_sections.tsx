@@ -4,7 +4,7 @@ import type { JSX } from "preact";
 
 import type { PluginInfo, SensorInfo } from "../../scene/simulated_world";
 import { plain } from "../../theme/format";
-import type { Selection } from "../page";
+import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { PlotMenu } from "./plot_menu";
 import { KeyValue } from "./value_rows";

@@ -5,10 +5,10 @@ import { useEffect, useMemo } from "preact/hooks";
 
 import { fixed } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 import { useSampled } from "../sampled";
 import { MotionSamples, type Twist } from "./twist";
-import { withNumber } from "../world/edits";
+import { withNumber } from "../../page/fields";
 
 const STILL: Twist = { linear: [0, 0, 0], angular: [0, 0, 0] };
 

@@ -8,7 +8,8 @@ import { plain } from "../../theme/format";
 import { deleteLight } from "../world/model_edits";
 import type { Shell } from "../shell";
 import { KeyValue, NumbersRow } from "./value_rows";
-import { canEdit, editWorld, withNumber, type Fields } from "../world/edits";
+import { canEdit, editWorld } from "../world/edits";
+import { withNumber, type Fields } from "../../page/fields";
 
 const MILLI = 1e-3;
 const AXES = ["x", "y", "z"] as const;

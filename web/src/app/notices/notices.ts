@@ -6,7 +6,7 @@ import type { Display } from "../../displays/display";
 import type { StatusLevel } from "../../rviz/status_level";
 import { isEnabled, withMembers } from "../../displays/group";
 import { count } from "../../theme/format";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 
 export interface Notice {
   readonly level: StatusLevel;

@@ -5,13 +5,14 @@ import { Vector3 } from "three";
 import type { MenuItem } from "../../theme/menu_list";
 import { toggleFirstPerson } from "../views/first_person";
 import { isFollowing, targetOf, toggleFollowing } from "../views/following";
-import { findModel, frameSelection, placed } from "../views/framing";
+import { frameSelection } from "../views/framing";
 import { copyModel, deleteLight, deleteModel, holdModel, resetModel } from "../world/model_edits";
-import type { Selection } from "../page";
+import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { PART_NAMES, partsOf, toggleHidden } from "../views/shown_parts";
 import { canEdit } from "../world/edits";
 import { openWrench } from "./open_wrench";
+import { findModel, placed } from "../../page/selected";
 
 type InModel = Extract<Selection, { kind: "model" | "link" }>;
 

@@ -5,7 +5,7 @@ import type { Vector3 } from "three";
 
 import { Menu, placeAt } from "../../theme/menu_list";
 import { selectionOf } from "../../tools/picked";
-import type { Selection } from "../page";
+import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { objectItems } from "./object_items";
 

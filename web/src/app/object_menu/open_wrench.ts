@@ -1,8 +1,8 @@
 /** The form of a force and a torque on a link, opened in the Inspector. */
 
-import { findModel } from "../views/framing";
-import type { Selection } from "../page";
+import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";
+import { findModel } from "../../page/selected";
 
 /** Select the link, or a model's first, and go to the form's first field. */
 export function openWrench({ page, layout }: Shell, selection: Extract<Selection, { kind: "model" | "link" }>): void {

@@ -5,10 +5,10 @@ import type { JSX } from "preact";
 
 import { PANE_LAYOUTS, type PaneLayout } from "../../scene/panes/pane_layout";
 import { MenuButton } from "../../theme/menu";
-import type { Command, Page } from "../page";
+import type { Command, Page } from "../../page/page";
 import type { Layout } from "../layout";
 import type { Shell } from "../shell";
-import { isOneOf, recall, remember } from "../storage";
+import { isOneOf, recall, remember } from "../../page/storage";
 
 const TITLES: Readonly<Record<PaneLayout, string>> = { one: "One view", beside: "Two views side by side", stacked: "Two views, stacked", four: "Four views" };
 

@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 
 import { saveFile, sentence } from "../../panels/use";
 import type { Notices } from "../notices/notices";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 import { recordCamera } from "./camera_video";
 import { Recording } from "./recording";
 import { recordView } from "./view_video";

@@ -2,9 +2,9 @@
 
 import type { CameraInfo } from "../../scene/simulated_world";
 import { isFollowing, robotTarget, targetOf } from "./following";
-import { selectedBodies } from "./framing";
-import type { Command, Page } from "../page";
-import { allModels } from "../world/nodes";
+import type { Command, Page } from "../../page/page";
+import { allModels } from "../../page/world_nodes";
+import { selectedBodies } from "../../page/selected";
 
 /** Height over what is ridden on [m]. */
 const OVER = 0.05;

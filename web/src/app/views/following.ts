@@ -1,8 +1,9 @@
 /** The view follows what is selected, or the robot. */
 
 import { FIXED_FRAME } from "../../rviz/properties";
-import { findJoint, findModel, placed, simulatedRobot } from "./framing";
-import type { Page, Selection } from "../page";
+import { simulatedRobot } from "./framing";
+import type { Page, Selection } from "../../page/page";
+import { findJoint, findModel, placed } from "../../page/selected";
 
 const TARGET = "Target Frame";
 

@@ -3,8 +3,8 @@
 import { effect, untracked } from "@preact/signals";
 
 import { PARTS, WORLD_PARTS, type ModelParts, type Part, type WorldPart } from "../../scene/overlays/shown_parts";
-import type { Page } from "../page";
-import { isOneOf, recall, remember } from "../storage";
+import type { Page } from "../../page/page";
+import { isOneOf, recall, remember } from "../../page/storage";
 
 /** Gazebo's names, in its menu's order. */
 export const PART_NAMES: Readonly<Record<Part, string>> = {

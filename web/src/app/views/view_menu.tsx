@@ -6,7 +6,7 @@ import { WORLD_PARTS } from "../../scene/overlays/shown_parts";
 import { Button } from "../../theme/button";
 import { MenuButton } from "../../theme/menu";
 import type { MenuItem } from "../../theme/menu_list";
-import type { Command, Page } from "../page";
+import type { Command, Page } from "../../page/page";
 import { isWorldPartShown, PART_NAMES, partsOf, WORLD_PART_NAMES } from "./shown_parts";
 import type { Shell } from "../shell";
 

@@ -10,7 +10,7 @@ import { Tree } from "../../theme/tree";
 import { lookThrough, toggleFirstPerson } from "./first_person";
 import { isFollowing, toggleFollowing } from "./following";
 import { frameSelection } from "./framing";
-import type { Page } from "../page";
+import type { Page } from "../../page/page";
 import { propertyRows } from "../displays/property_rows";
 import type { Shell } from "../shell";
 

@@ -2,13 +2,13 @@
 
 import { Vector3, type Box3 } from "three";
 
-import { findModel } from "../views/framing";
 import { selectOnceThere } from "../insert/insertion";
-import type { Command, Page, Selection } from "../page";
+import type { Command, Page, Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { canEdit, editWorld } from "./edits";
-import { bodiesOf } from "./nodes";
+import { bodiesOf } from "../../page/world_nodes";
 import type { ModelInfo } from "../../scene/simulated_world";
+import { findModel } from "../../page/selected";
 
 /** Gap between a model and its copy [m]. */
 const GAP = 0.1;

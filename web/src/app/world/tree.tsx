@@ -15,7 +15,7 @@ import type { Shell } from "../shell";
 import { toggleHidden } from "../views/shown_parts";
 import { canEdit } from "./edits";
 import { WorldMenu } from "./menu";
-import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type WorldNode } from "./nodes";
+import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type WorldNode } from "../../page/world_nodes";
 
 export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const { world, selection, session } = shell.page;

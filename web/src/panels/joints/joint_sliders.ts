@@ -2,7 +2,7 @@
 
 import { signal, type ReadonlySignal } from "@preact/signals";
 
-import type { Page } from "../../app/page";
+import type { Page } from "../../page/page";
 import type { JointStates } from "../../scene/simulated_world";
 import { perPage } from "../per_page";
 import { movingJoints } from "../plots/simulated_joints";

@@ -2,7 +2,7 @@
 
 import { computed, signal } from "@preact/signals";
 
-import type { Page } from "../../app/page";
+import type { Page } from "../../page/page";
 import { perPage } from "../per_page";
 import { entryOf, filtered, LEVELS, type Level, type LogEntry } from "./log_entries";
 

@@ -2,7 +2,7 @@
 
 import { effect, signal } from "@preact/signals";
 
-import type { Page } from "../../app/page";
+import type { Page } from "../../page/page";
 import type { Subscription } from "../../protocol/connection";
 import { seconds, type RosMessage, type RosTime } from "../../protocol/ros_types";
 import { isList, isMessage, numberAt, parsePath, stepsText, valueAt, type Step, type TopicPath } from "../messages/field_path";

@@ -4,7 +4,7 @@ import type { JSX } from "preact";
 import { useSignal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 
-import type { Page } from "../../app/page";
+import type { Page } from "../../page/page";
 import type { RosMessage } from "../../protocol/ros_types";
 import { Button } from "../../theme/button";
 import { Combo } from "../../theme/combo";

@@ -2,8 +2,8 @@
 
 import { signal } from "@preact/signals";
 
-import type { Page } from "../../app/page";
-import { forEachNew } from "../../app/session";
+import type { Page } from "../../page/page";
+import { forEachNew } from "../../page/session";
 import { perPage } from "../per_page";
 import { Curve } from "./curve";
 import { csvText, type CsvColumn } from "./csv";

@@ -2,7 +2,7 @@
 
 import { effect } from "@preact/signals";
 
-import type { Page } from "../../app/page";
+import type { Page } from "../../page/page";
 import type { Subscription } from "../../protocol/connection";
 import { perPage } from "../per_page";
 import { sentence } from "../use";

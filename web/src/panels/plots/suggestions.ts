@@ -1,7 +1,7 @@
 /** Curves that are worth a look where nothing is plotted yet. */
 
-import type { Page } from "../../app/page";
-import { robotOf } from "../../app/world/nodes";
+import type { Page } from "../../page/page";
+import { robotOf } from "../../page/world_nodes";
 
 export interface Suggestion {
   readonly title: string;

@@ -2,9 +2,9 @@
 
 import { computed, signal } from "@preact/signals";
 
-import { canControl } from "../../app/looking";
-import type { Page } from "../../app/page";
-import { bodiesOf } from "../../app/world/nodes";
+import { canControl } from "../../page/looking";
+import type { Page } from "../../page/page";
+import { bodiesOf } from "../../page/world_nodes";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
 import { ContactLanes, touchingPairs } from "./contact_lanes";

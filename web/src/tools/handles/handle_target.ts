@@ -2,15 +2,15 @@
 
 import { Quaternion, Vector3 } from "three";
 
-import { findJoint, findLink, findModel } from "../../app/views/framing";
-import type { Selection } from "../../app/page";
-import { orientationOf, poseFields, type Fields } from "../../app/world/edits";
-import { allModels, bodiesOf } from "../../app/world/nodes";
-import { partTarget } from "../../editor/part_target";
+import type { Selection } from "../../page/page";
+import { allModels, bodiesOf } from "../../page/world_nodes";
+import { partTarget } from "./part_target";
 import type { Transform } from "../../frames/transform";
 import type { JointInfo, LightInfo, SixNumbers } from "../../scene/simulated_world";
 import { fixed } from "../../theme/format";
-import type { WorldEditor } from "../world_editor";
+import type { WorldEditor } from "../../page/world_editor";
+import { findJoint, findLink, findModel } from "../../page/selected";
+import { orientationOf, poseFields, type Fields } from "../../page/fields";
 
 /** A request to the server, as its name and fields. */
 export interface Asked {

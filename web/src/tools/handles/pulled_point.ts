@@ -2,13 +2,13 @@
 
 import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Plane, Vector3, type Matrix4 } from "three";
 
-import { findModel } from "../../app/views/framing";
 import { NOT_PICKED } from "../../scene/picking";
 import type { SceneView } from "../../scene/scene_view";
 import { selectionOf } from "../picked";
 import type { PointerInput } from "../../scene/pointer_input";
-import type { WorldEditor } from "../world_editor";
+import type { WorldEditor } from "../../page/world_editor";
 import { LatestRequest } from "./latest_request";
+import { findModel } from "../../page/selected";
 
 /** Time after which the server hears again of a pull that rests [ms]; after a second it lets go, however slowly pictures are drawn. */
 const RENEWAL = 300;

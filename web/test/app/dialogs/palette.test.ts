@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 
-import type { Command } from "../../../src/app/page";
+import type { Command } from "../../../src/page/page";
 import { search } from "../../../src/app/dialogs/palette";
 
 const command = (title: string, enabled = true): Command => ({ id: title, title, group: "View", enabled: () => enabled, run: () => undefined });

@@ -5,8 +5,9 @@ import { expect, it, vi } from "vitest";
 import { Notices } from "../../../src/app/notices/notices";
 import type { Shell } from "../../../src/app/shell";
 import { rollPitchYaw } from "../../../src/app/inspector/twist";
-import { editWorld, orientationOf, poseFields, withNumber } from "../../../src/app/world/edits";
+import { editWorld } from "../../../src/app/world/edits";
 import { fakePage } from "../../fake_page";
+import { orientationOf, poseFields, withNumber } from "../../../src/page/fields";
 
 function fakeShell(answer: () => Promise<unknown>): { shell: Shell; sent: object[] } {
   const page = fakePage();

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 
-import { keyOf, seenNodes, worldNode } from "../../../src/app/world/nodes";
-import { MANIFEST } from "../../harness/manifest";
+import { keyOf, seenNodes, worldNode } from "../../src/page/world_nodes";
+import { MANIFEST } from "../harness/manifest";
 
 const labels = (search: string, open = true): string[] =>
   seenNodes(worldNode(MANIFEST), () => open, search).map(({ node, depth }) => `${"  ".repeat(depth)}${node.label}`);

@@ -2,9 +2,9 @@
 
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 
-import type { Connection, SharedSelection } from "../../protocol/connection";
-import type { Selection } from "../page";
-import { placed } from "../views/framing";
+import type { Connection, SharedSelection } from "../protocol/connection";
+import type { Selection } from "./page";
+import { placed } from "./selected";
 
 export interface Person {
   readonly number: number;

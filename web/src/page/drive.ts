@@ -2,9 +2,9 @@
 
 import { computed, effect, signal } from "@preact/signals";
 
-import { isWatcher } from "../../protocol/watchers";
-import type { Page } from "../page";
-import { isNumber, recall, remember } from "../storage";
+import { isWatcher } from "../protocol/watchers";
+import type { Page } from "./page";
+import { isNumber, recall, remember } from "./storage";
 
 const PERIOD = 100; // ms
 const TWISTS = ["geometry_msgs/Twist", "geometry_msgs/TwistStamped"];

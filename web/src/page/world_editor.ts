@@ -2,8 +2,8 @@
 
 import type { Quaternion, Vector3 } from "three";
 
-import type { Fields } from "../app/world/edits";
 import type { SimulatedWorld } from "../scene/simulated_world";
+import type { Fields } from "./fields";
 
 export interface WorldEditor {
   readonly world: SimulatedWorld;

@@ -2,10 +2,10 @@
 
 import { effect, untracked } from "@preact/signals";
 
-import type { Outlined } from "../../scene/world/selection_outline";
-import { selectedBodies } from "../views/framing";
-import type { Page } from "../page";
-import { colourOf, nameOf, others } from "./people";
+import type { Outlined } from "../scene/world/selection_outline";
+import type { Page } from "../page/page";
+import { colourOf, nameOf, others } from "../page/people";
+import { selectedBodies } from "../page/selected";
 
 /** An outline for each of the others who has selected something. */
 export function othersOutlines(page: Page): readonly Outlined[] {

@@ -1,9 +1,9 @@
 /** The world's tree as its panel shows it: models with links, sensors, joints and plugins, and lights. */
 
-import type { JointInfo, LinkInfo, Manifest, ModelInfo, PluginInfo } from "../../scene/simulated_world";
-import { count, fixed } from "../../theme/format";
-import type { IconName } from "../../theme/icons";
-import type { PluginOwner, Selection } from "../page";
+import type { JointInfo, LinkInfo, Manifest, ModelInfo, PluginInfo } from "../scene/simulated_world";
+import { count, fixed } from "../theme/format";
+import type { IconName } from "../theme/icons";
+import type { PluginOwner, Selection } from "./page";
 
 export interface WorldNode {
   readonly key: string;

@@ -1,9 +1,9 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 
-import type { Selection } from "../../../src/app/page";
-import { colourOf, followPeople, others } from "../../../src/app/people/people";
-import { FakeConnection } from "../../fake_connection";
+import type { Selection } from "../../src/page/page";
+import { colourOf, followPeople, others } from "../../src/page/people";
+import { FakeConnection } from "../fake_connection";
 
 const LINK: Selection = { kind: "link", model: "cart", link: "base" };
 

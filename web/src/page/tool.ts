@@ -1,10 +1,11 @@
-/** Interface of rviz's tools. */
+/** Interfaces of the page's tools, rviz's and our own. */
 
 import type { ReadonlySignal } from "@preact/signals";
+import type { Vector3 } from "three";
 
 import type { Property, YamlMapping } from "../rviz/properties";
 import type { PointerInput } from "../scene/pointer_input";
-import type { InsertTool } from "./insert_tool";
+import type { Insertable } from "./insertable";
 
 export interface Tool {
   /** rviz's class: `rviz/SetGoal`. */
@@ -26,11 +27,27 @@ export interface Tool {
   pointer(input: PointerInput): boolean;
 }
 
+/** Puts a model, a shape or a light into the world. */
+export interface Inserter extends Tool {
+  /** What is being inserted; null: nothing is chosen. */
+  readonly chosen: ReadonlySignal<Insertable | null>;
+  /** Inserts something at a point of the world [m]. */
+  onPlace: (thing: Insertable, point: Vector3) => void;
+  /** Have something follow the pointer; null: nothing any more. */
+  choose(thing: Insertable | null): void;
+  /** Show it where a point of the view [px] meets the world. */
+  hover(x: number, y: number): void;
+  hide(): void;
+  /** Insert it where a point of the view [px] meets the world. */
+  place(x: number, y: number): void;
+  placeInMiddle(): void;
+}
+
 export interface ToolBox {
   readonly tools: readonly Tool[];
   readonly current: ReadonlySignal<Tool>;
   /** Null where no world can be changed. */
-  readonly insert: InsertTool | null;
+  readonly insert: Inserter | null;
   use(className: string): void;
   /** The `Tools` list of an .rviz file. */
   save(): readonly YamlMapping[];

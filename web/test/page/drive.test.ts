@@ -1,8 +1,8 @@
 // @vitest-environment jsdom
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { listenToDriveKeys } from "../../../src/app/drive/keys";
-import { fakePage } from "../../fake_page";
+import { listenToDriveKeys } from "../../src/app/drive/keys";
+import { fakePage } from "../fake_page";
 
 describe("driving", () => {
   let stop: () => void;

@@ -10,9 +10,9 @@ import type { Connection } from "../protocol/connection";
 import type { SceneView } from "../scene/scene_view";
 import type { SimulatedWorld } from "../scene/simulated_world";
 import type { Views } from "../scene/view_controller";
-import type { ToolBox } from "../tools/tool";
-import type { Drive } from "./drive/drive";
-import type { People } from "./people/people";
+import type { ToolBox } from "./tool";
+import type { Drive } from "./drive";
+import type { People } from "./people";
 import type { Session } from "./session";
 
 interface SelectedSensor {

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { describe, expect, it, vi } from "vitest";
 
-import { liveSession } from "../../src/app/session";
+import { liveSession } from "../../src/page/session";
 import { Shell } from "../../src/app/shell";
 import { startDisplays } from "../../src/app/start";
 import { PlotsState } from "../../src/panels/plots/plots_state";

@@ -2,13 +2,12 @@
 
 import { Matrix4, Quaternion, Vector3, type Object3D } from "three";
 
-import { orientationOf, poseFields } from "../app/world/edits";
-import type { Transform } from "../frames/transform";
-import type { SixNumbers } from "../scene/simulated_world";
-import type { Asked, Drawn, HandleTarget } from "../tools/handles/handle_target";
-import type { WorldEditor } from "../tools/world_editor";
-import { findPart, linkAround, type PartPath } from "../scene/draft";
-import { bodiesOfPart } from "./model_editor";
+import type { Transform } from "../../frames/transform";
+import type { SixNumbers } from "../../scene/simulated_world";
+import type { Asked, Drawn, HandleTarget } from "./handle_target";
+import type { WorldEditor } from "../../page/world_editor";
+import { findPart, linkAround, type PartPath, bodiesOfPart } from "../../scene/draft";
+import { orientationOf, poseFields } from "../../page/fields";
 
 /** The handles of a part's link, or of the model; null: they move nothing. */
 export function partTarget(editor: WorldEditor, path: PartPath): HandleTarget | null {

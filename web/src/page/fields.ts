@@ -1,0 +1,22 @@
+/** Fields of requests to the server. */
+
+import { Euler, Quaternion, type Vector3 } from "three";
+
+import type { Connection } from "../protocol/connection";
+
+export type Fields = Parameters<Connection["request"]>[1];
+
+/** A pose as requests have it: position [m] and a quaternion wxyz. */
+export function poseFields(position: Vector3, { x, y, z, w }: Quaternion): { position: number[]; orientation: number[] } {
+  return { position: position.toArray(), orientation: [w, x, y, z] };
+}
+
+/** The orientation R = Rz(yaw) Ry(pitch) Rx(roll) [rad], as URDF and SDF have it. */
+export function orientationOf([roll, pitch, yaw]: readonly [number, number, number]): Quaternion {
+  return new Quaternion().setFromEuler(new Euler(roll, pitch, yaw, "ZYX"));
+}
+
+/** Numbers with one of them replaced. */
+export function withNumber<T extends readonly number[]>(numbers: T, index: number, value: number): T {
+  return numbers.map((each, i) => (i === index ? value : each)) as unknown as T;
+}

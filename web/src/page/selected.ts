@@ -1,0 +1,57 @@
+/** What a selection is in the world. */
+
+import { bodiesOfPart } from "../scene/draft";
+import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../scene/simulated_world";
+import type { Page, PluginOwner, Selection } from "./page";
+import { allModels, bodiesOf } from "./world_nodes";
+
+export function findModel(page: Pick<Page, "world">, name: string): ModelInfo | null {
+  return allModels(page.world.manifest.value?.models ?? []).find((each) => each.name === name)?.model ?? null;
+}
+
+export function findLink(page: Pick<Page, "world">, model: string, link: string): LinkInfo | null {
+  const scoped = `${model}::${link}`; // a joint's child may be in a nested model, `inner::link`
+  const at = scoped.lastIndexOf("::");
+  return findModel(page, scoped.slice(0, at))?.links.find((each) => each.name === scoped.slice(at + 2)) ?? null;
+}
+
+export function findJoint(page: Pick<Page, "world">, model: string, joint: string): JointInfo | null {
+  return findModel(page, model)?.joints.find((each) => each.name === joint) ?? null;
+}
+
+export function findSensor(page: Pick<Page, "world">, model: string, link: string, sensor: string): SensorInfo | null {
+  return findLink(page, model, link)?.sensors.find((each) => each.name === sensor) ?? null;
+}
+
+export function findPlugin(page: Pick<Page, "world">, owner: PluginOwner, plugin: string): PluginInfo | null {
+  const of = (): { readonly plugins: readonly PluginInfo[] } | null => {
+    if (owner.kind === "world") return page.world.manifest.value;
+    return owner.kind === "model" ? findModel(page, owner.model) : findSensor(page, owner.model, owner.link, owner.sensor);
+  };
+  return of()?.plugins.find(({ name }) => name === plugin) ?? null;
+}
+
+/** What has a place in the world: a sensor's link, a plugin's owner. */
+export function placed(selection: Selection | null): Exclude<Selection, { readonly kind: "sensor" | "plugin" }> | null {
+  if (selection?.kind === "plugin") return placed(selection.of);
+  return selection?.kind === "sensor" ? { kind: "link", model: selection.model, link: selection.link } : selection;
+}
+
+/** Bodies of a selection; none for what is not simulated. */
+export function selectedBodies(page: Page, selected: Selection | null): readonly number[] {
+  const selection = placed(selected);
+  if (selection === null) return [];
+  if (selection.kind === "model") {
+    const model = findModel(page, selection.model);
+    return model === null ? [] : bodiesOf(model);
+  }
+  if (selection.kind === "link") {
+    const link = findLink(page, selection.model, selection.link);
+    return link === null ? [] : [link.body];
+  }
+  if (selection.kind === "part") return bodiesOfPart(page.world.manifest.value?.draft ?? null, selection.part);
+  if (selection.kind !== "joint") return [];
+  const child = findJoint(page, selection.model, selection.joint)?.child ?? "";
+  const link = findLink(page, selection.model, child);
+  return link === null ? [] : [link.body];
+}
