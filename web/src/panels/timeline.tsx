@@ -1,7 +1,7 @@
 /** Time of a recorded run or bag, to scrub; what happened when, and marks (rqt_bag). */
 
 import type { JSX } from "preact";
-import { useRef } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 
 import { canControl } from "../page/looking";
 import { Button } from "../theme/button";
@@ -23,7 +23,11 @@ const SPEEDS: Readonly<Record<string, number | null>> = { "0.1×": 0.1, "0.25×"
 function Timeline({ page }: PanelProps): JSX.Element {
   const state = timelineState(page);
   const root = useRef<HTMLDivElement>(null);
-  useTick(PERIOD, useShown(root));
+  const isShown = useShown(root);
+  useTick(PERIOD, isShown);
+  useEffect(() => {
+    if (isShown) state.followContacts();
+  }, [state, isShown]);
   const span = state.span();
   if (span === null) return <div class="empty" ref={root}>There is no timeline: neither a simulation runs nor a recording plays.</div>;
   const { kind } = page.session;

@@ -5,6 +5,7 @@ import { computed, signal } from "@preact/signals";
 import { canControl } from "../../page/looking";
 import type { Page } from "../../page/page";
 import { bodiesOf } from "../../page/world_nodes";
+import type { Subscription } from "../../protocol/connection";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
 import { ContactLanes, touchingPairs } from "./contact_lanes";
@@ -46,6 +47,7 @@ export class TimelineState {
     const models = this.page.world.manifest.value?.models ?? [];
     return new Map(models.flatMap((model) => bodiesOf(model).map((body) => [body, model.name] as const)));
   });
+  private contactsAsked: Subscription | null = null;
   private markCount = 0;
   private asked: number | null = null;
   private isAsking = false;
@@ -53,7 +55,12 @@ export class TimelineState {
   constructor(private readonly page: Page) {
     this.lanes = new Lanes(page.connection);
     setInterval(() => this.look(), PERIOD);
-    if (page.session.kind === "simulation") page.connection.subscribeRaw("trundle/contacts", (payload) => this.noteContacts(payload));
+  }
+
+  /** Note who touches whom from now on, which the simulation computes only for those who ask. */
+  followContacts(): void {
+    if (this.page.session.kind !== "simulation") return;
+    this.contactsAsked ??= this.page.connection.subscribeRaw("trundle/contacts", (payload) => this.noteContacts(payload));
   }
 
   /** Times of the recording, or of the simulation so far; null before anything is known. */
