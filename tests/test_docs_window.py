@@ -3,7 +3,8 @@
 import re
 from pathlib import Path
 
-PAGE = Path(__file__).parents[1] / "docs" / "howto" / "window.md"
+ROOT = Path(__file__).parents[1]
+PAGE = ROOT / "docs" / "howto" / "window.md"
 ENTRIES = {
     "Gazebo's menus": """
         Save World, Save World As|Save Configuration|Clone World|Quit|Reset Model Poses|Reset World|Building Editor|
@@ -13,19 +14,20 @@ ENTRIES = {
         About""",
     "Gazebo's tool bar": """
         Selection|Translation|Rotation|Scale|Undo, Redo with histories|Box, Sphere, Cylinder|
-        Point, Spot, Directional Light|Copy, Paste|Align|Snap|View angle|Screenshot|Log|Record video|
+        Point, Spot, Directional Light|Copy, Paste|Align|Snap|View angle|Screenshot|Log, Plot|Record video|
         X, Y, Z while moving|Ctrl while moving|Shift while moving""",
     "Gazebo's right click": "Move To|Follow|Edit model|Apply Force/Torque|View of one model|Copy, Paste|Delete",
     "Gazebo's panels": """
         World: GUI|World: Scene|World: Spherical Coordinates|World: Physics|World: Atmosphere|World: Wind|World: Models|
         World: Lights|Insert|Layers|Joint Control|Pause, Play|Step|Real Time Factor, Sim Time|
         Real Time, Iterations, FPS|Reset Time|Playback|Topic viewer|Plot window|Model Editor: parts and joints|
+        Model Editor: inspectors|Model Editor: custom meshes|Model Editor: schematic view|Model Editor: nested models|
         Model Editor: Save, Exit|Building Editor: walls, levels, floor plans""",
     "MuJoCo's viewer": """
         Space, →, ←|Backspace, Ctrl L|Tab, F1|double click|Ctrl right drag, Ctrl left drag|
         Ctrl right double click, right double click|[ and ]|file: save xml, copy state|
-        simulation: noise, keyframes, history|physics|rendering flags|group enable|joint sliders, control sliders|
-        sensor graph|profiler, info overlay""",
+        simulation: noise, keyframes, history|physics|rendering flags|option, visualization|group enable|
+        joint sliders, control sliders|sensor graph|profiler, info overlay""",
 }
 """Entries of each window, by the heading of their table."""
 
@@ -42,3 +44,12 @@ def test_each_entry_has_an_answer() -> None:
 
     expected = {heading: [entry.strip() for entry in text.split("|")] for heading, text in ENTRIES.items()}
     assert found == expected
+
+
+def test_each_command_that_it_names_is_there() -> None:
+    sources = (file.read_text(encoding="utf-8").lower() for file in (ROOT / "web/src").rglob("*.ts*"))
+    strings = {string for source in sources for string in re.findall(r'"[^"\n]*"', source)}
+    named = re.findall(r"(?<![*\w])\*([^*\n]+)\*", PAGE.read_text(encoding="utf-8"))
+    starts = re.compile(r"Open |Show or hide |Look from (?:the )?")
+    assert len(named) > 50
+    assert [name for name in named if not {f'"{name.lower()}"', f'"{starts.sub("", name).lower()}"'} & strings] == []

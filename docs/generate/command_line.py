@@ -34,18 +34,16 @@ def _command(parser: argparse.ArgumentParser, *, level: int) -> str:
     if not summary:
         examples, summary = "", examples
     parts = [f"{'#' * level} {parser.prog}", summary]
-    if examples:
-        parts.append(f"```bash\n{_examples(examples)}\n```")
     subparsers = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
+    if examples and not subparsers:  # which have the examples
+        parts.append(f"```bash\n{_examples(examples)}\n```")
     if not subparsers:
         parts.append(_arguments(parser))
     for action in subparsers:
-        help_of = {choice.dest: choice.help or "" for choice in action._choices_actions}
         seen: set[int] = set()
-        for name, subparser in action.choices.items():
+        for subparser in action.choices.values():
             if id(subparser) not in seen:  # a second name of the same
                 seen.add(id(subparser))
-                subparser.description = subparser.description or help_of.get(name, "")
                 parts.append(_command(subparser, level=level + 1))
     return "\n\n".join(part for part in parts if part) + "\n"
 

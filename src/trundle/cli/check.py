@@ -14,6 +14,7 @@ EXAMPLES = """
   trundle check model.sdf                             all findings, worst first
   trundle check robot.urdf.xacro --strict             exit 1 on a warning, for continuous integration
   trundle check world.sdf --json                      the resolved model as one JSON object
+  trundle check drive.launch                          a launch file, and what it includes
   trundle check robot.urdf --collisions               also the error of approximating hollow meshes
   trundle check robot.urdf --tree                     links and joints as a tree
   trundle check robot.urdf --graph robot.svg          the same as an image

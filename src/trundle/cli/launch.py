@@ -51,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--log", action="store_true", help="log the output of every node, overriding the file and --screen")
     add("--required", action="store_true", help="stop the launch when any node ends")
     add("--wait", action="store_true", help="wait for a master")
-    add("--local", action="store_true", help="no remote nodes; never supported here")
+    add("--local", action="store_true", help="no remote nodes, as always here")
     add("--core", action="store_true", help="master, parameter server and rosout only")
     add("--pid", type=Path, metavar="FILE", help="write the process id there")
     add("-q", "--quiet", action="store_true", help="print problems only")

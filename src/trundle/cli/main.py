@@ -18,6 +18,7 @@ from trundle import __version__
 from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, parse_arguments
 
+from .help_text import HelpFormatter, describe
 from .originals import ORIGINALS
 from .originals.whole_help import EXIT_CODES, print_whole_help
 from .quiet_imports import quiet_imports
@@ -25,13 +26,13 @@ from .quiet_imports import quiet_imports
 COMMANDS: dict[str, str] = {
     "run": "simulate a robot or a world",
     "launch": "start a ROS 1 launch file",
-    "test": "run the tests of launch files, as rostest does",
-    "play": "show a recorded run in the browser",
+    "test": "run the tests of launch files, as rostest does, or every run of a sweep's plan",
+    "play": "show a recorded run or a bag in the browser",
     "view": "show a running ROS graph in the browser, as rviz does",
     "check": "list what is wrong or not supported in a file",
-    "convert": "convert a robot or world to SDF, URDF or MJCF",
+    "convert": "convert a robot or world to SDF, URDF, MJCF or GLB, a recorded run to HTML",
     "render": "render an image or a video of a robot or a world",
-    "sweep": "run a world many times with different values",
+    "sweep": "run a world or a launch file many times with different values",
     "dataset": "make annotated pictures of a varied world, to train vision on",
     "xacro": "expand a xacro file",
     "core": "run the ROS master, parameter server and rosout",
@@ -72,11 +73,6 @@ class CommandModule(Protocol):
     EXAMPLES: str
     configure: Callable[[argparse.ArgumentParser], None]
     main: Callable[[argparse.Namespace], int]
-
-
-class _Formatter(argparse.RawDescriptionHelpFormatter):
-    def __init__(self, prog: str) -> None:
-        super().__init__(prog, max_help_position=30, width=100)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -223,10 +219,10 @@ def make_parser(
     command = _command(name)
     program = program or f"trundle {name}"
     summary = (command.__doc__ or "").partition("\n")[0]
-    parser = parser or argparse.ArgumentParser(prog=program, formatter_class=_Formatter)
+    parser = parser or argparse.ArgumentParser(prog=program, formatter_class=HelpFormatter)
     examples = command.EXAMPLES.strip("\n").replace(f"trundle {name}", program)
-    parser.description = f"examples:\n{examples}\n\n{summary}"
     command.configure(parser)
+    describe(parser, examples, summary)
     return parser
 
 
@@ -259,7 +255,7 @@ def _complete() -> None:
     subparsers = parser.add_subparsers()
     typed = os.environ.get("COMP_LINE", "").split()
     for name, summary in COMMANDS.items():
-        subparser = subparsers.add_parser(name, help=summary, formatter_class=_Formatter)
+        subparser = subparsers.add_parser(name, help=summary, formatter_class=HelpFormatter)
         if name in typed:
             complete(make_parser(name, subparser), name)
     argcomplete.autocomplete(parser)

@@ -7,8 +7,11 @@ from . import definitions
 EXAMPLES = """
   trundle msg show geometry_msgs/Twist
   trundle msg show String
+  trundle msg info geometry_msgs/Twist
+  trundle msg list
   trundle msg md5 geometry_msgs/Twist
   trundle msg package geometry_msgs
+  trundle msg packages
 """
 
 

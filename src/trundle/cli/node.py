@@ -17,6 +17,9 @@ EXAMPLES = """
   trundle node list
   trundle node info /robot_state_publisher
   trundle node ping -a
+  trundle node kill /robot_state_publisher
+  trundle node cleanup
+  trundle node machine
 """
 _SCRIPT = "rosnode"
 _CALLER = "/rosnode"

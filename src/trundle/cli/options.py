@@ -17,7 +17,7 @@ def add_allow_outside(parser: argparse.ArgumentParser) -> None:
 def add_lenient(parser: argparse.ArgumentParser) -> None:
     """Declare the option of commands that read robots."""
     parser.add_argument(
-        "--lenient", action="store_true", help="skip xacro:includes of missing packages, with a warning"
+        "--lenient", action="store_true", help="leave out xacro:includes of missing packages and what needs them, with warnings"
     )
 
 

@@ -10,9 +10,13 @@ from trundle.diagnostics import TrundleError, UsageError
 from trundle.packages import Packages, run_dependencies
 
 EXAMPLES = """
-  trundle pack list
   trundle pack find smartcar_description
+  trundle pack list
+  trundle pack list-names
   trundle pack depends smartcar_description
+  trundle pack depends1 smartcar_description
+  trundle pack depends-on geometry_msgs
+  trundle pack depends-on1 geometry_msgs
 """
 
 
@@ -23,8 +27,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     commands.add_parser("list", help="names and folders of all packages").set_defaults(run=_list)
     commands.add_parser("list-names", help="names of all packages").set_defaults(run=_list_names)
     for name, alias, run, help_ in (
-        ("depends", ["deps"], _depends, "run dependencies of a package, recursively"),
-        ("depends1", ["deps1"], _depends1, "direct dependencies of a package"),
+        ("depends", ["deps"], _depends, "packages that a package needs to run, recursively"),
+        ("depends1", ["deps1"], _depends1, "packages that a package names itself"),
         ("depends-on", [], _depends_on, "packages that depend on a package, recursively"),
         ("depends-on1", [], _depends_on1, "packages that depend on a package directly"),
     ):

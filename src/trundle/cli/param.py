@@ -22,9 +22,11 @@ if TYPE_CHECKING:
 
 EXAMPLES = """
   trundle param list
-  trundle param set /robot/rate 20
   trundle param get /robot
+  trundle param set /robot/rate 20
   trundle param load robot.yaml /robot
+  trundle param dump robot.yaml /robot
+  trundle param delete /robot/rate
 """
 _SCRIPT = "rosparam"
 

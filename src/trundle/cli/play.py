@@ -1,4 +1,4 @@
-"""Show a recorded run in the browser."""
+"""Show a recorded run or a bag in the browser."""
 
 import argparse
 from pathlib import Path

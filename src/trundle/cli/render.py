@@ -13,7 +13,7 @@ EXAMPLES = """
                                                       view of a camera sensor in the file
   trundle render robot.urdf --size 1280x720 -o robot.png
   trundle render world.sdf --at 2.5 -o later.png      after 2.5 s of simulation
-  trundle render model://rp2w --orbit -o around.mp4   turntable video (.webp and .gif too)
+  trundle render model://rp2w --orbit -o around.mp4   turntable video; .webp and .gif, too, without the extra `video`
   trundle render world.sdf --duration 10 -o run.mp4   video of 10 s of simulation
 """
 _VIDEO_S = 5.0

@@ -7,8 +7,11 @@ from . import definitions
 EXAMPLES = """
   trundle srv show std_srvs/SetBool
   trundle srv show Empty
+  trundle srv info std_srvs/SetBool
+  trundle srv list
   trundle srv md5 std_srvs/SetBool
   trundle srv package std_srvs
+  trundle srv packages
 """
 
 

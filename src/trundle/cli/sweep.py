@@ -1,4 +1,4 @@
-"""Run a world many times with different values, and report what came out."""
+"""Run a world or a launch file many times with different values, and report what came out."""
 
 import argparse
 import sys

@@ -11,16 +11,19 @@ from ..graph_command import IntermixedParser, ros_errors
 EXAMPLES = """
   trundle bag record -O drive.bag /odom /tf /scan
   trundle bag record -a -O drive.mcap
-  trundle bag info drive.bag
   trundle bag play drive.bag --clock -r 2
-  trundle bag filter drive.bag odom.bag "topic == '/odom'"
-  trundle bag reindex drive.bag.active
+  trundle bag info drive.bag
   trundle bag check old.bag -g rules.bmr
+  trundle bag filter drive.bag odom.bag "topic == '/odom'"
+  trundle bag compress --lz4 drive.bag
+  trundle bag decompress drive.bag
   trundle bag fix old.bag new.bag rules.bmr
+  trundle bag reindex drive.bag.active
 """
 _RULES: dict[str, Any] = {
-    "description": "Rule files are Python programs: the given ones are run, and, without -n, also those that "
-    "packages on the package path export as <rosbag migration_rule_file=…/>; their paths are printed."
+    "description": "Rule files are Python programs: the given ones are run, and, without -n, also those\n"
+    "that packages on the package path export as <rosbag migration_rule_file=…/>; their paths\n"
+    "are printed."
 }
 
 

@@ -8,9 +8,14 @@ from ..graph_command import global_name, master, ros_errors
 
 EXAMPLES = """
   trundle service list
-  trundle service info /gazebo/pause_physics
   trundle service call /gazebo/pause_physics
   trundle service call /gazebo/get_model_state '{model_name: rp2w}'
+  trundle service info /gazebo/pause_physics
+  trundle service type /gazebo/pause_physics
+  trundle service uri /gazebo/pause_physics
+  trundle service node /gazebo/pause_physics
+  trundle service args /gazebo/get_model_state
+  trundle service find std_srvs/Empty
 """
 _SCRIPT = "rosservice"
 

@@ -9,9 +9,15 @@ from ..graph_command import IntermixedParser, global_name, master, ros_errors
 
 EXAMPLES = """
   trundle topic list
+  trundle topic info /odom
+  trundle topic type /odom/pose
+  trundle topic find geometry_msgs/Twist
   trundle topic echo /odom
   trundle topic echo /odom/pose/pose/position -n 1
   trundle topic hz /scan
+  trundle topic delay /scan
+  trundle topic bw /camera/image_raw
+  trundle topic pub -1 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.5}}'
   trundle topic pub -r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.5}}'
 """
 _SCRIPT = "rostopic"
