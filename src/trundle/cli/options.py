@@ -16,9 +16,7 @@ def add_allow_outside(parser: argparse.ArgumentParser) -> None:
 
 def add_lenient(parser: argparse.ArgumentParser) -> None:
     """Declare the option of commands that read robots."""
-    parser.add_argument(
-        "--lenient", action="store_true", help="leave out xacro:includes of missing packages and what needs them, with warnings"
-    )
+    parser.add_argument("--lenient", action="store_true", help="leave out what needs missing packages, with warnings")
 
 
 def add_page_access(parser: argparse.ArgumentParser) -> None:
