@@ -20,7 +20,7 @@ def describe(parser: argparse.ArgumentParser, examples: str, summary: str) -> No
     """
     parser.description = _description(examples, summary)
     for action in parser._actions:  # argparse has no public access to its arguments
-        if isinstance(action, argparse._SubParsersAction):
+        if isinstance(action, argparse._SubParsersAction):  # pyright: ignore[reportPrivateUsage]
             for choice in action._choices_actions:
                 subparser = action.choices[choice.dest]
                 own = [line for line in examples.splitlines() if f"{line.strip()} ".startswith(f"{subparser.prog} ")]
