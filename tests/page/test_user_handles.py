@@ -152,7 +152,7 @@ def test_a_typed_force_acts_for_a_time(user: WorldUser) -> None:
     """50 N for 0.2 s on 1 kg that weighs 9.8 N: it slides."""
     user.pick("crate")
     user.page.get_by_role("treeitem").filter(has_text="crate").first.press("ArrowRight")
-    user.pick("base")
+    user.page.get_by_role("treeitem").get_by_text("base", exact=True).last.click()  # the first is that of the gate
     before = user.place("crate")
     for name, value in (("force x", "-50"), ("duration [s]", "0.2")):
         user.type(name, value)

@@ -59,6 +59,11 @@ def _nodes() -> list[object]:
 
 @pytest.mark.parametrize(("python", "program"), _nodes())
 def test_nodes_print_what_they_print_with_the_original(python: str, program: Path, tmp_path: Path) -> None:
-    with running_graph() as graph:
-        printed = run_node(python, program, environment(python, graph.core.uri, tmp_path))
-    assert printed == _EXPECTED[program.name]
+    expected, printed = _EXPECTED[program.name], ""
+    # Twice with the original: its action client loses a goal's transition that comes before send_goal returns.
+    for _ in range(2 if python == DEBIAN else 1):
+        with running_graph() as graph:
+            printed = run_node(python, program, environment(python, graph.core.uri, tmp_path))
+        if printed == expected:
+            break
+    assert printed == expected
