@@ -105,7 +105,7 @@ class ResetModel(Action, frozen=True, tag="reset_model"):
 
 
 class UndoReset(Action, frozen=True, tag="undo_reset"):
-    """Give a model the state that it had before its newest reset; its motors stay off, its plugins as they are."""
+    """Give a model the state before its newest reset, with motors, loads and what its plugins remember."""
 
     model: Name
 

@@ -17,6 +17,7 @@ from .step.engine import EngineState as EngineState
 from .step.engine import SimulationUnstableError as SimulationUnstableError
 from .step.engine_snapshot import EngineSnapshot as EngineSnapshot
 from .step.instability import Divergence as Divergence
+from .step.motors import MotorCommand as MotorCommand
 from .step.step_timer import StepTimer as StepTimer
 from .step.step_timer import StepTimes as StepTimes
 from .step.surface_motion import LinkGrip as LinkGrip

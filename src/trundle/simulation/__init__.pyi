@@ -2,11 +2,12 @@ from .actors import ActorPlayer as ActorPlayer
 from .actors import with_actors as with_actors
 from .debug_line import DebugLine as DebugLine
 from .handle import expect_finite as expect_finite
-from .handles import JointHandle as JointHandle
 from .handles import LinkHandle as LinkHandle
 from .handles import ModelHandle as ModelHandle
 from .hooks import AfterStep as AfterStep
 from .hooks import BeforeStep as BeforeStep
+from .joint_handle import JointHandle as JointHandle
+from .joint_handle import TimedCommand as TimedCommand
 from .profiler import Profiler as Profiler
 from .profiler import StridePart as StridePart
 from .saved_state import SavedSimulation as SavedSimulation

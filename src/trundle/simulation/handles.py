@@ -85,6 +85,12 @@ class LinkHandle(Handle):
         until = self._simulation.expiry_step(duration_s)
         self._simulation.loads.set_wrench(self.index, wrench, until=until)
 
+    @property
+    def applied_wrench(self) -> tuple[Wrench, float | None]:
+        """Wrench of `apply_wrench`, and for how much longer it lasts [s]; None: until the next call."""
+        until = self._simulation.loads.expiries.wrenches.get(self.index)
+        return self._simulation.engine.wrench(self.index), self._simulation.time_left(until)
+
     def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
         """Add a wrench until the next hook, for forces computed at every step, such as wind, buoyancy and drag.
 

@@ -1,7 +1,8 @@
 """Joint handle: state, reaction and commands."""
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TypeAlias
 
 from trundle.diagnostics import UsageError
 from trundle.model import Joint
@@ -10,7 +11,12 @@ from trundle.spatial import Pose, Wrench, cross
 from .handle import Handle, expect_finite
 
 if TYPE_CHECKING:
+    from trundle.physics import MotorCommand
+
     from .runtime import Runtime
+
+TimedCommand: TypeAlias = "tuple[MotorCommand, float | None]"
+"""Command of an axis, and for how much longer it lasts [s]; None: until the next one."""
 
 
 class JointHandle(Handle):
@@ -151,6 +157,20 @@ class JointHandle(Handle):
         """
         self._simulation.engine.motors.command_effort(self._axis(axis), effort)
         self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
+
+    @property
+    def commands(self) -> "tuple[TimedCommand, ...]":
+        """What each axis was commanded last, and for how much longer [s]; None: until the next command."""
+        simulation = self._simulation
+        ends = [simulation.loads.expiries.efforts.get((self, axis)) for axis in range(len(self.axes))]
+        commands = map(simulation.engine.motors.command_of, self.axes)
+        return tuple(zip(commands, map(simulation.time_left, ends), strict=True))
+
+    def repeat(self, commands: "Iterable[TimedCommand]") -> None:
+        """Give every axis the command that it had."""
+        for axis, (command, left_s) in enumerate(commands):
+            self._simulation.engine.motors.repeat(self._axis(axis), command)
+            self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(left_s))
 
     def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
         """Drive an axis at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""

@@ -35,6 +35,10 @@ class Runtime(Protocol):
         """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
         ...
 
+    def time_left(self, until: int | None) -> float | None:
+        """Return how much longer a load lasts that ends at a step [s]; None: for ever."""
+        ...
+
     def edit(self, world: World) -> None:
         """Continue with an edited world of the same models, links and joints."""
         ...

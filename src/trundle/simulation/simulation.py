@@ -313,9 +313,12 @@ class Simulation:
 
     def finish_reset(self, model: object) -> None:
         """Call what waits for resets of one model, by its handle."""
-        for call, of in self._on_reset:
-            if of is model:
-                call()
+        for call in self.reset_calls(model):
+            call()
+
+    def reset_calls(self, model: object) -> list[Callable[[], None]]:
+        """Return what is called after each reset of one model, by its handle."""
+        return [call for call, of in self._on_reset if of is model]
 
     # -- spawning and deleting
 
@@ -455,3 +458,7 @@ class Simulation:
     def expiry_step(self, duration_s: float | None) -> int | None:
         """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
         return None if duration_s is None else self.steps + max(1, round(duration_s * NS_PER_S / self.step_ns))
+
+    def time_left(self, until: int | None) -> float | None:
+        """Return how much longer a load lasts that ends at a step [s]; None: for ever."""
+        return None if until is None else (until - self.steps) * self.step_ns / NS_PER_S

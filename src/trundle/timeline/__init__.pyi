@@ -1,2 +1,4 @@
+from .saved_objects import SavedObjects as SavedObjects
+from .saved_plugins import save_plugins as save_plugins
 from .timeline import DEFAULT_LIMIT_BYTES as DEFAULT_LIMIT_BYTES
 from .timeline import Timeline as Timeline

@@ -26,13 +26,20 @@ _BYTES_EACH = 200
 class SavedObjects:
     """Contents of every mutable object that some roots lead to."""
 
-    def __init__(self, roots: Iterable[object], *, is_outside: Callable[[object], bool]) -> None:
+    def __init__(
+        self,
+        roots: Iterable[object],
+        *,
+        is_outside: Callable[[object], bool],
+        is_shared: Callable[[object], bool] = lambda _: False,
+    ) -> None:
         """Save.
 
         Args:
             roots: where to begin.
             is_outside: True of an object that is not looked into; one with a `checkpoint()` that returns a function
                 to restore it is saved by that.
+            is_shared: True of an object that is left as it is, whatever it has.
         """
         self._restores: list[_Restore] = []
         self.size = 0
@@ -43,7 +50,7 @@ class SavedObjects:
         waiting = list(roots)
         while waiting:
             each = waiting.pop()
-            if isinstance(each, _ATOMS) or id(each) in self._seen:
+            if isinstance(each, _ATOMS) or id(each) in self._seen or is_shared(each):
                 continue
             self._seen[id(each)] = each
             if (checkpoint := getattr(type(each), "checkpoint", None)) is not None:

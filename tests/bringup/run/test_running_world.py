@@ -12,7 +12,7 @@ from trundle.bringup.run.run_options import RunOptions
 from trundle.bringup.run.running_world import RunningWorld
 from trundle.bringup.simulation_page.model_edits import ModelEdits
 from trundle.diagnostics import Diagnostics, UsageError
-from trundle.page import CopyModel, DeleteModel, ResetModel, RestoreModel
+from trundle.page import CopyModel, DeleteModel, ResetModel, RestoreModel, UndoReset
 from trundle.spatial import Pose
 
 WORLD = """<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity><model name="cart"><link name="base">
@@ -119,6 +119,31 @@ def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: Ru
     world.advance(simulation.time_ns + 500_000_000)
     assert simulation["cart"].pose.position == pytest.approx((0, 0, 0), abs=1e-6)
     assert simulation["cart_0"].pose.position[0] == pytest.approx(before + 1.0, abs=0.05)
+
+
+def test_a_reset_that_is_undone_lets_plugins_go_on(graph: Graph, world: RunningWorld) -> None:
+    """The cart was told once to drive at 1 m/s, and its axle to turn at 2 rad/s."""
+    client = graph.node("/client")
+    velocity = client.advertise("/go", "geometry_msgs/Twist", queue_size=1, latch=True)
+    velocity.publish({"linear": {"x": 1.0}})
+    edits, simulation = _model_edits(world), world.simulation
+    cart, axle = simulation["cart"], simulation["cart"].joint("axle")
+    axle.command_velocity(2.0)
+
+    def moves() -> bool:
+        world.advance(simulation.time_ns + 10_000_000)
+        return cart.pose.position[0] > 0.05
+
+    until(moves)
+    before = cart.pose.position[0], axle.position
+    edits.handle(ResetModel("cart"))
+    world.advance(simulation.time_ns + 200_000_000)
+    assert (cart.pose.position[0], axle.position) == pytest.approx((0.0, 0.0), abs=1e-6)
+    edits.handle(UndoReset("cart"))
+    assert (cart.pose.position[0], axle.position) == pytest.approx(before, abs=1e-9)
+    world.advance(simulation.time_ns + 500_000_000)
+    assert cart.pose.position[0] == pytest.approx(before[0] + 0.5, abs=0.01)
+    assert axle.position == pytest.approx(before[1] + 1.0, abs=0.01)
 
 
 def test_the_timeline_begins_again_where_plugins_go(world: RunningWorld) -> None:

@@ -122,6 +122,28 @@ def test_a_reset_is_undone_to_the_state_before_one_at_a_time(sim: Simulation) ->
         edits.handle(UndoReset("cart"))
 
 
+def test_a_reset_that_is_undone_leaves_motors_and_loads_as_they_were(sim: Simulation, tmp_path: Path) -> None:
+    """The model goes on as one that was not reset: pushed for 0.4 s, its joint at 0.5 m/s for good."""
+    other = loaded(tmp_path, _WORLD)[0]
+    for each in (sim, other):
+        edit(MoveJoint("cart", "lift", velocity=0.5), each)
+        edit(ApplyWrench("cart", "base", (5, 0, 0), (0, 0, 1), 0.4), each)
+        each.run(0.3)
+    edits = _model_edits(sim)
+    edits.handle(ResetModel("cart"))
+    sim.run(0.2)
+    assert sim["cart"].joint("lift").position == pytest.approx(0.0)
+    edits.handle(UndoReset("cart"))
+    for each in (sim, other):
+        each.run(0.5)
+
+    for link, same in zip(sim["cart"].links, other["cart"].links, strict=True):
+        assert link.pose.position == pytest.approx(same.pose.position, abs=1e-6)
+        assert link.twist.linear == pytest.approx(same.twist.linear, abs=1e-6)
+        assert link.twist.angular == pytest.approx(same.twist.angular, abs=1e-6)
+    assert sim["cart"].joint("lift").velocity == pytest.approx(0.5, abs=1e-3)
+
+
 def test_a_state_is_given_to_no_model_with_other_joints(sim: Simulation) -> None:
     edits = _model_edits(sim)
     edits.handle(ResetModel("cart"))

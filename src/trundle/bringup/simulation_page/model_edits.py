@@ -19,6 +19,7 @@ from trundle.page import (
 )
 from trundle.robot import Robot
 from trundle.simulation import ModelHandle, Simulation
+from trundle.timeline import SavedObjects, save_plugins
 
 from ..world_contents import Do, WorldContents
 from .edits import find_model
@@ -27,6 +28,8 @@ from .saved_model import SavedModel, saved_model
 _Value = TypeVar("_Value")
 _MAX_KEPT = 200
 """Deleted models, deleted lights and states before resets that are kept: as many as edits that can be undone."""
+_MAX_BYTES = 64 * 1024 * 1024
+"""Memory of what plugins remembered before resets."""
 
 
 class ModelEdits:
@@ -43,7 +46,8 @@ class ModelEdits:
         self._simulation, self._contents, self._do = simulation, contents, do
         self._models: dict[str, tuple[SavedModel, Robot | None]] = {}
         self._lights: dict[str, Light] = {}
-        self._before_resets: deque[SavedModel] = deque(maxlen=_MAX_KEPT)
+        self._before_resets: deque[tuple[SavedModel, SavedObjects]] = deque(maxlen=_MAX_KEPT)
+        """Models, and the state of their plugins."""
 
     def handle(self, action: ModelAction) -> None:
         """Do what a person asks for.
@@ -80,17 +84,27 @@ class ModelEdits:
         _remember(self._models, name, saved)
 
     def _reset(self, model: ModelHandle) -> None:
-        self._before_resets.append(saved_model(self._simulation, model))
+        plugins = save_plugins(self._simulation.reset_calls(model))
+        kept = self._before_resets
+        kept.append((saved_model(self._simulation, model), plugins))
+        while len(kept) > 1 and sum(each.size for _, each in kept) > _MAX_BYTES:
+            kept.popleft()
         self._do(lambda sim: sim[model.name].reset())
 
     def _undo_reset(self, model: ModelHandle) -> None:
-        before = next((saved for saved in reversed(self._before_resets) if saved.model.name == model.name), None)
+        before = next((each for each in reversed(self._before_resets) if each[0].model.name == model.name), None)
         if before is None:
             raise UsageError(f"the page has not reset model {model.name!r}, or too long ago")
-        if not before.fits(model):
+        saved, plugins = before
+        if not saved.fits(model):
             raise UsageError(f"model {model.name!r} has other links or joints now than when it was reset")
         self._before_resets.remove(before)
-        self._do(before.apply)
+
+        def undo(simulation: Simulation) -> None:
+            saved.apply(simulation)
+            plugins.restore()
+
+        self._do(undo)
 
     def _delete_light(self, name: str) -> None:
         lights = {light.name: light for light in self._simulation.world.lights}

@@ -6,8 +6,8 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.model import Model
-from trundle.simulation import ModelHandle, Simulation
-from trundle.spatial import Pose, Twist, Vector3
+from trundle.simulation import ModelHandle, Simulation, TimedCommand
+from trundle.spatial import Pose, Twist, Vector3, Wrench
 
 from .handling import hold, is_held
 
@@ -21,6 +21,10 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
     positions: NDArray[np.float64]
     """Positions of the joints' axes [rad or m]."""
     velocities: NDArray[np.float64]
+    wrenches: tuple[tuple[Wrench, float | None], ...]
+    """Applied to each link, and for how much longer [s]; None: until another is."""
+    commands: tuple[tuple[TimedCommand, ...], ...]
+    """Of each joint's axes."""
     is_held: bool
     """True if its base is fixed where it is, until it is freed."""
 
@@ -48,6 +52,10 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
         there.joint_velocities = self.velocities
         if self.is_held:
             hold(simulation, there, on=True)
+        for link, (wrench, left_s) in zip(there.links, self.wrenches, strict=True):
+            link.apply_wrench(wrench, duration_s=left_s)
+        for joint, commands in zip(there.joints, self.commands, strict=True):
+            joint.repeat(commands)
 
 
 def saved_model(simulation: Simulation, model: ModelHandle) -> SavedModel:
@@ -57,5 +65,7 @@ def saved_model(simulation: Simulation, model: ModelHandle) -> SavedModel:
         links=tuple((link.pose, link.twist) for link in model.links),
         positions=model.joint_positions,
         velocities=model.joint_velocities,
+        wrenches=tuple(link.applied_wrench for link in model.links),
+        commands=tuple(joint.commands for joint in model.joints),
         is_held=is_held(simulation, model.name),
     )

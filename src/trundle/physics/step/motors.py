@@ -35,6 +35,19 @@ class MotorCommands(Struct, frozen=True, eq=False):
     last: dict[int, tuple[float, ...]]
 
 
+class MotorCommand(Struct, frozen=True):
+    """Command of one axis."""
+
+    target: float
+    """Speed [rad/s or m/s], or position [rad or m] where there is a rate to approach it."""
+    max_effort: float
+    """Of the motor [N·m or N]; 0: it is off."""
+    rate: float
+    """Rate of the approach [1/s]; 0: the target is a speed."""
+    effort: float
+    """Constant effort beside the motor [N·m or N]."""
+
+
 def copy_commands(source: mujoco.MjModel, target: mujoco.MjModel) -> None:
     """Give the motors of a model the commands of another one of the same world, but for the targets."""
     target.tendon_frictionloss[:] = source.tendon_frictionloss
@@ -101,6 +114,18 @@ class Motors:
         self._command(axis, command=velocity, most=min(self._max_efforts[axis] or _HUGE, _HUGE), rate=_KINEMATIC)
         if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
             self._data.qvel[dof] = velocity
+
+    def command_of(self, axis: int) -> MotorCommand:
+        """Return the command that an axis follows."""
+        effort, actuator = float(self._data.qfrc_applied[self._dofs[axis]]), self._actuators[axis]
+        if actuator < 0:
+            return MotorCommand(0.0, 0.0, 0.0, effort)
+        most = float(self._model.tendon_frictionloss[actuator])
+        return MotorCommand(float(self._data.ctrl[actuator]), most, float(self._rates[actuator]), effort)
+
+    def repeat(self, axis: int, command: MotorCommand) -> None:
+        """Give an axis a command that it had before."""
+        self._command(axis, command=command.target, most=command.max_effort, rate=command.rate, effort=command.effort)
 
     def command_position(self, axis: int, position: float, max_effort: float) -> None:
         """Drive an axis to a position [rad or m] and hold it."""

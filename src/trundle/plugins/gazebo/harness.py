@@ -66,7 +66,7 @@ class Harness(Plugin):
 
     def before_step(self, sim: Simulation) -> None:
         """Drive the winch, or hold its position."""
-        if self._winch is None:
+        if self._winch is None or not self._winch.is_valid:
             return
         dt = sim.step_ns / 1e9
         holds = abs(self._target_speed) < _STILL
@@ -89,7 +89,7 @@ class Harness(Plugin):
 
     def detach(self) -> None:
         """Remove the joint; the winch stops for good."""
-        if self._opens is not None:
+        if self._opens is not None and self._opens.is_valid:
             self._sim.detach(self._opens.name)
             self._opens = self._winch = None
 

@@ -64,7 +64,8 @@ class GazeboRosControl(Plugin):
         """Read joints, update controllers and write commands."""
         if self._manager is None:
             return
-        dt = (sim.time_ns - self._last_ns) / 1e9
+        # A state from before a reset that was undone may be old; no period is longer than a step more.
+        dt = min(sim.time_ns - self._last_ns, self.period_ns + sim.step_ns) / 1e9
         self._last_ns = sim.time_ns
         if dt <= 0.0:  # the first step after a reset
             return
