@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from trundle.datasets import read_dataset_plan
@@ -76,7 +77,11 @@ def test_what_a_plan_leaves_out_has_a_default(tmp_path: Path) -> None:
         ("intensity", "brightness", "plan.yaml:15: error: light sun has no 'brightness'; it has: type, intensity,"),
         ("uniform: [0.5, 1]", "uniform: [.nan, 1]", "plan.yaml:15: error: "),
         ("camera:\n", "camera:\n  far: 2e6\n", "plan.yaml:4: error: far may be 1e+06 m at most"),
-        ("count: 4", "count: 4\nlidar: {}", "plan.yaml:3: error: clouds of a lidar are written by kitti and semantic_ki"),
+        (
+            "count: 4",
+            "count: 4\nlidar: {}",
+            "plan.yaml:3: error: clouds of a lidar are written by kitti and semantic_ki",
+        ),
         ("colour: any", "textures: nowhere", "plan.yaml:10: error: textures: "),
     ],
 )
@@ -85,3 +90,15 @@ def test_a_wrong_plan_is_refused_at_its_line(changed: str, by: str, said: str, t
     with pytest.raises(DescriptionError) as caught:
         read_dataset_plan(PLAN.replace(changed, by, 1), file="plan.yaml", folder=tmp_path)
     assert str(caught.value).startswith(said)
+
+
+def test_a_normal_distribution_is_cut_off_at_the_bounds_of_what_is_drawn(tmp_path: Path) -> None:
+    text = PLAN.replace("size: 0.1", "size: {normal: [0.1, 1]}")
+    distractors = read_dataset_plan(text, file="plan.yaml", folder=tmp_path).distractors
+    assert distractors is not None
+    random = np.random.default_rng(0)
+
+    sizes = [distractors.size.draw(random) for _ in range(200)]
+
+    assert min(sizes) == 1e-3
+    assert max(sizes) > 1.0

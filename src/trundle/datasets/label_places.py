@@ -3,8 +3,13 @@
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 Rect: TypeAlias = tuple[float, float, float, float]
 """Left, top, right and bottom."""
+_Rects: TypeAlias = NDArray[np.float64]
+"""(rectangles, 4)"""
 _RINGS = 12
 _TOUCH = 2.0
 """Distance up to which a label is beside its box, in its pixels."""
@@ -20,18 +25,19 @@ def place_labels(
         sizes: width and height of each label.
         bounds: width and height of the picture.
     """
-    placed: dict[int, Rect] = {}
-    for i in sorted(range(len(boxes)), key=lambda i: _area(boxes[i])):
+    all_boxes = np.reshape(np.array(boxes, dtype=np.float64), (-1, 4))
+    areas = (all_boxes[:, 2] - all_boxes[:, 0]) * (all_boxes[:, 3] - all_boxes[:, 1])
+    placed = np.zeros_like(all_boxes)  # covers nothing until it is set
+    for i in np.argsort(areas, kind="stable"):
+        places = _within(np.array(list(_candidates(boxes[i], sizes[i]))), bounds)
+        is_apart = ~np.array([is_beside(place, boxes[i]) for place in places.tolist()])
+        # The first of those that are best: lexsort is stable, and its last key decides first.
+        best = np.lexsort((_covered(places, all_boxes), is_apart, _covered(places, placed)))[0]
+        placed[i] = places[best]
+    return [(left, top, right, bottom) for left, top, right, bottom in placed.tolist()]
 
-        def hidden(place: Rect, i: int = i) -> tuple[float, bool, float]:
-            labels = sum(_overlap(place, other) for other in placed.values())
-            return labels, not is_beside(place, boxes[i]), sum(_overlap(place, box) for box in boxes)
 
-        placed[i] = min((_within(place, bounds) for place in _candidates(boxes[i], sizes[i])), key=hidden)
-    return [placed[i] for i in range(len(boxes))]
-
-
-def is_beside(label: Rect, box: Rect) -> bool:
+def is_beside(label: Sequence[float], box: Rect) -> bool:
     """Return True if a label touches its box or lies in it."""
     return (
         label[0] <= box[2] + _TOUCH
@@ -56,18 +62,15 @@ def _candidates(box: Rect, size: tuple[float, float]) -> Iterator[Rect]:
                 yield x, y, x + width, y + height
 
 
-def _within(place: Rect, bounds: tuple[float, float]) -> Rect:
-    left, top, right, bottom = place
-    x = max(min(left, bounds[0] - (right - left)), 0.0)
-    y = max(min(top, bounds[1] - (bottom - top)), 0.0)
-    return x, y, x + right - left, y + bottom - top
+def _within(places: _Rects, bounds: tuple[float, float]) -> _Rects:
+    """Return places moved into the picture."""
+    corners, sizes = places[:, :2], places[:, 2:] - places[:, :2]
+    inside = np.maximum(np.minimum(corners, bounds - sizes), 0.0)
+    return np.hstack((inside, inside + sizes))
 
 
-def _area(rect: Rect) -> float:
-    return (rect[2] - rect[0]) * (rect[3] - rect[1])
-
-
-def _overlap(one: Rect, other: Rect) -> float:
-    width = min(one[2], other[2]) - max(one[0], other[0])
-    height = min(one[3], other[3]) - max(one[1], other[1])
-    return max(width, 0.0) * max(height, 0.0)
+def _covered(places: _Rects, others: _Rects) -> NDArray[np.float64]:
+    """Return the areas that each place covers of others, added up."""
+    low = np.maximum(places[:, None, :2], others[:, :2])
+    high = np.minimum(places[:, None, 2:], others[:, 2:])
+    return np.prod(np.maximum(high - low, 0.0), axis=2).sum(axis=1)

@@ -1,5 +1,6 @@
 """Numbers that a picture draws."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,12 +15,15 @@ class Quantity:
     choices: tuple[float, ...] = ()
     """One of these; a single one is a constant."""
     distribution: Distribution | None = None
+    low: float = -math.inf
+    high: float = math.inf
+    """Bounds, at which a normal distribution is cut off."""
 
     def draw(self, random: np.random.Generator) -> float:
         """Draw a number; the stream advances by one number in any case."""
         q = float(random.random())
         if self.distribution is not None:
-            return quantile(self.distribution, q)
+            return min(max(quantile(self.distribution, q), self.low), self.high)
         return self.choices[min(int(q * len(self.choices)), len(self.choices) - 1)]
 
     def draw_whole(self, random: np.random.Generator) -> int:
@@ -34,7 +38,7 @@ class Quantity:
         """Largest number that it may draw; infinite for a normal distribution."""
         if self.distribution is None:
             return max(self.choices)
-        return self.distribution.parameters[1] if self.distribution.kind != "normal" else float("inf")
+        return self.distribution.parameters[1] if self.distribution.kind != "normal" else math.inf
 
 
 def constant(number: float) -> Quantity:

@@ -32,7 +32,7 @@ def read_quantity(node: YamlNode, what: str, *, at_least: float = -math.inf, at_
                 node.fail(f"{what} must be {_FORMS}")
             quantity = Quantity(choices=tuple(float(value) for value in choices))
         else:
-            quantity = Quantity(distribution=found.distribution)
+            quantity = Quantity(distribution=found.distribution, low=at_least, high=at_most)
     elif isinstance(node.value, list):
         quantity = Quantity(choices=tuple(item.number(what) for item in node.items()))
         if not quantity.choices:
