@@ -175,6 +175,22 @@ def test_a_faulty_cfg_file_is_named_with_its_line(package: Path, line: str, said
     assert said in _run("import pumps.cfg.PumpConfig", package.parent)
 
 
+def test_results_of_tests_hold_whatever_they_print(tmp_path: Path) -> None:
+    """Names of files that are no UTF-8, and what XML does not have, too."""
+    code = """
+import rosunit, unittest, xml.etree.ElementTree
+
+class Printing(unittest.TestCase):
+    def test_it(self):
+        print("a\\udcff b\\0 c\\U0001f916")
+
+rosunit.unitrun("package", "name", Printing, ["program", "--gtest_output=xml:FOLDER/out.xml"])
+print(ascii(xml.etree.ElementTree.parse("FOLDER/out.xml").getroot().find("system-out").text))
+"""
+    printed = _run(code.replace("FOLDER", str(tmp_path)), tmp_path)
+    assert printed.splitlines()[-1] == r"'a? b? c\U0001f916\n'"
+
+
 def test_smach_takes_plain_userdata_only_from_the_network(tmp_path: Path) -> None:
     code = """
 import base64, os, pickle

@@ -22,4 +22,8 @@ for name in ("std_msgs/Header", "geometry_msgs/PoseStamped"):
 print(said(m.load_by_type, "no_such_package/X").partition(":")[0], "Pose" in m.list_msg_types("geometry_msgs", False))
 m.load_package("std_msgs")
 print(m.is_registered("std_msgs/String"), m.get_registered("std_msgs/String").names, "String" in m.REGISTERED_TYPES)
+for kind in ("int8[-1]", "a/b/c", "é", "_a", "a/", "/a", "foo[][]", "foo[3]x", " int8", "1a", ""):
+    print(repr(kind), m.is_valid_msg_type(kind))
+spec = m.load_from_string('string S= "x" # y \nint8 X=3\nuint8[2] pair\nstd_msgs/String[] words', "robot", "robot/Words")
+print(spec, repr(spec), spec.parsed_fields(), spec == m.load_from_string(spec.text, "robot", "robot/Words"))
 del os.environ["ROS_ROOT"], os.environ["ROS_PACKAGE_PATH"]

@@ -1,8 +1,10 @@
 """Types of fields, and parsed definitions."""
 
+import re
 from typing import Any
 
 from .base import SEP, InvalidMsgSpec
+from .names import is_legal_resource_name
 
 TIME, DURATION, HEADER = "time", "duration", "Header"
 HEADER_FULL_NAME = "std_msgs/Header"
@@ -11,6 +13,7 @@ PRIMITIVE_TYPES = [
     "char", "byte",
 ]  # fmt: skip
 BUILTIN_TYPES = [*PRIMITIVE_TYPES, TIME, DURATION]
+_DIMENSIONS = re.compile(r"(\[[0-9]*\])*")
 
 
 def bare_msg_type(msg_type: Any) -> Any:
@@ -24,7 +27,7 @@ def parse_type(msg_type: str) -> tuple[str, bool, int | None]:
     Raises:
         ValueError: not a type.
     """
-    base, bracket, rest = msg_type.partition("[")
+    base, bracket, rest = (msg_type or "").partition("[")
     if not base or (bracket and not rest.endswith("]")):
         raise ValueError(f"Invalid message type [{msg_type}]")
     return base, bool(bracket), int(rest[:-1]) if rest[:-1] else None
@@ -50,11 +53,8 @@ def is_header_type(msg_type: str) -> bool:
 
 def is_valid_msg_type(msg_type: str) -> bool:
     """True if a text can be a type."""
-    try:
-        base, _, _ = parse_type(msg_type)
-    except ValueError:
-        return False
-    return base.replace(SEP, "", 1).replace("_", "").isalnum() and not base[0].isdigit()
+    base, bracket, rest = msg_type.partition("[")
+    return is_legal_resource_name(base) and _DIMENSIONS.fullmatch(bracket + rest) is not None
 
 
 class Constant:
@@ -66,7 +66,7 @@ class Constant:
         self.type, self.name, self.val, self.val_text = type_, name, val, val_text
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Constant) and vars(self) == vars(other)
+        return isinstance(other, Constant) and (self.type, self.name, self.val) == (other.type, other.name, other.val)
 
     def __repr__(self) -> str:
         return f"{self.type} {self.name}={self.val}"
@@ -85,7 +85,7 @@ class Field:
         return isinstance(other, Field) and (self.name, self.type) == (other.name, other.type)
 
     def __repr__(self) -> str:
-        return f"[{self.name}, {self.type}]"
+        return f"[{self.name}, {self.type}, {self.base_type}, {self.is_array}, {self.array_len}]"
 
 
 class MsgSpec:
@@ -101,6 +101,16 @@ class MsgSpec:
         self.package, _, base = full_name.partition(SEP)
         self.package = package or self.package
         self.short_name = short_name or base
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, MsgSpec) and vars(self) == vars(other)
+
+    def __repr__(self) -> str:
+        lists = [self.constants, self.types, self.names] if self.constants else [self.types, self.names]
+        return f"MsgSpec[{', '.join(map(repr, lists))}]"
+
+    def __str__(self) -> str:
+        return self.text
 
     def fields(self) -> list[tuple[str, str]]:
         """Pairs (type, name)."""

@@ -11,7 +11,6 @@ from genmsg.msgs import PRIMITIVE_TYPES as PRIMITIVE_TYPES
 from genmsg.msgs import TIME as TIME
 from genmsg.msgs import Constant as Constant
 from genmsg.msgs import Field as Field
-from genmsg.msgs import MsgSpec as MsgSpec
 from genmsg.msgs import is_builtin as is_builtin
 from genmsg.msgs import is_header_type as is_header_type
 from genmsg.msgs import is_valid_msg_type as is_valid_msg_type
@@ -29,12 +28,21 @@ is_valid_msg_field_name = is_legal_resource_base_name
 EXT, SEP = ".msg", "/"
 CONSTCHAR, COMMENTCHAR = "=", "#"
 RESERVED_TYPES = [*BUILTIN_TYPES, HEADER]
-REGISTERED_TYPES: dict[str, MsgSpec] = {}
 _MAX_BYTES = 1_000_000
 
 
 class MsgSpecException(Exception):
     """A definition cannot be parsed, or is not found."""
+
+
+class MsgSpec(genmsg.msgs.MsgSpec):
+    """A parsed definition; as text it has those of its fields' types that were added."""
+
+    def __str__(self) -> str:
+        return _listed(self)
+
+
+REGISTERED_TYPES: dict[str, MsgSpec] = {}
 
 
 def parse_type(type_: str) -> tuple[str, bool, int | None]:
@@ -155,6 +163,16 @@ def load_package(package: str) -> None:
     """Add all definitions of a package."""
     for name, spec in get_pkg_msg_specs(package)[0]:
         register(name, spec)
+
+
+def _listed(spec: MsgSpec, indent: str = "") -> str:
+    """Constants and fields, a line each."""
+    lines = [f"{indent}{each.type} {each.name}={each.val_text}\n" for each in spec.constants]
+    for type_, name in spec.fields():
+        lines.append(f"{indent}{type_} {name}\n")
+        inner = REGISTERED_TYPES.get(base_msg_type(type_))
+        lines += [] if inner is None else [_listed(inner, f"{indent}  ")]
+    return "".join(lines)
 
 
 def _load(package: str, name: str, text: str) -> tuple[str, MsgSpec]:

@@ -87,7 +87,7 @@ def package_resource_name(name: str) -> tuple[str, str]:
 
 def is_legal_resource_name(name: str) -> bool:
     """True if a resource's name is legal."""
-    return _LEGAL_RESOURCE.match(name) is not None and "//" not in name and not name.endswith("/")
+    return _LEGAL_RESOURCE.match(name) is not None and "//" not in name
 
 
 def is_legal_resource_base_name(name: str) -> bool:

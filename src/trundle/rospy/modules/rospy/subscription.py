@@ -78,7 +78,8 @@ class Subscription:
         self.closed = False
         self._lock = threading.RLock()
         self._waiting: SimpleQueue[tuple[_Data, Mapping[str, str]] | None] = SimpleQueue()
-        self._waiting_bytes = 0
+        self._received_bytes = self._read_bytes = 0
+        """Of messages, without those that were dropped; written by the loop, and by the topic's thread."""
         self._latched: dict[str, Any] = {}
         """Publisher → its latched message, for callbacks added later."""
         self._subscription: ByteSubscription | None = None
@@ -157,9 +158,9 @@ class Subscription:
         if self.queue_size is not None:
             while self._waiting.qsize() >= self.queue_size and self._drop_oldest():
                 pass
-        while self._waiting_bytes > _MAX_WAITING_BYTES and self._drop_oldest():
+        while self._received_bytes - self._read_bytes > _MAX_WAITING_BYTES and self._drop_oldest():
             pass
-        self._waiting_bytes += len(data)
+        self._received_bytes += len(data)
         self._waiting.put((data, header))
 
     def close(self) -> None:
@@ -181,7 +182,7 @@ class Subscription:
         if oldest is None:
             self._waiting.put(None)
             return False
-        self._waiting_bytes -= len(oldest[0])
+        self._received_bytes -= len(oldest[0])
         return True
 
     def _run(self) -> None:
@@ -190,7 +191,7 @@ class Subscription:
         statistics = self._open_statistics()
         while (entry := self._waiting.get()) is not None:
             data, header = entry
-            self._waiting_bytes -= len(data)
+            self._read_bytes += len(data)
             try:
                 message = data.message if isinstance(data, _ReadMessage) else read(data)
             except Exception as error:

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import re
 import sys
 import time
 import traceback
@@ -11,6 +12,7 @@ from types import TracebackType
 from typing import Any, TextIO
 from xml.sax.saxutils import escape, quoteattr
 
+_NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _Error = tuple[type[BaseException], BaseException, TracebackType] | tuple[None, None, None]
 
 
@@ -98,5 +100,5 @@ def _lines(error: _Error) -> str:
 
 
 def _printable(text: str) -> str:
-    """Text without the characters that XML has none for."""
-    return "".join(each if each in "\t\n\r" or (each >= " " and each not in "\ufffe\uffff") else "?" for each in text)
+    """Text without the characters that XML does not have."""
+    return _NOT_IN_XML.sub("?", text)
