@@ -160,7 +160,7 @@ class JointHandle(Handle):
 
     @property
     def commands(self) -> "tuple[TimedCommand, ...]":
-        """What each axis was commanded last, and for how much longer [s]; None: until the next command."""
+        """Last command of each axis, and for how much longer it lasts [s]; None: until the next one."""
         simulation = self._simulation
         ends = [simulation.loads.expiries.efforts.get((self, axis)) for axis in range(len(self.axes))]
         commands = map(simulation.engine.motors.command_of, self.axes)

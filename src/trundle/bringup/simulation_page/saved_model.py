@@ -24,7 +24,7 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
     wrenches: tuple[tuple[Wrench, float | None], ...]
     """Applied to each link, and for how much longer [s]; None: until another is."""
     commands: tuple[tuple[TimedCommand, ...], ...]
-    """Of each joint's axes."""
+    """Commands of each joint's axes."""
     is_held: bool
     """True if its base is fixed where it is, until it is freed."""
 

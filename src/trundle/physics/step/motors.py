@@ -41,7 +41,7 @@ class MotorCommand(Struct, frozen=True):
     target: float
     """Speed [rad/s or m/s], or position [rad or m] where there is a rate to approach it."""
     max_effort: float
-    """Of the motor [N·m or N]; 0: it is off."""
+    """Limit of the motor [N·m or N]; 0: it is off."""
     rate: float
     """Rate of the approach [1/s]; 0: the target is a speed."""
     effort: float

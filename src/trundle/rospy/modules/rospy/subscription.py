@@ -79,7 +79,7 @@ class Subscription:
         self._lock = threading.RLock()
         self._waiting: SimpleQueue[tuple[_Data, Mapping[str, str]] | None] = SimpleQueue()
         self._received_bytes = self._read_bytes = 0
-        """Of messages, without those that were dropped; written by the loop, and by the topic's thread."""
+        """Sizes of messages, without those that were dropped; written by the loop, and by the topic's thread."""
         self._latched: dict[str, Any] = {}
         """Publisher → its latched message, for callbacks added later."""
         self._subscription: ByteSubscription | None = None
