@@ -5,8 +5,11 @@ import ctypes
 import gc
 import os
 import platform
+import signal
 import socket
 import struct
+import subprocess
+import sys
 import threading
 import time
 import warnings
@@ -179,3 +182,42 @@ def test_its_thread_asks_for_short_slices_and_whatever_that_starts_does_not() ->
     with GraphLoop() as loop:
         assert loop.run(slices()) == (100_000, usual)
     assert _slice_ns(threading.get_native_id()) == usual != 100_000
+
+
+_WAITS = """
+import asyncio, signal, threading, time
+from trundle.ros import GraphLoop
+
+def signal_me():
+    time.sleep(0.5)
+    signal.pthread_kill(threading.get_ident(), signal.SIGINT)
+
+with GraphLoop() as loop:
+    threading.Thread(target=signal_me).start()
+    try:
+        loop.run(asyncio.sleep(60.0), None)
+    except KeyboardInterrupt:
+        print("interrupted")
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="Windows sends no signal to a thread")
+def test_an_interrupt_that_another_thread_takes_ends_the_wait() -> None:
+    """Linux may give a process' signal to any of its threads; it wakes only that one."""
+    done = subprocess.run([sys.executable, "-c", _WAITS], capture_output=True, text=True, timeout=PATIENCE_S)
+
+    assert done.stdout == "interrupted\n"
+
+
+def test_a_wait_that_takes_several_turns_returns_and_times_out() -> None:
+    with GraphLoop() as loop:
+        assert loop.run(asyncio.sleep(1.2, "slept"), None) == "slept"
+        with pytest.raises(TimeoutError):
+            loop.run(asyncio.sleep(60.0), 0.7)
+        with pytest.raises(TimeoutError, match="own"):
+            loop.run(_late_error(), None)
+
+
+async def _late_error() -> None:
+    await asyncio.sleep(0.6)
+    raise TimeoutError("own")

@@ -16,6 +16,7 @@ import type { Pane } from "./panes/pane";
 import { panePlaces, type PanePlace } from "./panes/pane_layout";
 import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
+import { UnfinishedPicture } from "./unfinished_picture";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
 const NO_WEBGL = "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
@@ -56,12 +57,15 @@ export class ThreeScene implements SceneView {
   private pixelRatio = 0;
   /** True where the browser draws on the CPU: edges are not smoothed then. */
   readonly isSlow: boolean;
+  /** Null where pictures are drawn at once. */
+  private readonly unfinished: UnfinishedPicture | null;
 
   /** Fills `host`, which is positioned. */
   constructor(private readonly host: HTMLElement) {
     const { element, context, isSlow } = drawingCanvas();
     this.element = element;
     this.isSlow = isSlow;
+    this.unfinished = isSlow && context !== null ? new UnfinishedPicture(context) : null;
     this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
     this.element.setAttribute("aria-label", "3D view");
@@ -218,9 +222,10 @@ export class ThreeScene implements SceneView {
     const elapsed = Math.min(0.25, (now - this.last) / 1000);
     this.last = now;
     for (const callback of this.ticks) callback(elapsed);
-    if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
+    if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost" || this.unfinished?.isDone() === false) return;
     this.isChanged = false;
     this.draw(this.size.peek(), this.ratio, this.panes.places.peek());
+    this.unfinished?.begin();
   }
 
   /** Device pixels per pixel of the element. */

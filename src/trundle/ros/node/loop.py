@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import logging
+import math
 import threading
 import time
 from collections.abc import Callable, Coroutine
@@ -34,6 +35,10 @@ _NAP_S = 0.001
 SLICE_NS = 100_000
 """Linux' shortest time slice: the loop then preempts a busy thread instead of waiting for its 3 ms slice."""
 _GRACE_S = 5.0
+_WAIT_S = 0.5
+"""Longest single wait: a signal that the system hands to another thread than the main one does not end its wait, and
+Python calls the handler only in the main thread.
+"""
 
 
 class GraphLoop:
@@ -118,7 +123,7 @@ class GraphLoop:
         self.end_batch()
         future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
         try:
-            return future.result(timeout_s)
+            return _wait_result(future, timeout_s)
         except TimeoutError:
             future.cancel()
             raise
@@ -268,3 +273,17 @@ def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
         future.set_exception(error)
     else:
         future.set_result(task.result())
+
+
+def _wait_result(future: Future[_T], timeout_s: float | None) -> _T:
+    """Wait for a result; signals are handled in the main thread meanwhile."""
+    end_s = math.inf if timeout_s is None else time.monotonic() + timeout_s
+    while True:
+        left_s = end_s - time.monotonic()
+        try:
+            return future.result(max(0.0, min(left_s, _WAIT_S)))
+        except TimeoutError:
+            if future.done():  # meanwhile, or the error is its own
+                return future.result()
+            if left_s <= _WAIT_S:
+                raise
