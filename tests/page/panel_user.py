@@ -63,7 +63,7 @@ class PanelUser:
         """Wait until something is seen."""
         end = time.monotonic() + PATIENCE_S
         while not condition():
-            assert time.monotonic() < end, f"waited in vain {what}"
+            assert time.monotonic() < end, f"waited in vain {what}; the page shows: {self.page.inner_text('body')}"
             self.page.wait_for_timeout(50)
 
     def until_still(self, sample: Callable[[], object]) -> None:

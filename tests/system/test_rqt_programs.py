@@ -72,7 +72,8 @@ def test_each_program_s_panel_is_on_the_launch_s_one_page(user: PanelUser) -> No
         user.page.locator(".dv-tab", has_text=panel).wait_for()
     for panel, (_, text) in SHOWN.items():
         user.open(panel)
-        user.page.locator(".dv-content-container").get_by_text(text).locator("visible=true").first.wait_for()
+        shown = user.page.locator(".dv-content-container").get_by_text(text).locator("visible=true")
+        user.until(lambda shown=shown: shown.count() > 0, what=f"for {text} in {panel}")
     user.open("Steering")
     assert user.page.get_by_role("combobox", name="Topic of the velocity").input_value() == "/base/cmd_vel"
 
@@ -81,4 +82,5 @@ def test_a_slider_of_the_page_moves_the_robot_s_joint(user: PanelUser) -> None:
     user.open("Joints")
     user.type("shoulder [rad]", "0.25")
     user.open("Plots")
-    user.page.locator(".legend b", has_text="0.250").wait_for()
+    value = user.page.locator(".legend b", has_text="0.250")
+    user.until(value.is_visible, what="for 0.250")
