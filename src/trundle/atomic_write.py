@@ -3,12 +3,14 @@
 import os
 import shutil
 from pathlib import Path
+from typing import BinaryIO
 
 from .diagnostics import UsageError
 
 
-def write_atomically(path: Path, content: str | bytes, *, replace: bool = True) -> None:
-    """Write bytes, or a text as UTF-8; an existing file keeps its content until the new one is on disk.
+def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool = True) -> None:
+    """Write bytes, a text as UTF-8, or a copy of a file; an existing file keeps its content until the new one is on
+    disk.
 
     Permissions and symbolic links are kept; pipes and devices such as /dev/stdout are written directly.
 
@@ -16,12 +18,12 @@ def write_atomically(path: Path, content: str | bytes, *, replace: bool = True) 
         UsageError: it cannot be written.
         FileExistsError: it is there, and `replace` is False.
     """
-    data = content if isinstance(content, bytes) else content.encode()
     try:
         if path.exists() and not path.is_file():
-            path.write_bytes(data)
+            with path.open("wb") as file:
+                _fill(file, content)
         else:
-            _write(path.resolve(), data, replace=replace)
+            _write(path.resolve(), content, replace=replace)
     except FileExistsError:
         if not replace:
             raise
@@ -30,14 +32,14 @@ def write_atomically(path: Path, content: str | bytes, *, replace: bool = True) 
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
-def _write(path: Path, data: bytes, *, replace: bool) -> None:
+def _write(path: Path, content: str | bytes | Path, *, replace: bool) -> None:
     half = path.with_name(f".{path.name}.part")
     try:
         half.unlink(missing_ok=True)  # left by a killed program, or a link placed by another user
         with half.open("xb") as file:
             if path.exists():
                 shutil.copymode(path, half)
-            file.write(data)
+            _fill(file, content)
         if replace:
             os.replace(half, path)
         else:
@@ -45,6 +47,14 @@ def _write(path: Path, data: bytes, *, replace: bool) -> None:
     except OSError:
         half.unlink(missing_ok=True)
         raise
+
+
+def _fill(file: BinaryIO, content: str | bytes | Path) -> None:
+    if isinstance(content, Path):
+        with content.open("rb") as source:
+            shutil.copyfileobj(source, file)
+    else:
+        file.write(content if isinstance(content, bytes) else content.encode())
 
 
 def _move_new(half: Path, path: Path) -> None:

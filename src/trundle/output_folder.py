@@ -1,5 +1,6 @@
 """Files that a person at the page saves: below the folder where Trundle was started, and never over others unasked."""
 
+import filecmp
 import os
 import re
 from collections.abc import Mapping, Sequence
@@ -9,6 +10,7 @@ from .atomic_write import write_atomically
 from .diagnostics import UsageError
 
 _NAME = re.compile(r'[^\x00-\x1f\x7f-\x9f<>:"|?*\\/]{1,120}')
+_MAX_NAMED = 4
 _DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 
 
@@ -57,22 +59,38 @@ def _check(root: Path, target: Path, *, is_folder: bool = False) -> None:
         )
 
 
-def save_files(root: Path, files: Mapping[Path, str | bytes], *, replace: bool) -> bool:
-    """Write files below a root, each whole or not at all; False: one is there already and may not be replaced.
+def save_files(root: Path, files: Mapping[Path, str | bytes | Path], *, replace: bool) -> str | None:
+    """Write files below a root, each whole or not at all, in their order; return the names of those that are there
+    already and may not be replaced.
+
+    Args:
+        root: folder to write below.
+        files: file → content, or a file to copy; an equal copy may be there.
+        replace: True: what is there is replaced.
 
     Raises:
         UsageError: they cannot be written.
     """
     for file in files:
         _check(root, file)
-    if not replace and any(file.exists() for file in files):
-        return False
-    for file, content in files.items():
+    wanted = {file: content for file, content in files.items() if not _is_copy(file, content)}
+    in_way = [] if replace else [file for file in wanted if file.exists()]
+    for file, content in {} if in_way else wanted.items():
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(file, content, replace=replace)
         except FileExistsError:
-            return False
+            in_way = [file]
+            break
         except OSError as error:
             raise UsageError(f"cannot write {file.relative_to(root)}: {error.strerror}") from None
-    return True
+    return _names(root, in_way) if in_way else None
+
+
+def _is_copy(file: Path, content: str | bytes | Path) -> bool:
+    return isinstance(content, Path) and file.is_file() and filecmp.cmp(file, content, shallow=False)
+
+
+def _names(root: Path, files: Sequence[Path]) -> str:
+    names = ", ".join(file.relative_to(root).as_posix() for file in files[:_MAX_NAMED])
+    return f"{names} and {len(files) - _MAX_NAMED} more" if len(files) > _MAX_NAMED else names

@@ -1,8 +1,12 @@
 """A person uploads a model by the browser, inserts it and saves the world."""
 
 import io
+import os
 import random
 import re
+import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +17,9 @@ from tests.page.built_client import needs_client
 from tests.page.scene_user import VIEW_CANVAS
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
+
+import trundle
+from trundle.model import MeshFile
 
 pytestmark = [needs_client, pytest.mark.slow]
 
@@ -181,13 +188,39 @@ def test_a_file_that_is_dropped_is_uploaded_and_once_more_takes_its_own_place(us
     assert _entry(user, "brick").count() == 1
 
 
-def test_the_saved_world_says_which_files_it_needs(user: WorldUser, folder: Path) -> None:
+def _save_dialog(user: WorldUser) -> Any:
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Control+s")
-    dialog = user.page.get_by_role("dialog", name="Save the world as SDF")
-    dialog.get_by_label("File").fill("mine.sdf")
+    return user.page.get_by_role("dialog", name="Save the world as SDF")
+
+
+def test_the_world_is_saved_with_what_was_uploaded_and_asks_before_it_replaces(user: WorldUser, folder: Path) -> None:
+    theirs = folder / "worlds" / "wagon" / "model.sdf"
+    theirs.parent.mkdir(parents=True)
+    theirs.write_text("precious")
+    dialog = _save_dialog(user)
+    dialog.get_by_label("File").fill("worlds/mine.sdf")
     dialog.get_by_role("button", name="Save", exact=True).click()
-    user.page.get_by_role("status").get_by_text("the uploaded model 'wagon'").wait_for()
-    text = (folder / "mine.sdf").read_text()
-    assert "<uri>model://wagon</uri>" in text
-    assert "trundle-models-" not in text
+    dialog.get_by_text("worlds/wagon/model.sdf is there already. Replace it?").wait_for()
+    assert theirs.read_text() == "precious"
+    assert not (folder / "worlds" / "mine.sdf").exists()
+    dialog.get_by_role("button", name="Replace").click()
+    user.page.get_by_role("status").get_by_text("saved as worlds/mine.sdf").wait_for()
+    assert theirs.read_text() == MODEL.format("wagon", "")
+
+
+def test_a_saved_world_is_whole_when_the_uploads_are_gone(user: WorldUser, folder: Path) -> None:
+    """It is checked and loaded by others that know of no upload."""
+    for uploads in (folder / "temporary").glob("trundle-models-*"):
+        shutil.rmtree(uploads)
+    file = folder / "worlds" / "mine.sdf"
+    words = [sys.executable, "-m", "trundle", "check", str(file)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, env={**os.environ, "HOME": str(folder)})
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "cube.obj" not in done.stdout + done.stderr
+    assert "<uri>model://wagon</uri>" in file.read_text()
+    wagon = trundle.load(str(file))["wagon"]
+    assert wagon.pose.position == pytest.approx((1.0, 1.0, 0.0), abs=0.03)
+    (visual,) = wagon.links[0].link.visuals
+    assert isinstance(visual.geometry, MeshFile)
+    assert visual.geometry.path == folder / "worlds" / "wagon" / "meshes" / "cube.obj"

@@ -319,13 +319,15 @@ class Page:
     async def _save_rviz(self, client: Connection, client_id: int | str, action: SaveRvizAs) -> None:
         """Answer with `file`, or `exists` where a file is there that may not be replaced."""
         try:
-            is_saved = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
+            exists = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
         except UsageError as error:
             respond(client, client_id, str(error))
             return
-        if is_saved:
-            self._saved_rviz = RvizFile(name=action.file, text=action.text, writable=True, saved=True)
-        respond(client, client_id, **{"file" if is_saved else "exists": action.file})
+        if exists is not None:
+            respond(client, client_id, exists=exists)
+            return
+        self._saved_rviz = RvizFile(name=action.file, text=action.text, writable=True, saved=True)
+        respond(client, client_id, file=action.file)
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Have the bag or the owner do what a client asks for."""
@@ -343,7 +345,7 @@ class Page:
         self._owner.set_watched(frozenset(topic for topic, box in self._boxes.items() if box.clients))
 
 
-def _save_rviz(root: Path, action: SaveRvizAs) -> bool:
-    """Write an .rviz file; False: it is there and may not be replaced."""
+def _save_rviz(root: Path, action: SaveRvizAs) -> str | None:
+    """Write an .rviz file; return its name if it is there and may not be replaced."""
     file = find_target(root, action.file, example="rviz/mine.rviz", suffixes=(".rviz",))
     return save_files(root, {file: action.text}, replace=action.replace)

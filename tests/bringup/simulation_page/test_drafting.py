@@ -126,7 +126,8 @@ def test_no_file_is_replaced_unasked(editor: Editor, tmp_path: Path) -> None:
     assert "<!-- of wood -->" in file.read_text()
     assert (tmp_path / "models/crate/model.config").is_file()
     editor.ask(SetField(part=(), field="@name", value="box"))
-    assert editor.ask(SaveDraft(folder="models/crate")) == {"exists": "models/crate"}
+    both = "models/crate/model.sdf, models/crate/model.config"
+    assert editor.ask(SaveDraft(folder="models/crate")) == {"exists": both}
     assert '<model name="crate">' in file.read_text()
     assert editor.ask(SaveDraft(folder="models/crate", replace=True)) == {"file": "models/crate"}
     assert '<model name="box">' in file.read_text()

@@ -11,6 +11,7 @@ from tests.bringup.simulation_page.worlds import loaded, model
 from trundle.bringup.simulation_page.current_world import current_world
 from trundle.bringup.simulation_page.world_saver import WorldSaver, find_world
 from trundle.diagnostics import UsageError
+from trundle.output_folder import save_files
 from trundle.packages import Packages
 from trundle.page import SaveWorld
 from trundle.simulation import Simulation
@@ -73,6 +74,22 @@ def test_a_file_is_replaced_only_when_a_person_agrees(tmp_path: Path, ask: Ask) 
     assert file.read_text() == "precious"
     assert ask(tmp_path, SaveWorld("worlds/mine.sdf", replace=True))["file"] == "worlds/mine.sdf"
     assert '<model name="cart"' in file.read_text()
+
+
+def test_an_equal_copy_is_not_in_the_way(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").write_text("v 0 0 0")
+    files = {tmp_path / "copies" / name: tmp_path / "a.obj" for name in "123456"}
+
+    assert save_files(tmp_path, files, replace=False) is None
+    assert save_files(tmp_path, files, replace=False) is None
+    (tmp_path / "copies" / "2").write_text("precious")
+    assert save_files(tmp_path, files, replace=False) == "copies/2"
+    assert (tmp_path / "copies" / "2").read_text() == "precious"
+    for copy in files:
+        copy.write_text("other")
+    assert save_files(tmp_path, files, replace=False) == "copies/1, copies/2, copies/3, copies/4 and 2 more"
+    assert save_files(tmp_path, files, replace=True) is None
+    assert {copy.read_text() for copy in files} == {"v 0 0 0"}
 
 
 def test_a_refusal_says_why_and_a_download_writes_nothing(tmp_path: Path, ask: Ask) -> None:

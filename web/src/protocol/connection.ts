@@ -65,7 +65,7 @@ export interface RequestAnswer {
   readonly definition?: string;
   /** File or folder that something was saved as. */
   readonly file?: string;
-  /** File or folder that is in the way. */
+  /** Files that are in the way, separated by commas. */
   readonly exists?: string;
   /** Text of a world. */
   readonly sdf?: string;

@@ -1,4 +1,7 @@
-"""Saving of a draft as a folder with model.sdf and model.config, below the folder where the simulation was started."""
+"""Saving of a draft as a folder with model.sdf and model.config, below the folder where the simulation was started.
+
+Uploaded models whose files it needs are copied beside that folder.
+"""
 
 from pathlib import Path
 
@@ -9,15 +12,18 @@ from trundle.page import SaveDraft
 
 from ..model_editor.draft import Draft
 from ..model_editor.model_files import model_config, target_files
+from .uploaded_files import copies, needed_uploads, with_uploads_named
 
 
 def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages) -> dict[str, object]:
-    """Write a draft; return its folder as `file`, or as `exists` where files are in the way.
+    """Write a draft; return its folder as `file`, or the files in the way as `exists`.
 
     Raises:
         UsageError: the name leads elsewhere, or the files cannot be written.
     """
     folder = find_target(root, request.folder, example="models/cart")
-    text = move_uris(draft.text, here=root, there=folder, packages=packages)
-    files = dict(zip(target_files(folder), (text, model_config(text, draft.name)), strict=True))
-    return {"file" if save_files(root, files, replace=request.replace) else "exists": request.folder}
+    text = with_uploads_named(move_uris(draft.text, here=root, there=folder, packages=packages), packages)
+    own = dict(zip(target_files(folder), (text, model_config(text, draft.name)), strict=True))
+    files = {**copies(needed_uploads(text, packages), folder.parent), **own}
+    exists = save_files(root, files, replace=request.replace)
+    return {"file": request.folder} if exists is None else {"exists": exists}

@@ -14,6 +14,7 @@ from trundle.packages import Packages
 from trundle.page import SaveWorld
 
 from .controls import reason_of
+from .uploaded_files import copies, needed_uploads, with_uploads_named
 
 _SUFFIXES = (".sdf", ".world")
 _MAX_LOST = 20
@@ -90,33 +91,21 @@ class WorldSaver:
     def _saved(self, request: SaveWorld, world: World, seed: int) -> dict[str, object]:
         name = request.file
         file = self._root / "world.sdf" if name is None else find_world(self._root, name)
-        if name is not None and file.exists() and not request.replace:
-            return {"exists": name}
         saved = save_world(world, file=file, packages=self._packages, seed=seed)
-        sdf, uploaded = name_uploads(saved.sdf.decode(), self._packages)
-        lost = {"lost": (*uploaded, *saved.lost)[:_MAX_LOST]}
+        sdf = with_uploads_named(saved.sdf, self._packages)
+        uploads = needed_uploads(sdf, self._packages)
         if name is None:
-            return {"sdf": sdf, **lost}
-        is_saved = save_files(self._root, {file: sdf}, replace=request.replace)
-        if not is_saved:
-            return {"exists": name}
+            needed = (f"the uploaded model {each!r}: put its folder beside it" for each in uploads)
+            return {"sdf": sdf.decode(), "lost": (*needed, *saved.lost)[:_MAX_LOST]}
+        exists = save_files(self._root, {**copies(uploads, file.parent), file: sdf}, replace=request.replace)
+        if exists is not None:
+            return {"exists": exists}
         self._newest = name
-        return {"file": name, **lost}
+        return {"file": name, "lost": saved.lost[:_MAX_LOST]}
 
     def close(self) -> None:
         """Stop after the world that is being saved."""
         self._thread.shutdown(wait=False, cancel_futures=True)
-
-
-def name_uploads(sdf: str, packages: Packages) -> tuple[str, list[str]]:
-    """Return a world with files of uploaded models as model:// URIs, and what of them it needs."""
-    needed: list[str] = []
-    for folder in packages.added_models:
-        sdf = sdf.replace(f"file://{folder.resolve()}/", "model://")
-        named = set(re.findall(r"model://([^/<\"']+)", sdf))
-        names = sorted(each.name for each in folder.iterdir() if each.name in named)
-        needed += [f"the files of the uploaded model {name!r}: put its folder on GAZEBO_MODEL_PATH" for name in names]
-    return sdf, needed
 
 
 def find_world(root: Path, name: str) -> Path:

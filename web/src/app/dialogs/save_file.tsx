@@ -42,7 +42,7 @@ export function SaveFile({ shell, title, what, offered, ending = "", note, save,
     }
   };
   const isUsable = offered !== null && name.value.trim() !== "" && !isBusy.value;
-  const said = exists.value === null ? fault.value : `${exists.value} is there already. Replace it?`;
+  const said = exists.value === null ? fault.value : question(exists.value);
   return (
     <Dialog title={title} class="ask" onClose={() => (shell.dialog.value = null)}>
       <form
@@ -98,4 +98,8 @@ export function SaveFile({ shell, title, what, offered, ending = "", note, save,
       </form>
     </Dialog>
   );
+}
+
+function question(files: string): string {
+  return files.includes(", ") ? `${files} are there already. Replace them?` : `${files} is there already. Replace it?`;
 }
