@@ -15,10 +15,10 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Generator, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -80,7 +80,13 @@ def run(repository: Repository, python: str, program: Path) -> Run:
         ours = repository.environment(sys.executable, graph.core.uri, Path(home))
         with _turtles(program, ours), tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
             process = subprocess.Popen(
-                [python, program], env=env, cwd=program.parent, stdin=subprocess.DEVNULL, stdout=out, stderr=err
+                [python, program],
+                env=env,
+                cwd=program.parent,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=err,
+                start_new_session=True,
             )
             try:
                 command = [sys.executable, _OBSERVER, str(process.pid), str(_START_S)]
@@ -89,16 +95,47 @@ def run(repository: Repository, python: str, program: Path) -> Run:
                 )
                 code = _interrupt(process)
             finally:
-                process.kill()
-                process.wait()
+                _kill_session(process)
             streams = [(stream.seek(0), stream.read().decode(errors="replace"))[1] for stream in (out, err)]
-    published = json.loads(seen.stdout)["messages"]
-    observed = json.loads(_NUMBER.sub(" #", seen.stdout))
-    observed["values"] = {
-        _NUMBER.sub(" #", name): _STAMP.sub(r"\1 #", "\n".join(kept)).splitlines() for name, kept in published.items()
+    printed = {"stdout": mask(streams[0]), "stderr": mask(streams[1])}
+    return {**masked(json.loads(seen.stdout)), "exit code": code, **printed}
+
+
+def masked(seen: Run) -> Run:
+    """What the observer printed, with numbers masked in all but the messages' values."""
+    published = {name: "\n".join(kept) for name, kept in seen["messages"].items()}
+    return {
+        **{what: _masked_value(value) for what, value in seen.items()},
+        "messages": _by_masked_name({name: mask(text) for name, text in published.items()}),
+        "values": _by_masked_name({name: _STAMP.sub(r"\1 #", text).splitlines() for name, text in published.items()}),
     }
-    observed["messages"] = {name: mask("\n".join(kept)) for name, kept in observed["messages"].items()}
-    return {**observed, "exit code": code, "stdout": mask(streams[0]), "stderr": mask(streams[1])}
+
+
+def _masked_value(value: Any) -> Any:
+    match value:
+        case str():
+            return _NUMBER.sub(" #", value)
+        case list():
+            return [_masked_value(each) for each in value]
+        case dict():
+            return _by_masked_name({name: _masked_value(each) for name, each in value.items()})
+        case _:
+            return value
+
+
+def _by_masked_name(lists: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
+    """Lists by name; those whose names differ in numbers alone are one, in the order of the names."""
+    found = defaultdict[str, list[Any]](list)
+    for name, each in sorted(lists.items()):
+        found[_NUMBER.sub(" #", name)] += each
+    return dict(found)
+
+
+def _kill_session(process: subprocess.Popen[bytes]) -> None:
+    """Kill a program and what it has started."""
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
 
 
 @contextmanager

@@ -8,6 +8,7 @@ default message three times on topics that are only subscribed to, and calls eve
 
 import json
 import sys
+import threading
 import time
 
 import rosgraph
@@ -19,6 +20,7 @@ _LOGGERS = ("/get_loggers", "/set_logger_level")
 _QUIET = ("/rosout", "/rosout_agg", "/clock", "/statistics")
 _OTHERS = {"/observer", "/rosout", "/turtlesim"}
 _SETTLED_S = 2.0
+_ANSWER_S = 10.0
 _FIRST, _LONG = 3, 10_000
 """Messages recorded of a topic, and characters of each."""
 master = rosgraph.Master("/observer")
@@ -85,12 +87,20 @@ def send(topics):
 
 
 def answer(name):
-    """Answer of a service to a default request."""
+    """Answer of a service to a default request; none where it takes too long."""
     cls = rosservice.get_service_class_by_name(name)
-    try:
-        return str(rospy.ServiceProxy(name, cls)())
-    except rospy.ServiceException as error:
-        return f"ServiceException: {error}"
+    answers = []
+
+    def ask():
+        try:
+            answers.append(str(rospy.ServiceProxy(name, cls)()))
+        except rospy.ServiceException as error:
+            answers.append(f"ServiceException: {error}")
+
+    thread = threading.Thread(target=ask, daemon=True)
+    thread.start()
+    thread.join(_ANSWER_S)
+    return list(answers)
 
 
 rospy.init_node("observer", disable_rosout=True)
