@@ -51,6 +51,17 @@ def test_a_model_is_told_with_places_in_its_file(tmp_path: Path) -> None:
     assert plugin["parameters"] == [("topic", "cmd"), ("noise/stddev", "0.5"), ("wheel", "a"), ("wheel", "")]
 
 
+def test_plugins_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    tags = "".join(f'<plugin name="drive" filename="lib{i}.so"/>' for i in range(3))
+    sim, _ = loaded(tmp_path, f'<model name="cart"><link name="base"/>{tags}</model>{tags}')
+
+    found = manifest(sim)
+
+    for plugins in (found["models"][0]["plugins"], found["plugins"]):
+        assert [each["name"] for each in plugins] == ["drive", "drive (2)", "drive (3)"]
+        assert [each["filename"] for each in plugins] == ["lib0.so", "lib1.so", "lib2.so"]
+
+
 def test_nested_models_are_told_as_they_were_written(tmp_path: Path) -> None:
     inner = """<model name="arm"><link name="upper"/><link name="lower"/><joint name="elbow" type="revolute">
 <parent>upper</parent><child>lower</child><axis><xyz>0 1 0</xyz></axis></joint>

@@ -1,4 +1,4 @@
-/** Time of a recorded run or bag, to scrub; what happened when, and marks (rqt_bag). */
+/** Time of a simulation, a recorded run or a bag, to scrub; what happened when, and marks (rqt_bag). */
 
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -69,7 +69,7 @@ function Timeline({ page }: PanelProps): JSX.Element {
               <MarkFlag key={mark.id} state={state} mark={mark} left={share(mark.time)} />
             ))}
           </Lane>
-          {state.lanes.all.map(({ topic, count, bands }) => (
+          {state.topics.all.map(({ topic, count, bands }) => (
             <Lane key={topic} name={topic} title={count === null ? topic : `${topic}: ${messages(count, "message")}`}>
               <Bands weak bands={bands} span={span} share={share} />
             </Lane>
@@ -172,12 +172,10 @@ function Actions({ page }: PanelProps): JSX.Element | null {
           </Button>
           <Button small icon="step" label="Step 1" disabled={world === null} onClick={() => state.do("step", { count: 1 })} />
           <Select label="Speed" value={speed} choices={Object.keys(SPEEDS)} onChange={(name) => state.do("speed", { factor: SPEEDS[name] ?? null })} />
+          <Button small disabled={world === null} onClick={() => page.commands.all.peek().find(({ id }) => id === "time")?.run()}>
+            Go to…
+          </Button>
         </>
-      )}
-      {canControl(page) && (
-        <Button small disabled={world === null} onClick={() => page.commands.all.peek().find(({ id }) => id === "time")?.run()}>
-          Go to…
-        </Button>
       )}
       <Button small icon="plus" disabled={world === null} onClick={() => state.mark()}>
         Mark

@@ -3,9 +3,9 @@
 import { describe, expect, it } from "vitest";
 
 import { requestTo } from "../../src/app/dialogs/time_dialog";
-import { ContactLanes, touchingPairs } from "../../src/panels/timeline/contact_lanes";
-import { Lanes, lanesOf, type BagLanes } from "../../src/panels/timeline/lanes";
+import { ContactTimes, touchingPairs } from "../../src/panels/timeline/contact_times";
 import { Intervals } from "../../src/panels/timeline/intervals";
+import { stretchesOf, TopicTimes, type BagLanes } from "../../src/panels/timeline/topic_times";
 import { FakeConnection } from "../fake_connection";
 
 const BAG: BagLanes = {
@@ -16,7 +16,7 @@ const BAG: BagLanes = {
 
 describe("lanes of a bag", () => {
   it("are by topic, in seconds; a stretch ends with its last bucket", () => {
-    expect(lanesOf(BAG)).toEqual([
+    expect(stretchesOf(BAG)).toEqual([
       { topic: "/scan", count: 1, bands: [[101, 101.5]] },
       { topic: "/tf", count: 7, bands: [[100, 102], [105, 105.5]] },
     ]);
@@ -24,14 +24,34 @@ describe("lanes of a bag", () => {
 
   it("take the place of what was seen to come", () => {
     const connection = new FakeConnection();
-    const lanes = new Lanes(connection);
+    const lanes = new TopicTimes(connection);
     connection.advertise("/tf", "tf2_msgs/TFMessage");
     connection.subscribe("/tf", () => undefined);
     connection.receive("/tf", { transforms: [] });
     lanes.look({ start: 0, end: 10, known: 10, isSeekable: true }, 2);
     expect(lanes.all.map(({ topic, count }) => [topic, count])).toEqual([["/tf", null]]);
     connection.receiveRaw("trundle/lanes", new DataView(new TextEncoder().encode(JSON.stringify(BAG)).buffer));
-    expect(lanes.all).toEqual(lanesOf(BAG));
+    expect(lanes.all).toEqual(stretchesOf(BAG));
+  });
+});
+
+describe("topics of a run", () => {
+  it("keep what came while the span grows, in ever longer buckets", () => {
+    const connection = new FakeConnection();
+    const topics = new TopicTimes(connection);
+    connection.advertise("/tf", "tf2_msgs/TFMessage");
+    connection.subscribe("/tf", () => undefined);
+    for (let tick = 0; tick <= 1000; tick += 1) {
+      const now = tick / 5;
+      if (now < 90 || now > 150) connection.receive("/tf", { transforms: [] });
+      topics.look({ start: 0, end: now, known: now, isSeekable: true }, now);
+    }
+    const [first, second] = topics.all[0]?.bands ?? [];
+    expect(topics.all[0]?.bands.length).toBe(2);
+    expect(first?.[0]).toBe(0);
+    expect(first?.[1]).toBeCloseTo(90, 0);
+    expect(second?.[0]).toBeCloseTo(150, 0);
+    expect(second?.[1]).toBeGreaterThanOrEqual(200);
   });
 });
 
@@ -67,7 +87,7 @@ describe("contacts", () => {
   });
 
   it("are kept with when they were, once for each moment", () => {
-    const lanes = new ContactLanes();
+    const lanes = new ContactTimes();
     const floor = new Set(["cart · floor"]);
     for (const [touching, time, known] of [[floor, 1, 1], [new Set([...floor, "cart · crate"]), 2, 1], [floor, 3, 2], [new Set(["a · b"]), 1.5, 3]] as const) lanes.note(touching, time, known);
     expect(lanes.all).toEqual([
@@ -77,10 +97,17 @@ describe("contacts", () => {
   });
 
   it("of many pairs are kept of those that touched last", () => {
-    const lanes = new ContactLanes();
+    const lanes = new ContactTimes();
     for (let i = 0; i < 1000; i += 1) lanes.note(new Set([`a · ${i}`, "b · floor"]), i, 0);
     expect(lanes.all.length).toBe(40);
     expect(lanes.all.map(({ pair }) => pair)).toContain("b · floor");
+  });
+
+  it("of more pairs than are kept that touch at once, are those that began first", () => {
+    const lanes = new ContactTimes();
+    const pairs = Array.from({ length: 60 }, (_, i) => `crate ${i} · floor`);
+    for (let time = 0; time < 10; time += 1) lanes.note(new Set(pairs), time, 0);
+    expect(lanes.all.map(({ bands }) => bands)).toEqual(Array.from({ length: 40 }, () => [[0, 9]]));
   });
 });
 

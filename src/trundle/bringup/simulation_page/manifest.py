@@ -1,6 +1,7 @@
 """Manifest of a simulated world for the page: docs/decisions/0020."""
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -46,7 +47,7 @@ def world_manifest(
             _nested(_model(model, bodies, live, indices) | {"held": is_held(simulation, model.name)})
             for model in world.models
         ],
-        "plugins": [_plugin(tag) for tag in world.plugins],
+        "plugins": _plugins(world.plugins),
         "lights": [_light(light, "", None) for light in world.lights]
         + [
             _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
@@ -103,7 +104,7 @@ def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str,
         "source": _source(model.at),
         "links": [_link(model, link, bodies, live) for link in model.links],
         "joints": [_joint(joint, model, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints],
-        "plugins": [_plugin(tag) for tag in model.plugins],
+        "plugins": _plugins(model.plugins),
         "models": [],
     }
 
@@ -154,17 +155,25 @@ def _sensor(sensor: Sensor, live: CameraSensor | InstrumentSensor | None) -> _Js
         "topic": topic,
         "series": list(SENSOR_VALUES.get(sensor.type, ())),
         "source": _source(sensor.at),
-        "plugins": [_plugin(tag) for tag in sensor.plugins],
+        "plugins": _plugins(sensor.plugins),
     }
 
 
-def _plugin(tag: PluginTag) -> _Json:
-    return {
-        "name": tag.name,
-        "filename": tag.filename,
-        "source": _source(tag.at),
-        "parameters": list(_parameters(tag.node)),
-    }
+def _plugins(tags: Iterable[PluginTag]) -> list[_Json]:
+    """Return plugins under names of their own: the second `drive` is `drive (2)`."""
+    counts = Counter[str]()
+    found: list[_Json] = []
+    for tag in tags:
+        counts[tag.name] += 1
+        found.append(
+            {
+                "name": tag.name if counts[tag.name] == 1 else f"{tag.name} ({counts[tag.name]})",
+                "filename": tag.filename,
+                "source": _source(tag.at),
+                "parameters": list(_parameters(tag.node)),
+            }
+        )
+    return found
 
 
 def _parameters(node: XmlNode, path: str = "") -> Iterator[tuple[str, str]]:

@@ -16,6 +16,7 @@ import { PoseSection } from "./pose_section";
 import type { Shell } from "../shell";
 import { ShownSection } from "../views/view_menu";
 import { sensorIcon } from "../../page/world_nodes";
+import { KeyValue } from "./value_rows";
 import { LightSections, WorldSections } from "./world_sections";
 import { findJoint, findLink, findModel, findPlugin, findSensor } from "../../page/selected";
 
@@ -63,9 +64,10 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   if (model === null) return <Gone />;
   if (selection.kind === "joint") {
     const joint = findJoint(page, selection.model, selection.joint);
-    return joint === null ? null : <JointSection shell={shell} model={selection.model} joint={joint} />;
+    return joint === null ? <Gone /> : <JointSection shell={shell} model={selection.model} joint={joint} />;
   }
   const link = selection.kind === "link" ? findLink(page, selection.model, selection.link) : null;
+  if (selection.kind === "link" && link === null) return <Gone />;
   return (
     <>
       {link === null ? <ModelSections shell={shell} name={selection.model} model={model} /> : <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />}
@@ -96,14 +98,8 @@ function FrameSections({ shell, frame }: { readonly shell: Shell; readonly frame
       )}
       <section class="sec">
         <h3>Frame</h3>
-        <div class="kv">
-          <span>Parent</span>
-          <span>{info?.parent ?? "none"}</span>
-        </div>
-        <div class="kv">
-          <span>Kind</span>
-          <span>{info?.isStatic === true ? "static" : "moving"}</span>
-        </div>
+        <KeyValue name="Parent" value={info?.parent ?? "none"} />
+        <KeyValue name="Kind" value={info?.isStatic === true ? "static" : "moving"} />
       </section>
     </>
   );

@@ -3,20 +3,20 @@
 import { contactCount, HEADER, SIZE } from "../../scene/world/contact_rows";
 import { Intervals } from "./intervals";
 
-/** Most pairs that are kept; the one that touched longest ago goes. */
+/** Most pairs that are kept; the one that touched longest ago goes, of equals the one that began last. */
 const MOST = 40;
 
-export interface ContactLane {
+export interface PairStretches {
   readonly pair: string;
   readonly bands: readonly (readonly [number, number])[];
 }
 
-export class ContactLanes {
+export class ContactTimes {
   private readonly intervals = new Map<string, Intervals>();
 
-  get all(): readonly ContactLane[] {
-    const lanes = [...this.intervals].map(([pair, { bands }]) => ({ pair, bands }));
-    return lanes.filter(({ bands }) => bands.length > 0).sort((one, other) => one.pair.localeCompare(other.pair));
+  get all(): readonly PairStretches[] {
+    const pairs = [...this.intervals].map(([pair, { bands }]) => ({ pair, bands }));
+    return pairs.filter(({ bands }) => bands.length > 0).sort((one, other) => one.pair.localeCompare(other.pair));
   }
 
   /** Note the pairs that touch at a time [s]; what is simulated up to `known` [s] has been noted already. */
@@ -28,8 +28,8 @@ export class ContactLanes {
   }
 
   private dropOldest(): void {
-    const ends = [...this.intervals].map(([pair, { bands }]) => ({ pair, end: bands.at(-1)?.[1] ?? -Infinity }));
-    const oldest = ends.reduce((one, other) => (other.end < one.end ? other : one));
+    const spans = [...this.intervals].map(([pair, { bands }]) => ({ pair, start: bands[0]?.[0] ?? 0, end: bands.at(-1)?.[1] ?? -Infinity }));
+    const oldest = spans.reduce((one, other) => (other.end < one.end || (other.end === one.end && other.start > one.start) ? other : one));
     this.intervals.delete(oldest.pair);
   }
 }

@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import type { ContactLane } from "./contact_lanes";
+import type { PairStretches } from "./contact_times";
 import type { Span } from "./timeline_state";
 
 export interface ShareProps {
@@ -49,7 +49,7 @@ export function Lane({ name, title = name, children }: LaneProps): JSX.Element {
 }
 
 /** A lane for each pair of models that touched. */
-export function ContactLanes({ lanes, span, share }: ShareProps & { readonly lanes: readonly ContactLane[] }): JSX.Element {
+export function ContactLanes({ lanes, span, share }: ShareProps & { readonly lanes: readonly PairStretches[] }): JSX.Element {
   if (lanes.length === 0) return <Lane name="Contacts">{[]}</Lane>;
   return (
     <>

@@ -8,9 +8,9 @@ import { bodiesOf } from "../../page/world_nodes";
 import type { Subscription } from "../../protocol/connection";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
-import { ContactLanes, touchingPairs } from "./contact_lanes";
-import { Lanes } from "./lanes";
+import { ContactTimes, touchingPairs } from "./contact_times";
 import { Intervals } from "./intervals";
+import { TopicTimes } from "./topic_times";
 
 export interface Mark {
   readonly id: number;
@@ -38,11 +38,11 @@ export class TimelineState {
   readonly fault = signal("");
   /** Where the pointer holds the head [s]; null: nowhere. */
   readonly scrub = signal<number | null>(null);
-  readonly lanes: Lanes;
+  readonly topics: TopicTimes;
   /** When the robot was driven from this page, and when the simulation was recorded. */
   readonly drives = new Intervals();
   readonly recordings = new Intervals();
-  readonly contacts = new ContactLanes();
+  readonly contacts = new ContactTimes();
   private readonly models = computed(() => {
     const models = this.page.world.manifest.value?.models ?? [];
     return new Map(models.flatMap((model) => bodiesOf(model).map((body) => [body, model.name] as const)));
@@ -53,7 +53,7 @@ export class TimelineState {
   private isAsking = false;
 
   constructor(private readonly page: Page) {
-    this.lanes = new Lanes(page.connection);
+    this.topics = new TopicTimes(page.connection);
     setInterval(() => this.look(), PERIOD);
   }
 
@@ -116,7 +116,7 @@ export class TimelineState {
   private look(): void {
     const span = this.span();
     if (span === null) return;
-    this.lanes.look(span, this.now());
+    this.topics.look(span, this.now());
     this.drives.note(this.page.drive.command.peek() !== null, span.known);
     this.recordings.note((this.page.world.state.peek()?.recording ?? null) !== null, span.known);
   }

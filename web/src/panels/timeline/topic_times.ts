@@ -6,7 +6,7 @@ import type { Connection } from "../../protocol/connection";
 import type { Span } from "./timeline_state";
 
 /** A topic's messages over time. */
-export interface Lane {
+export interface TopicStretches {
   readonly topic: string;
   /** Messages in the whole bag; null: not known. */
   readonly count: number | null;
@@ -22,28 +22,30 @@ export interface BagLanes {
   readonly topics: Readonly<Record<string, { readonly count: number; readonly bands: readonly (readonly [number, number])[] }>>;
 }
 
+/** Most buckets of the span that is shown. */
 const BUCKETS = 600;
+const SHORTEST = 0.05; // s
 /** Between two looks; what is longer is a jump [s]. */
 const LATE = 1;
 const NS = 1e9;
 
-export class Lanes {
+export class TopicTimes {
   /** Of a bag; null: none is played, or its index is not read yet. */
-  private readonly recorded = signal<readonly Lane[] | null>(null);
+  private readonly recorded = signal<readonly TopicStretches[] | null>(null);
   /** Buckets in which messages of a topic came. */
   private readonly came = new Map<string, Set<number>>();
   private readonly counts = new Map<string, number>();
-  private bucket = 0.25; // s
+  private bucket = SHORTEST; // s
   private lookedAt = -Infinity; // bucket
 
   constructor(private readonly connection: Connection) {
     connection.subscribeRaw("trundle/lanes", (payload) => {
-      this.recorded.value = lanesOf(JSON.parse(new TextDecoder().decode(payload)) as BagLanes);
+      this.recorded.value = stretchesOf(JSON.parse(new TextDecoder().decode(payload)) as BagLanes);
     });
   }
 
   /** By topic. */
-  get all(): readonly Lane[] {
+  get all(): readonly TopicStretches[] {
     return this.recorded.value ?? [...this.came.keys()].sort().map((topic) => ({ topic, count: null, bands: this.bands(topic) }));
   }
 
@@ -53,12 +55,8 @@ export class Lanes {
    * Buckets may be shorter than the time between two looks: all of those between have what came.
    */
   look(span: Span, now: number): void {
-    const wanted = span.isSeekable ? Math.max(0.05, (span.end - span.start) / BUCKETS) : 0.25;
-    if (wanted !== this.bucket) {
-      this.came.clear();
-      this.lookedAt = -Infinity;
-    }
-    this.bucket = wanted;
+    const doublings = Math.ceil(Math.log2((span.end - span.start) / (BUCKETS * SHORTEST)));
+    this.setBucket(SHORTEST * 2 ** Math.max(0, doublings));
     const at = Math.floor(now / this.bucket);
     const isLate = at > this.lookedAt && (at - this.lookedAt) * this.bucket <= LATE;
     const first = isLate ? this.lookedAt + 1 : at;
@@ -68,13 +66,26 @@ export class Lanes {
       const before = this.counts.get(topic) ?? 0;
       this.counts.set(topic, count);
       if (count <= before) continue;
-      const lane = this.came.get(topic) ?? new Set<number>();
-      for (let each = first; each <= at; each += 1) lane.add(each);
-      this.came.set(topic, lane);
+      const buckets = this.came.get(topic) ?? new Set<number>();
+      for (let each = first; each <= at; each += 1) buckets.add(each);
+      this.came.set(topic, buckets);
     }
   }
 
-  /** Stretches of a lane [s], joined where they touch. */
+  /** Keep what came in buckets of another length [s]; shorter ones cannot be made of longer ones. */
+  private setBucket(length: number): void {
+    const ratio = this.bucket / length;
+    this.bucket = length;
+    if (ratio > 1) {
+      this.came.clear();
+      this.lookedAt = -Infinity;
+    } else if (ratio < 1) {
+      for (const [topic, buckets] of this.came) this.came.set(topic, new Set([...buckets].map((each) => Math.floor(each * ratio))));
+      this.lookedAt = Math.floor(this.lookedAt * ratio);
+    }
+  }
+
+  /** Stretches of a topic [s], joined where they touch. */
   private bands(topic: string): readonly (readonly [number, number])[] {
     const bands: [number, number][] = [];
     for (const bucket of [...(this.came.get(topic) ?? [])].sort((one, other) => one - other)) {
@@ -87,8 +98,8 @@ export class Lanes {
   }
 }
 
-/** Lanes of a bag, by topic, in seconds. */
-export function lanesOf({ start_ns, bucket_ns, topics }: BagLanes): readonly Lane[] {
+/** Stretches of a bag by topic, in seconds. */
+export function stretchesOf({ start_ns, bucket_ns, topics }: BagLanes): readonly TopicStretches[] {
   const time = (bucket: number): number => (start_ns + bucket * bucket_ns) / NS;
   const names = Object.keys(topics).sort();
   return names.map((topic) => {
