@@ -37,6 +37,7 @@ export class ModelUpload {
     const { signal } = this.aborter;
     try {
       const files = await chosen;
+      signal.throwIfAborted(); // folders that are dropped take a while to be read
       this.title.value = titleOf(files);
       this.end(await sendModel(files, signal, (sent, total) => (this.progress.value = { sent, total })));
     } catch (error) {
