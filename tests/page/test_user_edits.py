@@ -89,7 +89,7 @@ def test_velocity_is_typed_and_one_model_put_back(user: WorldUser) -> None:
 
 
 def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
-    """From its menu; pose, joint and velocity are those before: it drifts on as it did."""
+    """From its menu; pose, joint, velocity and motor are those before: it drifts and slides on as it did."""
     user.pick("crane")
     user.type("linear y [m/s]", "0.5")
     user.page.get_by_role("searchbox", name="Search the world").fill("slide")
@@ -107,6 +107,7 @@ def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
     assert user.place("crane", 1) == pytest.approx(arm, abs=1e-6)
     _in_dialog(user, "Steps", "10", "Take")
     user.until(lambda: user.place("crane")[1] == pytest.approx(base[1] + 0.05, abs=1e-3))
+    assert user.place("crane", 1)[0] - arm[0] == pytest.approx(0.04, abs=2e-3)
     user.page.keyboard.press("Control+Shift+Z")
     user.until(lambda: user.place("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
     user.button("Undo: Reset of crane").click()
