@@ -118,6 +118,25 @@ def test_a_loop_is_found() -> None:
         buffer.lookup_transform("a", "b")
 
 
+def test_a_loop_of_an_earlier_time_is_found() -> None:
+    """Both frames have another parent now, so that the tree of now is no loop."""
+    buffer = TransformBuffer()
+    buffer.set_transform(_at(1, 0.0, parent="a", child="b"))
+    buffer.set_transform(_at(1, 0.0, parent="b", child="a"))
+    for child in ("a", "b"):
+        buffer.set_transform(_at(2, 0.0, child=child))
+    with pytest.raises(TransformError, match="loop"):
+        buffer.lookup_transform("odom", "a", S)
+
+
+def test_a_frame_that_hung_elsewhere_at_that_time_is_named() -> None:
+    buffer = TransformBuffer()
+    buffer.set_transform(_at(1, 0.0, parent="map"))
+    buffer.set_transform(_at(2, 0.0, parent="odom"))
+    with pytest.raises(TransformError, match="'map' had no parent"):
+        buffer.lookup_transform("odom", "base", S)
+
+
 def test_tf_travels_between_nodes(graph: Any, far: Any) -> None:
     node, reader = graph.node("n"), far.node("reader")
     clock = SimClock(far.loop)

@@ -171,15 +171,20 @@ class TransformBuffer:
         return frame in self.frames()
 
     def _compose(self, frame: str, ancestor: str, stamp_ns: int) -> Pose:
+        """Pose of a frame in an ancestor of now; the parents at that time may have been others."""
         pose = Pose()
-        while frame != ancestor:
+        for _ in range(_MAX_DEPTH):
+            if frame == ancestor:
+                return pose
             step = self._static.get(frame) or self._transform_at(frame, stamp_ns)
             pose = step.pose @ pose
             frame = step.parent
-        return pose
+        raise TransformError(f"The tf tree is invalid because it contains a loop through '{frame}'.")
 
     def _transform_at(self, frame: str, stamp_ns: int) -> Transform:
-        history = self._moving[frame]
+        history = self._moving.get(frame)
+        if history is None:
+            raise TransformError(f"At time {stamp_ns / NS_PER_S:.9f} '{frame}' had no parent")
         at = bisect_left(history, stamp_ns, key=_stamp)
         if at < len(history) and history[at].stamp_ns == stamp_ns:
             return history[at]
