@@ -61,7 +61,8 @@ struct Layout {
   uint64_t empty_messages = 1;  // messages without bytes in one message, itself included
 };
 
-// Limit of messages without bytes in an array: their number is not limited by the data's size.
+// Limit of messages without bytes in an array, and of those in a message beyond one per byte: the data's size does not
+// limit their number.
 constexpr uint64_t kMaxEmpty = 1024;
 
 // What arrays of numbers are read as.

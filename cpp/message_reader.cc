@@ -45,6 +45,8 @@ class Reader {
 
  private:
   Object read(const Layout& layout) {
+    if (layout.min_size == 0 && ++empty_messages_ > kMaxEmpty + static_cast<uint64_t>(view_.len))
+      raise_error(PyExc_ValueError, "it holds too many messages without bytes");
     auto* const type = reinterpret_cast<PyTypeObject*>(layout.type.get());
     Object message = steal(type->tp_new(type, no_arguments_.get(), nullptr));
     for (const Field& field : layout.fields) {
@@ -138,6 +140,7 @@ class Reader {
   const Arrays arrays_;
   const Object no_arguments_;
   Py_ssize_t at_ = 0;
+  uint64_t empty_messages_ = 0;
 };
 
 struct ReceivedFrame {

@@ -283,6 +283,15 @@ def test_a_long_list_of_nothing_is_refused() -> None:
         messages.codec("x_msgs/TooMany")
 
 
+def test_messages_without_bytes_are_counted_over_the_whole_message() -> None:
+    messages = Messages()
+    messages.add("x_msgs/Byte", "uint8 value\nstd_msgs/Empty[1000] nothings")
+    messages.add("x_msgs/Bytes", "x_msgs/Byte[] all")
+    assert len(messages.deserialize(_length(1) + b"\7", "x_msgs/Bytes").all[0].nothings) == 1000
+    with pytest.raises(MessageError, match="too many messages without bytes"):
+        messages.deserialize(_length(100) + bytes(100), "x_msgs/Bytes")
+
+
 def test_a_type_that_contains_itself_is_refused() -> None:
     messages = Messages()
     with pytest.raises(MessageError, match="x_msgs/Self contains itself"):
