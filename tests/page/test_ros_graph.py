@@ -13,7 +13,8 @@ from tests.page_client import ProtocolClient
 
 from trundle.page import GraphAddress, PageServer, Session
 from trundle.page_address import PageAddress
-from trundle.ros import Core, Messages, Node, ServiceError
+from trundle.ros import Core, MasterProxy, Messages, Node, ServiceError
+from trundle.ros.xmlrpc.rpc_server import RpcServer
 
 FOXGLOVE = "foxglove.websocket.v1"
 
@@ -249,6 +250,12 @@ def test_parameters_are_set_deleted_and_watched(graph: Graph, client: ProtocolCl
         assert "/other" not in json.dumps(watcher.jsons)
 
 
+def test_a_number_that_no_float_holds_is_refused(client: ProtocolClient) -> None:
+    client.send("setParameters", parameters=[{"name": "/huge", "value": 10**400, "type": "float64"}], id="h")
+    assert _values(client, "h") == []
+    client.until(lambda: any("/huge is not set" in status["message"] for status in client.statuses))
+
+
 def test_a_first_message_reaches_the_subscribers_that_there_are(graph: Graph, client: ProtocolClient) -> None:
     """A goal is published once, at the moment its topic is advertised."""
     heard: list[list[str]] = [[], []]
@@ -367,3 +374,36 @@ def test_messages_of_the_master_arrive_decoded_the_same(graph: Graph, client: Pr
     scan = Messages().deserialize(client.payloads("/scan")[0], "sensor_msgs/LaserScan")
     assert (scan.header.frame_id, scan.header.stamp.sec, scan.ranges.tolist()) == ("laser", 3, [1.0, 2.0])
     publisher.unregister()
+
+
+BAD_ADDRESSES = [f"http://{'a' * 70}.example:80/", "http://robot..example:80/"]
+
+
+@pytest.mark.parametrize("uri", BAD_ADDRESSES)
+def test_a_node_with_an_address_that_is_none_hides_no_other(
+    graph: Graph, client: ProtocolClient, uri: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Its topic's type and its service's can be asked for nowhere."""
+    master, service_uri = MasterProxy(graph.core.uri, "/stray"), uri.replace("http", "rosrpc")
+    master.call("registerPublisher", "/stray_topic", "stray_msgs/Unknown", uri)
+    master.call("registerService", "/stray_service", service_uri, uri)
+    publisher = graph.node("well").advertise("/well", "std_msgs/String")
+    client.until(lambda: "/well" in client.channels)
+    publisher.unregister()
+    client.until(lambda: "/well" not in client.channels)
+    master.call("unregisterPublisher", "/stray_topic", uri)
+    master.call("unregisterService", "/stray_service", service_uri)
+    assert "Traceback" not in capfd.readouterr().err
+
+
+def test_a_publisher_at_a_port_that_is_none_hides_no_other(graph: Graph, client: ProtocolClient) -> None:
+    server = RpcServer(lambda _method, _arguments: (1, "", ["TCPROS", "127.0.0.1", 99_999]))
+    graph.loop.run(server.start("127.0.0.1", 0))
+    uri = f"http://127.0.0.1:{server.port}/"
+    master = MasterProxy(graph.core.uri, "/stray")
+    master.call("registerPublisher", "/stray_topic", "stray_msgs/Unknown", uri)
+    publisher = graph.node("well").advertise("/well", "std_msgs/String")
+    client.until(lambda: "/well" in client.channels)
+    publisher.unregister()
+    master.call("unregisterPublisher", "/stray_topic", uri)
+    graph.loop.run(server.stop())

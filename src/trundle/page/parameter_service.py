@@ -48,7 +48,7 @@ class ParameterService:
                 self._changed(
                     node.resolve(parameter.name), await _set(node, parameter)
                 )  # a master does not notify who sets
-            except (RosError, ValueError) as error:
+            except (RosError, ValueError, OverflowError) as error:
                 client.send_status(ERROR, f"{parameter.name[:200]} is not set: {error}")
         if wanted.id is not None:
             names = tuple(parameter.name for parameter in wanted.parameters if is_legal_name(parameter.name))
@@ -103,6 +103,7 @@ async def _set(node: Node, parameter: Parameter) -> object:
     Raises:
         RosError: the master does not answer, or cannot hold the value.
         ValueError: the name or the value is none.
+        OverflowError: no float is as large.
     """
     if not is_legal_name(parameter.name) or not parameter.name:
         raise ValueError("this is not the name of a parameter")

@@ -41,6 +41,7 @@ def from_parameter(parameter: Parameter) -> object:
 
     Raises:
         ValueError: its type says otherwise.
+        OverflowError: no float is as large.
     """
     value = parameter.value
     match parameter.type:

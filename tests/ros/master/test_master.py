@@ -73,7 +73,7 @@ def test_registering_is_answered_as_by_rosmaster(stdlib: Any) -> None:
         (("searchParam", "/a/b", "nope"), -1, "Cannot find parameter [nope] in an upwards search"),
         (("hasParam", "/a", ""), -1, "must be specified and non-empty"),
         (("setParam", "/a", "/", 3), -1, "cannot set root of parameter tree to non-dictionary"),
-        (("setParam", "/a", "/deep" * 1000, 3), -1, "ERROR: parameters nest deeper than 100"),
+        (("setParam", "/a", "/deep" * 1000, 3), -1, "ERROR: parameters nest deeper than 90"),
     ],
 )
 def test_what_is_refused_is_refused_in_rosmasters_words(
@@ -121,6 +121,17 @@ def test_several_calls_can_travel_together(stdlib: Any) -> None:
     several.setParam("/x", "/a", 1)
     several.getParam("/x", "/a")
     assert list(several()) == [[1, "parameter /a set", 0], [1, "Parameter [/a]", 1]]
+
+
+def test_the_answers_of_several_calls_are_bounded(graph: Any, stdlib: Any) -> None:
+    """A few bytes ask for a long parameter each."""
+    assert stdlib.setParam("/a", "/long", "x" * 1_000_000)[0] == 1
+    several = xmlrpc.client.MultiCall(stdlib)
+    for _ in range(100):
+        several.getParam("/a", "/long")
+    with pytest.raises(xmlrpc.client.Fault, match="call less at once"):
+        several()
+    stdlib.deleteParam("/a", "/long")
 
 
 def test_subscribers_are_told_of_publishers_and_a_dead_one_holds_up_nobody(

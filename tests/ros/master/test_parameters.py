@@ -3,7 +3,8 @@
 import pytest
 
 from trundle.ros import ParameterError, ParameterTree, set_leaves
-from trundle.ros.master.parameters import MAX_BYTES, updates
+from trundle.ros.master.parameters import MAX_BYTES, MAX_DEPTH, updates
+from trundle.ros.xmlrpc.xmlrpc import encode_response
 
 
 def _tree(**values: object) -> ParameterTree:
@@ -89,3 +90,15 @@ def test_a_search_goes_upwards_and_the_first_part_decides() -> None:
 def test_followers_above_below_and_beside_learn_their_part() -> None:
     told = updates(["/a/", "/a/b/", "/a/c/", "/x/"], "/a", {"b": 1})
     assert told == [("/a/", "/a/", {"b": 1}), ("/a/b/", "/a/b/", 1), ("/a/c/", "/a/c/", {})]
+
+
+def test_what_can_be_set_can_be_read_from_the_root() -> None:
+    """Names and values nest together."""
+    tree = _tree()
+    value: object = 1
+    for _ in range(MAX_DEPTH - 60):
+        value = {"v": value}
+    tree.set("/n" * 60, value)
+    encode_response([[1, "", tree.get("/")]])
+    with pytest.raises(ParameterError, match="nest deeper"):
+        tree.set("/n" * 61, value)

@@ -10,7 +10,8 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros import blocking_call
-from trundle.ros.xmlrpc.http import browser_refusal, parse_head
+from trundle.ros.errors import WireError
+from trundle.ros.xmlrpc.http import browser_refusal, host_and_port, parse_head
 from trundle.ros.xmlrpc.xmlrpc import encode_call
 
 _ELECTRON = "Mozilla/5.0 (X11; Linux x86_64) AppleWebKit/537.36 foxglove/1.87 Chrome/120.0 Electron/28.1 Safari/537.36"
@@ -126,3 +127,12 @@ def test_http_at_a_topics_port_is_hung_up_on(graph: Any, method: str) -> None:
     with suppress(ConnectionError):  # it may be reset with the rest unread
         answer = _exchange(port, _head(("Origin: http://evil.example",), method))
     assert answer == b""
+
+
+@pytest.mark.parametrize(
+    "uri",
+    [f"http://{'a' * 70}.example:80/", "http://a..b:80/", "rosrpc://\udcff:80", "http://a:99999/", "http://a:-1/"],
+)
+def test_an_address_that_no_socket_takes_is_refused(uri: str) -> None:
+    with pytest.raises(WireError):
+        host_and_port(uri)

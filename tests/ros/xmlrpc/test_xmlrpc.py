@@ -82,3 +82,11 @@ BOMB = b"""<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b 
 def test_what_is_no_call_is_refused_in_one_way(body: bytes) -> None:
     with pytest.raises(WireError):
         decode_call(body)
+
+
+@pytest.mark.parametrize("code", ["<array><data/></array>", "abc", "<double>1e999</double>", "<nil/>"])
+def test_a_fault_whose_code_is_no_number_is_a_fault(code: str) -> None:
+    member = f"<member><name>faultCode</name><value>{code}</value></member>"
+    body = f"<methodResponse><fault><value><struct>{member}</struct></value></fault></methodResponse>"
+    with pytest.raises(FaultError, match="fault 0"):
+        decode_response(body.encode())

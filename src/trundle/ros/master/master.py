@@ -14,7 +14,7 @@ from ..transport.network import LOOPBACK, server_address
 from ..xmlrpc.rpc_methods import Answer, BadArgumentError, Method, answer_call, name_argument
 from ..xmlrpc.rpc_server import RpcServer
 from ..xmlrpc.xmlrpc import encode_response
-from .parameters import ParameterTree, updates
+from .parameters import MAX_BYTES, ParameterTree, encoded_bytes, updates
 from .registry import RegistrationTable, Registry
 from .slave_calls import SlaveCalls
 
@@ -92,13 +92,28 @@ class Master:
     def dispatch(self, method: str, arguments: list[Any]) -> Answer | list[Any]:
         """Execute one call."""
         if method == "system.multicall":
-            calls: list[dict[str, Any]] = arguments[0]
-            return [[self.dispatch(str(call["methodName"]), list(call["params"]))] for call in calls]
+            return self._multicall(arguments[0])
         if method == "system.listMethods":
             return sorted([*self._methods, "system.multicall"])
         answer = answer_call(self._methods, method, arguments)
         self.on_call(method, arguments, answer)
         return answer
+
+    def _multicall(self, calls: list[dict[str, Any]]) -> list[Any]:
+        """Execute several calls.
+
+        Raises:
+            ParameterError: the answers together are longer than one answer may be.
+        """
+        answers: list[Any] = []
+        size = 0
+        for call in calls:
+            answer = self.dispatch(str(call["methodName"]), list(call["params"]))
+            size += encoded_bytes(answer)
+            if size > MAX_BYTES:
+                raise ParameterError(f"the answers take more than {MAX_BYTES} bytes: call less at once")
+            answers.append([answer])
+        return answers
 
     def _get_pid(self, _: str) -> Answer:
         return 1, "", os.getpid()

@@ -12,7 +12,8 @@ Update: TypeAlias = tuple[str, str, object]
 """(subscribed key, changed key, new value); keys end with a slash."""
 MAX_BYTES = 64 * 1024 * 1024
 """Limit of the whole tree [bytes]: as much as one XML-RPC answer holds, so that getParam of "/" succeeds."""
-MAX_DEPTH = 100
+MAX_DEPTH = 90
+"""Limit of names and nested values together: XML-RPC carries 100 levels, some of which are the answer's own."""
 _ITEM_BYTES = 64
 """Estimated XML-RPC size of a name or number, markup included."""
 
@@ -45,7 +46,7 @@ class ParameterTree:
         size = self._bytes + self._growth(name, value)
         if size > MAX_BYTES:
             raise ParameterError(f"all parameters together would take {size} bytes, more than the {MAX_BYTES} accepted")
-        if len(namespaces) >= MAX_DEPTH:
+        if _is_deeper(value, MAX_DEPTH - len(_parts(name))):
             raise ParameterError(f"parameters nest deeper than {MAX_DEPTH}")
         if not last:
             if not isinstance(value, dict):
@@ -67,7 +68,7 @@ class ParameterTree:
         tree: Any = self.get("/".join(namespaces))
         if not last or not isinstance(tree, dict):
             raise KeyError(name)
-        self._bytes -= _size({last: tree.pop(last)})
+        self._bytes -= encoded_bytes({last: tree.pop(last)})
 
     def has(self, name: str) -> bool:
         """True if a value or namespace of this name exists."""
@@ -99,11 +100,11 @@ class ParameterTree:
         at: Any = self._root
         for depth, part in enumerate(parts):
             if not isinstance(at, dict):
-                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + _size(value) - _size(at)
+                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + encoded_bytes(value) - encoded_bytes(at)
             if part not in at:
-                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + _size(value)
+                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + encoded_bytes(value)
             at = at[part]
-        return _size(value) - _size(at)
+        return encoded_bytes(value) - encoded_bytes(at)
 
 
 def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]:
@@ -145,13 +146,21 @@ def _parts(name: str) -> list[str]:
     return [part for part in name.split("/") if part]
 
 
-def _size(value: Any) -> int:
+def encoded_bytes(value: Any) -> int:
     """Estimate the XML-RPC size of a value [bytes]."""
     if isinstance(value, dict):
-        return sum(_ITEM_BYTES + len(str(key)) + _size(below) for key, below in value.items())
+        return sum(_ITEM_BYTES + len(str(key)) + encoded_bytes(below) for key, below in value.items())
     if isinstance(value, list | tuple):
-        return sum(map(_size, value))
+        return sum(map(encoded_bytes, value))
     return _ITEM_BYTES + (len(value) if isinstance(value, str | bytes) else 0)
+
+
+def _is_deeper(value: Any, levels: int) -> bool:
+    """True if a value nests deeper than a number of levels."""
+    if levels < 0:
+        return True
+    below = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
+    return any(_is_deeper(each, levels - 1) for each in below)
 
 
 def _with_slash(name: str) -> str:

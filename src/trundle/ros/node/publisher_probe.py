@@ -5,6 +5,7 @@ import asyncio
 from ..errors import RosError, WireError
 from ..transport.framing import LENGTH
 from ..transport.headers import MAX_HEADER_BYTES, decode_header, encode_header
+from ..xmlrpc.http import checked_address
 from ..xmlrpc.rpc_client import call
 from ..xmlrpc.xmlrpc import FaultError
 from .node_context import NodeContext
@@ -31,7 +32,7 @@ async def probe_publisher(node: NodeContext, publisher: str, topic: str) -> dict
 
 
 async def _exchange_headers(caller: str, topic: str, host: str, port: int) -> dict[str, str]:
-    reader, writer = await asyncio.open_connection(host, port)
+    reader, writer = await asyncio.open_connection(*checked_address(host, port))
     try:
         writer.write(encode_header({"callerid": caller, "topic": topic, "type": "*", "md5sum": "*"}))
         (size,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))

@@ -14,6 +14,7 @@ from ..messages.raw_message import ANY_TYPE, Message, RawMessage
 from ..transport.headers import check_md5
 from ..transport.tcpros import FrameProtocol
 from ..transport.unix_sockets import UNIXROS, connect_unix, unix_address
+from ..xmlrpc.http import checked_address
 from ..xmlrpc.rpc_client import call
 from ..xmlrpc.xmlrpc import FaultError
 from .local_graph import LocalNode, LocalPublisher
@@ -219,7 +220,7 @@ class Subscription:
         if not self.is_raw:  # not on the loop: compiling a type would delay everything else
             await asyncio.to_thread(self._make_codec)
         async with asyncio.timeout(_CONNECT_S):
-            link = await self._open(host, port, unix_address(more))
+            link = await self._open(*checked_address(host, port), unix_address(more))
         self._links[uri] = link
         try:
             reason = await link.ended

@@ -114,9 +114,25 @@ def host_and_port(uri: str) -> tuple[str, int]:
         WireError: host or port is missing or malformed.
     """
     address = _ADDRESS.match(uri)
-    if address is None or int(address["port"]) > _MAX_PORT:
+    if address is None:
         raise WireError(f"not a node's address: {uri[:200]!r}; it reads like http://localhost:11311/")
-    return address["host"].strip("[]").lower(), int(address["port"])
+    return checked_address(address["host"].strip("[]").lower(), int(address["port"]))
+
+
+def checked_address(host: str, port: int) -> tuple[str, int]:
+    """Return an address that a peer has given, if it is one: sockets raise other than OSError for some.
+
+    Raises:
+        WireError: no host has such a name, or the port is out of range.
+    """
+    try:
+        host.encode("idna")
+        is_one = 0 <= port <= _MAX_PORT
+    except UnicodeError:
+        is_one = False
+    if not is_one:
+        raise WireError(f"not a node's address: host {host[:200]!r}, port {str(port)[:40]}")
+    return host, port
 
 
 def uri_host(uri: str) -> str:

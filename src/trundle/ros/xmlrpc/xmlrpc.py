@@ -75,7 +75,8 @@ def decode_response(body: bytes) -> object:
     value = reader.values[0]
     if reader.is_fault:
         fault: dict[str, Any] = value if isinstance(value, dict) else {}
-        raise FaultError(int(fault.get("faultCode", 0)), str(fault.get("faultString", "")))
+        code = fault.get("faultCode")
+        raise FaultError(code if isinstance(code, int) else 0, str(fault.get("faultString", "")))
     return value
 
 
