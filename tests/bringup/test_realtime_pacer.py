@@ -54,3 +54,18 @@ def test_a_long_stall_is_not_caught_up() -> None:
         time_ns_after = pacer.next_target(time_ns_after)
 
     assert time_ns_after - time_ns == pytest.approx(1000 * MS, rel=0.1)
+
+
+@pytest.mark.parametrize("speed", [1e308, 1e6, 1e-6, 1e-308])
+def test_at_no_speed_does_it_stay_away_for_long(speed: float) -> None:
+    """A person may ask for any; the next request is to be heard soon."""
+    wall = Wall()
+    pacer = RealtimePacer(speed, wall_ns=wall.now, sleep=wall.sleep)
+    time_ns = 0
+    for _ in range(20):
+        before_ns, before_wall_ns = time_ns, wall.ns
+        target_ns = pacer.next_target(time_ns)
+        time_ns = max(time_ns, -(-target_ns // MS) * MS)
+        assert time_ns - before_ns <= 1000 * MS
+        assert wall.ns - before_wall_ns <= 100 * MS
+    assert time_ns >= MS

@@ -76,6 +76,19 @@ def test_a_person_records_parts_of_a_run(tmp_path: Path, monkeypatch: pytest.Mon
     assert [str(file.relative_to(tmp_path)) in line for line in said] == [True]
 
 
+def test_two_recordings_of_one_second_are_both_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    sim = trundle.load("model://ball")
+    recording = PageRecording(sim, lambda _: None)
+    for _ in range(2):
+        recording.set(True)
+        sim.run(0.1)
+        recording.set(False)
+
+    logs = map(read_state_log, tmp_path.glob("recorded/*/state.log"))
+    assert sorted(float(log.times[0]) for log in logs) == pytest.approx((0.0, 0.1))
+
+
 def test_a_recording_that_cannot_be_written_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "recorded").write_text("a file, not a folder")

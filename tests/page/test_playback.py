@@ -83,3 +83,11 @@ def test_reset_goes_to_the_beginning_and_speed_may_be_as_fast_as_possible() -> N
 def test_a_recording_moves_no_joint() -> None:
     with pytest.raises(UsageError, match="a recording cannot do that"):
         playback().handle(MoveJoint(model="m", joint="j", position=1.0))
+
+
+def test_at_any_speed_it_stays_within_the_recording() -> None:
+    played = playback()
+    for factor in (1e308, 1e-308):
+        played.handle(SetSpeed(factor))
+        played.advance(0.1)
+        assert 2 * S <= played.time_ns <= 4 * S

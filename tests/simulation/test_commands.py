@@ -211,6 +211,13 @@ def test_nothing_is_put_nowhere(sim: Simulation, number: float) -> None:
     sim.run(0.1)
 
 
+@pytest.mark.parametrize("name", ["", "\0", "cart\0", "a\nb"])
+def test_a_name_that_no_file_holds_is_refused(sim: Simulation, name: str) -> None:
+    cart = sim.models[0].model
+    with pytest.raises(UsageError, match="name"):
+        sim.spawn(replace(cart, name=name))
+
+
 def test_spawned_models_are_numbered_where_that_is_allowed(sim: Simulation) -> None:
     cart = sim["cart"].model
     with pytest.raises(UsageError, match="there is a model 'cart' already"):

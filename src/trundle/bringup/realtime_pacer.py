@@ -14,6 +14,10 @@ _STRIDE_WALL_NS = 20_000_000
 """Stride between two checks for requests, in wall time [ns]."""
 STRIDE_FLAT_OUT_NS = 50_000_000
 """Stride of a flat-out run, in simulation time [ns]: fixed, so that runs repeat."""
+_LONGEST_STRIDE_NS = 1_000_000_000
+"""Longest stride at a speed that the simulation may not reach, in simulation time [ns]."""
+_LONGEST_SLEEP_NS = 100_000_000
+"""Longest sleep, in wall time [ns]: requests and the end of the run are looked at in between."""
 _LAG_FORGIVEN_NS = 200_000_000
 """Largest lag that is caught up [ns]; a slower run is slow, not jerky."""
 _GIL_INTERVAL_S = 0.0005
@@ -68,7 +72,10 @@ class RealtimePacer:
         self._recent.clear()
 
     def next_target(self, time_ns: int) -> int:
-        """Return the simulation time [ns] to advance to; sleep first if ahead of the wall clock."""
+        """Return the simulation time [ns] to advance to; sleep first if ahead of the wall clock.
+
+        Far ahead of it, this is the same time again.
+        """
         now = self._wall_ns()
         self._recent.append((now, time_ns))
         if self._speed is None:
@@ -76,12 +83,14 @@ class RealtimePacer:
         if self._anchor is None:
             self._anchor = (now, time_ns)
         wall_0, sim_0 = self._anchor
-        due = wall_0 + int((time_ns - sim_0) / self._speed)
-        if due > now:
-            self._sleep((due - now) / NS_PER_S)
-        elif now - due > _LAG_FORGIVEN_NS:
+        lead_ns = (time_ns - sim_0) / self._speed - (now - wall_0)
+        if lead_ns > 0.0:
+            self._sleep(min(lead_ns, _LONGEST_SLEEP_NS) / NS_PER_S)
+        elif -lead_ns > _LAG_FORGIVEN_NS:
             self._anchor = (now, time_ns)
-        return time_ns + max(1, int(_STRIDE_WALL_NS * self._speed))
+        if lead_ns > _LONGEST_SLEEP_NS:
+            return time_ns
+        return time_ns + max(1, int(min(_STRIDE_WALL_NS * self._speed, _LONGEST_STRIDE_NS)))
 
     @property
     def real_time_factor(self) -> float | None:

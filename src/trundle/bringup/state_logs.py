@@ -1,5 +1,6 @@
 """State logs of a simulation, for `trundle play`."""
 
+import itertools
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
@@ -138,7 +139,7 @@ class PageRecording:
             self._recorder.close()
             self._recorder = None
         if on:
-            folder = Path("recorded", datetime.now().strftime("%Y-%m-%d_%H-%M-%S"))
+            folder = _new_folder()
             recorder = self._recorder = WorldRecorder(self._simulation, folder, self._say)
             self._since_ns = self._simulation.time_ns
             recorder.after_step(self._simulation.snapshot())
@@ -152,3 +153,10 @@ class PageRecording:
         if self._recorder is not None:
             self._simulation.remove_hook(self._recorder)
             self._simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
+
+
+def _new_folder() -> Path:
+    """Return a folder that is not there yet, named after the date and time."""
+    name = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+    numbered = (Path("recorded", f"{name}-{number}") for number in itertools.count(2))
+    return next(folder for folder in itertools.chain((Path("recorded", name),), numbered) if not folder.exists())

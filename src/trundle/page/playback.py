@@ -49,7 +49,8 @@ class Playback:
         """Play for a duration of wall time [s]; from the end it goes on at the beginning."""
         if self._paused:
             return
-        self.time_ns += round(wall_s * self._factor * NS_PER_S)
+        span_ns = int(self._times_ns[-1] - self._times_ns[0])
+        self.time_ns += round(min(wall_s * self._factor * NS_PER_S, span_ns + 1))
         if self.time_ns > self._times_ns[-1]:
             self.time_ns = int(self._times_ns[0])
 

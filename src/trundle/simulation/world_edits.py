@@ -1,5 +1,6 @@
 """Edits of running worlds: spawn, delete, rename, and the transfer to a new engine."""
 
+import re
 from collections.abc import Iterable, Mapping
 from itertools import count
 
@@ -12,6 +13,7 @@ from trundle.spatial import Pose, Twist, pose_from_row
 
 WORLD = "world"
 """Name of the world as the parent of a joint."""
+_CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 
 
 def unique_name(world: World, name: str) -> str:
@@ -25,8 +27,10 @@ def check_name_is_free(world: World, name: str) -> None:
     """Check that a model name is free.
 
     Raises:
-        UsageError: the name is taken or empty.
+        UsageError: the name is taken, empty, or holds what no file can.
     """
+    if _CONTROL.search(name):
+        raise UsageError(f"a model cannot be named {name!r}: it holds a control character")
     if not name or any(there.name == name for there in world.models):
         raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
 

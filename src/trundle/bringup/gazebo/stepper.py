@@ -82,7 +82,7 @@ class GazeboStepper:
             return
         try:
             target_ns = self.pacer.next_target(simulation.time_ns)
-            if self._lockstep is None:
+            if self._lockstep is None or target_ns == simulation.time_ns:
                 simulation.advance(target_ns)
             else:
                 target_ns = simulation.time_ns + STRIDE_FLAT_OUT_NS  # not the pacer's: so that runs repeat at any speed

@@ -198,8 +198,8 @@ class SimulationPage:
             self._saver.save(request.id, request.action, world, self._simulation.seed)
             return paused
         if isinstance(request.action, SaveReplay):
-            title = self._page.session.title
-            self._replays.save(request.id, request.action, self._streams.history.motion(self._simulation.world, title))
+            world, title = self._simulation.world, self._page.session.title
+            self._replays.save(request.id, request.action, lambda: self._streams.history.motion(world, title))
             return paused
         if isinstance(request.action, InsertAction):
             self._server.respond(request.id, **self._insertion.handle(request.action))

@@ -19,6 +19,7 @@ from ..replay.recorded_motion import RecordedMotion, animated_world
 from .controls import reason_of
 
 _LIMIT_BYTES = 64_000_000
+_MAX_WAITING = 2
 _view_decoder = msgspec.json.Decoder(dict[str, object])
 
 
@@ -63,10 +64,24 @@ class ReplaySaver:
     def __init__(self, respond: Callable[..., None]) -> None:
         self._respond = respond
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-replay")
+        self._waiting = 0
 
-    def save(self, request_id: int, action: SaveReplay, motion: RecordedMotion) -> None:
-        """Answer a request with a replay; returns at once."""
-        self._thread.submit(self._run, request_id, action, motion)
+    def save(self, request_id: int, action: SaveReplay, motion: Callable[[], RecordedMotion]) -> None:
+        """Answer a request with a replay; returns at once.
+
+        Args:
+            request_id: of the request.
+            action: the request.
+            motion: copies the poses, many megabytes.
+
+        Raises:
+            UsageError: too many wait, or nothing has moved yet.
+        """
+        if self._waiting >= _MAX_WAITING:
+            raise UsageError(f"{_MAX_WAITING} replays are being made already")
+        moved = motion()
+        self._waiting += 1
+        self._thread.submit(self._run, request_id, action, moved)
 
     def _run(self, request_id: int, action: SaveReplay, motion: RecordedMotion) -> None:
         try:
@@ -79,6 +94,10 @@ class ReplaySaver:
             self._respond(request_id, reason_of(error))
         except msgspec.MsgspecError as error:
             self._respond(request_id, f"the view cannot be read: {error}")
+        except Exception as error:  # a world or a view that is not foreseen; the simulation goes on
+            self._respond(request_id, f"there is no replay: {type(error).__name__}: {error}")
+        finally:
+            self._waiting -= 1
 
     def close(self) -> None:
         """Stop after the replay in the making."""

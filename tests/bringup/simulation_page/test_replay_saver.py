@@ -1,0 +1,38 @@
+"""Replays that people at the page ask for: answered whatever they ask, and few at once."""
+
+import threading
+from typing import Any
+
+import pytest
+
+from trundle.bringup.replay.recorded_motion import RecordedMotion
+from trundle.bringup.simulation_page import pose_history
+from trundle.bringup.simulation_page.pose_history import ReplaySaver
+from trundle.diagnostics import UsageError
+from trundle.page import SaveReplay
+
+
+def _never() -> RecordedMotion:
+    raise AssertionError("no poses are copied for what is refused")
+
+
+def test_few_wait_and_each_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
+    answers: dict[int, Any] = {}
+    is_made = threading.Event()
+
+    def replay_page(*_: object, **__: object) -> str:
+        is_made.wait()
+        raise ZeroDivisionError("a world that is not foreseen")
+
+    monkeypatch.setattr(pose_history, "replay_page", replay_page)
+    saver = ReplaySaver(lambda number, error=None, **_: answers.update({number: error}))
+    motion: Any = None
+    saver.save(1, SaveReplay(), lambda: motion)
+    saver.save(2, SaveReplay(view="[" * 4000), lambda: motion)
+    with pytest.raises(UsageError, match="2 replays are being made already"):
+        saver.save(3, SaveReplay(), _never)
+    is_made.set()
+    saver._thread.shutdown(wait=True)
+
+    assert answers[1] == "there is no replay: ZeroDivisionError: a world that is not foreseen"
+    assert answers[2] is not None
