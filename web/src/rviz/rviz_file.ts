@@ -27,10 +27,7 @@ export class RvizFile {
         "This is a .vcg file of rviz before ROS Groovy, which is not read. Set the displays up here and save them as .rviz.",
       );
     }
-    const document = parseDocument(text, { uniqueKeys: false });
-    const [error] = document.errors;
-    if (error !== undefined) throw new RvizFileError(`The .rviz file is not YAML: ${error.message.split("\n")[0] ?? ""}`);
-    const root = document.toJS() as Yaml;
+    const [document, root] = readYaml(text);
     if (!isMapping(root) || !isMapping(root[MANAGER])) {
       throw new RvizFileError(`The file has no "${MANAGER}", which every .rviz file has.`);
     }
@@ -53,6 +50,18 @@ export class RvizFile {
     const manager: YamlMapping = { Displays: displays, "Global Options": globalOptions, Tools: tools, Views: views };
     merge(this.document, this.document.contents, { [MANAGER]: manager });
     return this.document.toString({ lineWidth: 0, indentSeq: true, flowCollectionPadding: true });
+  }
+}
+
+function readYaml(text: string): readonly [Document, Yaml] {
+  try {
+    const document = parseDocument(text, { uniqueKeys: false });
+    const [error] = document.errors;
+    if (error !== undefined) throw error;
+    return [document, document.toJS() as Yaml];
+  } catch (error) {
+    // aliases without an anchor or without end, and nesting without end, are errors of other kinds
+    throw new RvizFileError(`The .rviz file is not YAML: ${(error as Error).message.split("\n")[0] ?? ""}`);
   }
 }
 

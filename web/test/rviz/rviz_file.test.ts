@@ -84,6 +84,10 @@ describe("an .rviz file", () => {
     };
     expect(refusal("Background\\ ColorR=0.1\n[Display0]\nName=Grid\n")).toMatch(/\.vcg file of rviz before ROS Groovy/);
     expect(refusal("a: [1\n")).toMatch(/^The \.rviz file is not YAML: /);
+    expect(refusal("a: *nowhere\n")).toMatch(/^The \.rviz file is not YAML: /);
+    const bomb = ["a0: &a0 [x, x]", ...Array.from({ length: 30 }, (_, i) => `a${i + 1}: &a${i + 1} [*a${i}, *a${i}]`)];
+    expect(refusal(bomb.join("\n"))).toMatch(/^The \.rviz file is not YAML: /);
+    expect(refusal("[".repeat(100_000))).toMatch(/^The \.rviz file is not YAML: /);
     expect(refusal("Panels: []\n")).toBe('The file has no "Visualization Manager", which every .rviz file has.');
   });
 

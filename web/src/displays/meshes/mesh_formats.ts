@@ -63,7 +63,7 @@ class SideFiles {
 
   /** Bytes of a file beside the mesh; null: it is missing, which is noted. */
   async bytes(name: string): Promise<ArrayBuffer | null> {
-    const uri = /^[a-z]+:\/\//.test(name) ? name : joined(this.folder, decodeURIComponent(name));
+    const uri = /^[a-z]+:\/\//.test(name) ? name : joined(this.folder, decoded(name));
     try {
       return await this.fetchAsset(uri);
     } catch {
@@ -89,8 +89,8 @@ const EMPTY_PICTURE =
   "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTjnjwAAAABJRU5ErkJggg==";
 
 async function readCollada(xml: string, side: SideFiles): Promise<Object3D> {
-  const names = [...xml.matchAll(/<init_from>\s*(?:<ref>)?\s*([^<]*\.[A-Za-z]{3,4})\s*</g)].map(([, name = ""]) => name);
-  await side.fetchAll(names);
+  const inside = [...xml.matchAll(/<init_from>(?:\s*<ref>)?([^<]*)</g)].map(([, name = ""]) => name.trim());
+  await side.fetchAll(inside.filter((name) => /\.[A-Za-z]{3,4}$/.test(name)));
   const scene = parseCollada(xml, side);
   await side.settle();
   return scene;
@@ -111,11 +111,11 @@ function parseCollada(xml: string, side: SideFiles): Object3D {
 
 async function readObj(source: string, side: SideFiles): Promise<LoadedMesh> {
   const loader = new OBJLoader(side.manager);
-  const library = /^mtllib\s+(.+?)\s*$/m.exec(source)?.[1];
+  const library = /^mtllib[ \t]+(\S.*)$/m.exec(source)?.[1]?.trim();
   const bytes = library === undefined ? null : await side.bytes(library);
   if (bytes !== null) {
     const mtl = text(bytes);
-    await side.fetchAll([...mtl.matchAll(/^\s*map_Kd\s+(.+?)\s*$/gm)].map(([, name = ""]) => name));
+    await side.fetchAll([...mtl.matchAll(/^[ \t]*map_Kd[ \t]+(\S.*)$/gm)].map(([, name = ""]) => name.trim()));
     const materials = new MTLLoader(side.manager).parse(mtl, side.folder);
     materials.preload();
     loader.setMaterials(materials);
@@ -145,6 +145,15 @@ function extension(uri: string): string {
 
 function text(bytes: ArrayBuffer): string {
   return new TextDecoder().decode(bytes);
+}
+
+/** A name without escapes; one that has none may have a `%`. */
+function decoded(name: string): string {
+  try {
+    return decodeURIComponent(name);
+  } catch {
+    return name;
+  }
 }
 
 /** A name relative to a folder, without `..`. */
