@@ -55,6 +55,7 @@ REFUSED = {
     "no token at localhost": (CLOSED, _asked(HERE), "?token="),
     "a wrong token": (CLOSED, _asked(HERE, query="?token=abcdefgi"), "?token="),
     "a token that is no ASCII": (CLOSED, _asked(HERE, query="?token=%C3%A9"), "?token="),
+    "a cookie of bytes that are no text": (CLOSED, _asked(HERE, cookie="trundle-8080=\udcff"), "?token="),
     "allowed, without a token": ({**PROXIED, **CLOSED}, _asked(HERE, "https://studio.example"), "?token="),
     "a cookie of another port": (CLOSED, _asked(HERE, cookie=f"trundle-8081={TOKEN}"), "?token="),
     "a cookie that a page of another port has the browser send": (

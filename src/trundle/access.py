@@ -157,7 +157,7 @@ def _is_in_query(request: PageRequest, token: str | None) -> bool:
 
 
 def _is_same(text: str, token: str) -> bool:
-    return secrets.compare_digest(text.encode(), token.encode())
+    return secrets.compare_digest(text.encode("utf-8", "surrogateescape"), token.encode())
 
 
 def _is_own(request: PageRequest) -> bool:

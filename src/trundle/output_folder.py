@@ -9,14 +9,17 @@ from pathlib import Path, PurePosixPath
 from .atomic_write import write_atomically
 from .diagnostics import UsageError
 
-_NAME = re.compile(r'[^\x00-\x1f\x7f-\x9f<>:"|?*\\/]{1,120}')
 _MAX_NAMED = 4
-_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+_NAME = re.compile(r'[^\x00-\x1f\x7f-\x9f<>:"|?*\\/\ud800-\udfff]{1,120}')
+_MAX_BYTES = 255
+"""Longest name of a file [bytes of UTF-8]."""
+_DEVICE = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[\d¹²³]) *(\..*)?", re.IGNORECASE)
 
 
 def is_portable(name: str) -> bool:
     """True for the name of a file or folder that every system can have; neither `..` nor a device's."""
-    return bool(_NAME.fullmatch(name)) and not name.endswith((" ", ".")) and not _DEVICE.fullmatch(name)
+    is_name = bool(_NAME.fullmatch(name)) and len(name.encode()) <= _MAX_BYTES
+    return is_name and not name.endswith((" ", ".")) and not _DEVICE.fullmatch(name)
 
 
 def find_target(root: Path, name: str, *, example: str, suffixes: Sequence[str] = ()) -> Path:
@@ -49,11 +52,11 @@ def _check(root: Path, target: Path, *, is_folder: bool = False) -> None:
     while not os.path.lexists(folder):
         folder = folder.parent
     inside = Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(root))
-    if not inside or target.is_symlink():
+    if not inside or os.path.islink(target):
         raise UsageError(f"{target.relative_to(root)}: a link leads elsewhere; choose another name")
     if not folder.is_dir():
         raise UsageError(f"{target.relative_to(root)}: {folder.relative_to(root)} is no folder; choose another name")
-    if target.exists() and not (target.is_dir() if is_folder else target.is_file()):
+    if os.path.exists(target) and not (os.path.isdir(target) if is_folder else os.path.isfile(target)):
         raise UsageError(
             f"{target.relative_to(root)}: this is no {'folder' if is_folder else 'file'}; choose another name"
         )
@@ -74,7 +77,7 @@ def save_files(root: Path, files: Mapping[Path, str | bytes | Path], *, replace:
     for file in files:
         _check(root, file)
     wanted = {file: content for file, content in files.items() if not _is_copy(file, content)}
-    in_way = [] if replace else [file for file in wanted if file.exists()]
+    in_way = [] if replace else [file for file in wanted if os.path.exists(file)]
     for file, content in {} if in_way else wanted.items():
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -88,7 +91,7 @@ def save_files(root: Path, files: Mapping[Path, str | bytes | Path], *, replace:
 
 
 def _is_copy(file: Path, content: str | bytes | Path) -> bool:
-    return isinstance(content, Path) and file.is_file() and filecmp.cmp(file, content, shallow=False)
+    return isinstance(content, Path) and os.path.isfile(file) and filecmp.cmp(file, content, shallow=False)
 
 
 def _names(root: Path, files: Sequence[Path]) -> str:

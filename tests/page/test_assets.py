@@ -1,6 +1,9 @@
 """Files that clients fetch: those of packages and around the source, and no others."""
 
+import json
+import os
 import struct
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,6 +19,7 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("ws") / "robot"
     (folder / "meshes").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>robot</name></package>")
+    (folder / ".env").write_text("PASSWORD=1")
     (folder / "meshes/box.stl").write_bytes(b"solid box")
     (folder / "meshes/large.stl").write_bytes(bytes(10_000_000))
     (folder / "robot.urdf").write_text("<robot name='r'/>")
@@ -61,6 +65,8 @@ def test_files_of_the_package_are_sent(client: ProtocolClient, robot: Path) -> N
         ("http://example.com/a.stl", "files are fetched by package://, model://, file://"),
         ("/etc/passwd", "files are fetched by"),
         ("package://robot/\0", ""),
+        ("package://robot/package.xml", "no other files"),
+        ("package://robot/.env", "no other files"),
     ],
 )
 def test_other_files_are_refused_with_the_reason(client: ProtocolClient, uri: str, reason: str) -> None:
@@ -90,3 +96,20 @@ def test_the_65th_file_that_is_waited_for_is_refused(client: ProtocolClient) -> 
     errors = [data for data in client.binaries if data[5]]
     assert errors
     assert b"64 files are waited for already" in errors[0]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs file names that are no UTF-8")
+def test_a_folder_whose_name_is_no_utf_8_is_read(tmp_path: Path) -> None:
+    folder = Path(os.fsdecode(os.fsencode(tmp_path) + b"/w\xff"))
+    folder.mkdir()
+    (folder / "box.stl").write_bytes(b"solid box")
+    with (
+        PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0), source=folder / "a.sdf") as page,
+        ProtocolClient(page.url) as client,
+    ):
+        page.set_world({"generation": 1, "models": [{"source": str(folder / "a.sdf")}]}, {})
+        client.subscribe("trundle/world")
+        client.until(lambda: client.payloads("trundle/world"))
+        assert json.loads(client.payloads("trundle/world")[0])["models"] == [{"source": f"{tmp_path}/w?/a.sdf"}]
+        content, error = _fetch(client, f"file://{tmp_path}/none.stl")
+        assert (content, "no such file" in error) == (b"", True)

@@ -1,6 +1,7 @@
 """A bag on the page: its topics as bytes, what holds after a jump, and its clock."""
 
 import json
+import os
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
@@ -64,7 +65,7 @@ def text(value: str) -> bytes:
 
 @pytest.fixture
 def client(bag: Path) -> Iterator[ProtocolClient]:
-    playing = BagFile(path=str(bag), speed=1.0, paused=True)
+    playing = BagFile(path=os.fsencode(bag), speed=1.0, paused=True)
     session = Session(title="drive", kind="bag")
     with (
         PageServer.start(session, at=PageAddress(port=0), bag=playing) as server,
@@ -85,7 +86,7 @@ def ask(client: ProtocolClient, number: int, **fields: Any) -> dict[str, Any]:
 
 
 def test_a_browser_without_webgl_is_told_that_no_pictures_come(bag: Path) -> None:
-    playing = BagFile(path=str(bag), speed=1.0, paused=True)
+    playing = BagFile(path=os.fsencode(bag), speed=1.0, paused=True)
     with (
         PageServer.start(Session(title="b", kind="bag"), at=PageAddress(port=0), bag=playing) as page,
         pytest.raises(urllib.error.HTTPError, match="503") as refusal,
@@ -175,3 +176,20 @@ def test_an_empty_bag_is_refused(tmp_path: Path) -> None:
 
     with pytest.raises(DescriptionError, match="nothing was recorded"):
         play(tmp_path / "empty.bag", PlayOptions())
+
+
+@pytest.mark.parametrize("suffix", ["bag", "mcap"])
+def test_a_stamp_of_zero_makes_a_bag_long_and_nothing_else(tmp_path: Path, suffix: str) -> None:
+    """Recorders write it while simulated time has not begun."""
+    path = tmp_path / f"long.{suffix}"
+    with create_bag(path) as writer:
+        writer.write(BagMessage(TEXT, 0, text("early")))
+        writer.write(BagMessage(TEXT, 1_700_000_000 * S, text("late")))
+    playing = BagFile(path=os.fsencode(path), speed=1.0, paused=True)
+    with (
+        PageServer.start(Session(title="long", kind="bag"), at=PageAddress(port=0), bag=playing) as page,
+        ProtocolClient(page.url) as client,
+    ):
+        client.subscribe("/text")
+        assert ask(client, 1, request="seek", time_ns=1_700_000_000 * S)["ok"]
+        client.until(lambda: text("late") in client.payloads("/text"))

@@ -3,15 +3,17 @@
 import gzip
 import http.client
 import json
+import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
 from tests.page.built_client import needs_client
-from tests.page_client import ProtocolClient
+from tests.page_client import PATIENCE_S, ProtocolClient
 from websockets.exceptions import InvalidStatus
 from websockets.typing import Origin
 
@@ -208,3 +210,19 @@ def test_the_clients_files_are_found_by_their_path(tmp_path: Path) -> None:
 def _policy(fields: dict[str, str]) -> dict[str, list[str]]:
     parts = fields["Content-Security-Policy"].split("; ")
     return {part.split()[0]: part.split()[1:] for part in parts}
+
+
+def test_more_clients_than_a_hundred_are_refused_until_one_leaves(page: PageServer) -> None:
+    with ExitStack() as clients:
+        for _ in range(100):
+            last = clients.enter_context(ProtocolClient(page.url))
+        with pytest.raises(InvalidStatus) as refused:
+            ProtocolClient(page.url)
+        assert refused.value.response.status_code == 503
+        last.socket.close()
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            with suppress(InvalidStatus):
+                clients.enter_context(ProtocolClient(page.url))
+                return
+    pytest.fail("nobody is served any more")

@@ -101,6 +101,11 @@ def test_nothing_is_written_elsewhere(client: ProtocolClient, folder: Path, repl
         "rviz/.rviz": "below the folder",
         "": "not a request",
         "x" * 200 + ".rviz": "below the folder",
+        "😀" * 80 + ".rviz": "below the folder",
+        "😀" * 80 + "/car.rviz": "below the folder",
+        "COM¹.rviz": "below the folder",
+        "nul .rviz": "below the folder",
+        "conin$.rviz": "below the folder",
     }
     before = sorted(folder.parent.rglob("*"))
 

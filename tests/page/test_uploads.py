@@ -35,13 +35,15 @@ def _post(url: str, files: dict[str, bytes], *, kind: str = "multipart/form-data
     boundary, parts = uuid.uuid4().hex, urlsplit(url)
     body = b"".join(
         f'--{boundary}\r\nContent-Disposition: form-data; name="{name}"; filename="f"\r\n'
-        f"Content-Type: application/octet-stream\r\n\r\n".encode()
+        f"Content-Type: application/octet-stream\r\n\r\n".encode("utf-8", "surrogateescape")
         + content
         + b"\r\n"
         for name, content in files.items()
     )
     connection = http.client.HTTPConnection(parts.netloc, timeout=60)
-    headers = {"Content-Type": f"{kind}; boundary={boundary}"} | {name.title(): text for name, text in fields.items()}
+    headers = {"Content-Type": f"{kind}; boundary={boundary}"} | {
+        name.replace("_", "-").title(): text for name, text in fields.items()
+    }
     connection.request("POST", f"/models?{parts.query}", body + f"--{boundary}--\r\n".encode(), headers)
     answer = connection.getresponse()
     status, text = answer.status, answer.read().decode().strip()
@@ -81,6 +83,7 @@ def test_a_single_file_is_a_model(page: PageServer) -> None:
         ({"cart.zip": b"PK"}, "the archive cannot be unpacked"),
         ({"cart.zip": zipped({"../model.sdf": ""})}, "is no path of a file"),
         ({"../cart.sdf": b""}, "is no path of a file"),
+        ({"\udcff/model.config": b"", "\udcff/model.sdf": b""}, "is no path of a file"),
         ({"ground_plane/model.config": b"", "ground_plane/m.sdf": b""}, "is on the model path already"),
         ({".hidden": b""}, "no model.config"),
         ({}, "no file was sent"),
@@ -101,6 +104,7 @@ def test_a_body_that_is_no_form_is_refused(page: PageServer) -> None:
         connection.request("POST", "/models", b"nonsense\r\n" * 1000, {"Content-Type": broken})
         assert connection.getresponse().status == 400
         connection.close()
+    assert _post(page.url, {"cart.zip": CART}, content_encoding="gzip")[0] == 400
 
 
 def test_who_only_looks_and_foreign_pages_upload_nothing(page: PageServer) -> None:

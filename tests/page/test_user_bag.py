@@ -1,5 +1,6 @@
 """A person plays a bag: the timeline is scrubbed, and what is shown follows."""
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
     with create_bag(path) as writer:
         for second in range(11):
             writer.write(BagMessage(TEXT, START + second * S, text(f"word {second}")))
-    playing = BagFile(path=str(path), speed=1.0, paused=True)
+    playing = BagFile(path=os.fsencode(path), speed=1.0, paused=True)
     with PageServer.start(Session(title="words", kind="bag"), at=PageAddress(port=0), bag=playing) as server:
         user = PanelUser(chromium, server.url)
         user.open("Timeline")
@@ -52,7 +53,7 @@ def test_each_topic_has_a_lane_from_the_index(chromium: Any, tmp_path: Path) -> 
         writer.write(BagMessage(MAP, START, text("map")))
         for tick in (*range(41), *range(80, 101)):
             writer.write(BagMessage(TEXT, START + tick * S // 10, text(str(tick))))
-    playing = BagFile(path=str(path), speed=1.0, paused=True)
+    playing = BagFile(path=os.fsencode(path), speed=1.0, paused=True)
     with PageServer.start(Session(title="lanes", kind="bag"), at=PageAddress(port=0), bag=playing) as server:
         user = PanelUser(chromium, server.url)
         user.open("Timeline")

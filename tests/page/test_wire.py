@@ -6,7 +6,15 @@ import msgspec
 import pytest
 
 from trundle.page import MoveJoint, PageAction, Play, Request, Reset, SetSpeed, Step
-from trundle.page.wire import Driven, frame, from_server_decoder, read_frame
+from trundle.page.wire import (
+    Driven,
+    Respond,
+    encode_json,
+    frame,
+    from_server_decoder,
+    read_frame,
+    to_server_decoder,
+)
 
 
 @pytest.mark.parametrize(
@@ -21,6 +29,14 @@ def test_a_message_arrives_as_it_was_sent(message: object) -> None:
     pipe = io.BytesIO(frame(message) * 2)
 
     assert [from_server_decoder.decode(read_frame(pipe)) for _ in range(2)] == [message] * 2
+
+
+def test_names_of_files_that_are_no_utf_8_are_sent_readable() -> None:
+    sent = Respond(1, "no \udcff", fields={"models": [{"name": "cart\udcff", "size": 1.5}]})
+    got = to_server_decoder.decode(read_frame(io.BytesIO(frame(sent))))
+
+    assert got == Respond(1, "no ?", fields={"models": [{"name": "cart?", "size": 1.5}]})
+    assert encode_json({"source": ("/\udcff/a.sdf:3", None)}) == b'{"source":["/?/a.sdf:3",null]}'
 
 
 @pytest.mark.parametrize("size", [0, 3, 4, 10])
@@ -51,6 +67,7 @@ def test_a_request_is_read_by_its_name(text: str, action: PageAction) -> None:
         ('{"request": "joint", "model": "a", "joint": "b"}', "give one of 'position', 'velocity' and 'effort'"),
         ('{"request": "joint", "model": "a", "joint": "b", "position": 1, "velocity": 1}', "give one of"),
         ('{"request": "seek", "time_ns": -1}', ">= 0"),
+        (f'{{"request": "joystick", "axes": [], "buttons": [{10**30}]}}', "buttons"),
     ],
 )
 def test_a_request_that_cannot_be_is_refused_with_the_reason(text: str, reason: str) -> None:

@@ -1,5 +1,6 @@
 """`trundle play`: shows a state log or a bag on a page, at any speed."""
 
+import os
 import sys
 import time
 from dataclasses import dataclass
@@ -84,7 +85,7 @@ def play_bag(file: Path, options: PlayOptions) -> int:
     with open_bag(file) as bag:
         if not any(bag.counts):
             raise DescriptionError(Source(str(file)), "nothing was recorded")
-    playing = BagFile(path=str(file.absolute()), speed=options.speed, paused=options.paused)
+    playing = BagFile(path=os.fsencode(file.absolute()), speed=options.speed, paused=options.paused)
     session = Session(title=file.name, kind="bag")
     with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
         say = Console(sys.stderr, Diagnostics()).line

@@ -13,6 +13,13 @@ from .connection import Connection
 from .protocol import FetchAsset, asset_header
 
 _SCHEMES = ("package://", "model://", "file://")
+_KINDS = frozenset(
+    (
+        ".bin", ".bmp", ".dae", ".dds", ".gif", ".glb", ".gltf", ".hdr", ".jpeg", ".jpg", ".ktx2", ".material", ".mtl",
+        ".obj", ".png", ".sdf", ".stl", ".tga", ".tif", ".tiff", ".urdf", ".webp", ".xacro",
+    )
+)  # fmt: skip
+"""Suffixes of meshes, textures, materials and robots: who may only look is not to read the code beside them."""
 _DRAIN_S = 60.0
 _MAX_BYTES = 128 * 1024 * 1024
 MAX_IN_FLIGHT = 64
@@ -73,6 +80,8 @@ class Assets:
         if not uri.startswith(_SCHEMES):
             raise DescriptionError(at, f"{uri[:200]}: files are fetched by {', '.join(_SCHEMES)}")
         path = self._packages.resolve(uri, beside=self._start, at=at)
+        if path.suffix.lower() not in _KINDS and path.is_file():
+            raise DescriptionError(at, f"{uri}: meshes, textures and robots are sent, and no other files")
         size = os.stat(path).st_size
         if size > _MAX_BYTES:
             raise DescriptionError(at, f"{uri}: {size} bytes, more than the {_MAX_BYTES} that are sent")

@@ -22,6 +22,8 @@ from .wire import BagFile
 
 _STEP_NS = 100_000_000
 """A step of a bag [ns]."""
+_MAX_STEPS = 1_000_000
+"""Steps of a bag at most, which are longer then: a stamp of zero makes a bag fifty years long."""
 _MOST_NS = 2_000_000_000
 """Longest part that is read at once [ns]; time waits for slower reading."""
 _PAUSE_S = 0.5
@@ -76,7 +78,8 @@ class BagSource:
     def __init__(self, bag: BagReader, options: BagFile, hub: Hub) -> None:
         """Offer the topics of a bag that has messages."""
         self._hub = hub
-        times_ns = np.arange(bag.start_ns, bag.end_ns, _STEP_NS, dtype=np.int64)
+        step_ns = max(_STEP_NS, (bag.end_ns - bag.start_ns) // _MAX_STEPS)
+        times_ns = np.arange(bag.start_ns, bag.end_ns, step_ns, dtype=np.int64)
         times_ns = np.append(times_ns, np.int64(bag.end_ns))
         self._playback = Playback(times_ns, speed=options.speed, paused=options.paused)
         self._state = BagState(self._playback)

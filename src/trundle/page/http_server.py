@@ -26,6 +26,7 @@ from .world_requests import RenderModel
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
 """Longest message of a client."""
+_MAX_CLIENTS = 100
 _FAREWELL_S = 1.0
 _log = logging.getLogger(__name__)
 _TEXT = "text/plain"
@@ -77,6 +78,7 @@ class HttpServer:
         self._page = page
         self._access = access
         self._files = files
+        self._clients = 0
 
     async def start(self, listening: socket.socket) -> None:
         """Serve connections of a listening socket."""
@@ -155,7 +157,7 @@ class HttpServer:
             if request.content_type != "multipart/form-data":
                 raise UsageError("send the files of a model as a form")
             names = await self._page.upload(await request.multipart())
-        except (UsageError, ValueError, HttpProcessingError) as error:
+        except (UsageError, ValueError, HttpProcessingError, web.RequestPayloadError) as error:
             return web.Response(status=400, text=f"{' '.join(str(error).split())}\n", content_type=_TEXT)
         return web.json_response({"models": names})
 
@@ -177,6 +179,8 @@ class HttpServer:
         offered = [name.strip() for name in request.headers.get("Sec-WebSocket-Protocol", "").split(",")]
         if not any(name in SUBPROTOCOLS for name in offered):
             raise web.HTTPBadRequest(reason=f"this page speaks {', '.join(SUBPROTOCOLS)}")
+        if self._clients >= _MAX_CLIENTS:
+            raise web.HTTPServiceUnavailable(reason=f"{_MAX_CLIENTS} clients are served already")
         web_socket = web.WebSocketResponse(
             protocols=SUBPROTOCOLS, compress=False, autoping=False, autoclose=False, max_msg_size=_MAX_MESSAGE_BYTES,
             decode_text=False,
@@ -191,12 +195,14 @@ class HttpServer:
             is_own=web_socket.ws_protocol == TRUNDLE,
             is_view_only=self._access.is_view_only(_page_request(request)),
         )
+        self._clients += 1
         try:
             while await self._receive(client, await web_socket.receive()):
                 pass
         except Exception:
             _log.exception("a client could not be served")
         finally:
+            self._clients -= 1
             self._page.leave(client)  # first: a robot that it drove is stopped now
             await client.outbox.drain(_FAREWELL_S)
             client.outbox.close()

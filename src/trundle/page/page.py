@@ -106,7 +106,7 @@ class Page:
         )
         self.hub.add_channels([self._session_channel, self._people, self._world, *boxes])
         self.hub.polled += [self._people, *boxes]
-        self._bag = None if start.bag is None else BagSource(open_bag(Path(start.bag.path)), start.bag, self.hub)
+        self._bag = None if start.bag is None else BagSource(open_bag(start.bag.file), start.bag, self.hub)
         if self._bag is not None:
             self.hub.polled.append(self._bag)
         self._graph = None if start.graph is None else RosGraph(start.graph, loop, self.hub, self._owner)

@@ -1,6 +1,7 @@
 """The page's server as its owner sees it: start it, feed it, poll the requests."""
 
 import contextlib
+import os
 import queue
 import shutil
 import subprocess
@@ -56,6 +57,7 @@ from .wire import (
     ToServer,
     Uploaded,
     Watched,
+    encode_json,
     frame,
     from_server_decoder,
     read_frame,
@@ -140,7 +142,7 @@ class PageServer:
             session=session,
             graph=graph,
             bag=bag,
-            source=str((source or Path.cwd()).absolute()),
+            source=os.fsencode((source or Path.cwd()).absolute()),
         )
         server._outgoing.put(start)
         try:
@@ -245,7 +247,7 @@ class PageServer:
         for url, content in files.items():
             self._send(AddFile(url, content))
         self._generation = int(str(manifest["generation"]))
-        self._send(SetWorld(msgspec.json.encode(manifest)))
+        self._send(SetWorld(encode_json(manifest)))
 
     def put_state(self, state: ClockState) -> None:
         """Show the clock's newest state."""

@@ -214,5 +214,5 @@ def service_header(service_id: int, call_id: int) -> bytes:
 
 def asset_header(request_id: int, error: str | None) -> bytes:
     """Header of a file, or the message that says why there is none."""
-    text = b"" if error is None else error.encode()
+    text = b"" if error is None else error.encode("utf-8", "replace")
     return _ASSET_HEADER.pack(4, request_id, int(error is not None), len(text)) + text

@@ -76,7 +76,7 @@ class MoveJoystick(Action, frozen=True, tag="joystick"):
     """Positions of a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order."""
 
     axes: Values
-    buttons: Annotated[tuple[int, ...], msgspec.Meta(max_length=64)]
+    buttons: Annotated[tuple[Literal[0, 1], ...], msgspec.Meta(max_length=64)]
 
 
 class SaveRviz(Action, frozen=True, tag="save_rviz"):

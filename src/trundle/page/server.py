@@ -79,7 +79,7 @@ async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: Pa
     access = Access(
         host=at.host, port=port, allowed=at.allowed, needs_token=at.needs_token, view_token=secrets.token_urlsafe(16)
     )
-    page = Page(start, loop=loop, assets=Assets(os.environ, Path(start.source)), send=pipe.send)
+    page = Page(start, loop=loop, assets=Assets(os.environ, Path(os.fsdecode(start.source))), send=pipe.send)
     reachable = "127.0.0.1" if at.host in ("0.0.0.0", "") else at.host
     authority = f"[{reachable}]:{port}" if ":" in reachable else f"{reachable}:{port}"
     page.addresses = Served(

@@ -4,7 +4,9 @@ They go through the server's standard input and output. Poses, pictures and the 
 only the newest counts, and they lie in mailboxes.
 """
 
+import os
 import struct
+from pathlib import Path
 from typing import IO, Any, TypeAlias
 
 import msgspec
@@ -29,10 +31,16 @@ class GraphAddress(msgspec.Struct, frozen=True, kw_only=True):
 class BagFile(msgspec.Struct, frozen=True, kw_only=True):
     """The bag that the server plays."""
 
-    path: str
+    path: bytes
+    """As the system names it, which may be no UTF-8."""
     speed: float
     """Recorded seconds per second of wall time."""
     paused: bool
+
+    @property
+    def file(self) -> Path:
+        """The bag."""
+        return Path(os.fsdecode(self.path))
 
 
 class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
@@ -50,8 +58,8 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """None: no graph."""
     bag: BagFile | None = None
     """None: the owner puts what is shown."""
-    source: str
-    """File or folder; those around it may be fetched."""
+    source: bytes
+    """File or folder, as the system names it; those around it may be fetched."""
 
 
 class SetSession(msgspec.Struct, frozen=True, tag=True):
@@ -149,9 +157,37 @@ from_server_decoder = msgspec.msgpack.Decoder(FromServer)
 
 
 def frame(message: Start | ToServer | FromServer) -> bytes:
-    """Encode a message with its length."""
-    body = encoder.encode(message)
+    """Encode a message with its length; bytes of file names that are no UTF-8 become question marks."""
+    try:
+        body = encoder.encode(message)
+    except UnicodeEncodeError:
+        body = encoder.encode(_readable(message))
     return _LENGTH.pack(len(body)) + body
+
+
+def encode_json(value: object) -> bytes:
+    """Encode as JSON; bytes of file names that are no UTF-8 become question marks."""
+    try:
+        return msgspec.json.encode(value)
+    except UnicodeEncodeError:
+        return msgspec.json.encode(_readable(value))
+
+
+def _readable(value: object) -> object:
+    """Return a value as builtins with texts that UTF-8 can hold."""
+    return _with_texts(msgspec.to_builtins(value, builtin_types=(bytes,)))
+
+
+def _with_texts(value: Any) -> Any:
+    match value:
+        case str():
+            return value.encode("utf-8", "replace").decode()
+        case dict():
+            return {_with_texts(name): _with_texts(each) for name, each in value.items()}
+        case list() | tuple():
+            return [_with_texts(each) for each in value]
+        case _:
+            return value
 
 
 def read_frame(stream: IO[bytes]) -> bytes:
