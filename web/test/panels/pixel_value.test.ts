@@ -19,4 +19,5 @@ test("channels by name, numbers as they are", () => {
 test("a pixel outside, or of a mosaic, has no value", () => {
   const small = image("mono8", 2, 1, 2, Uint8Array.of(1, 2));
   expect([pixelValue(small, 2, 0), pixelValue(small, 0, 1), pixelValue({ ...small, encoding: "bayer_rggb8" }, 0, 0)]).toEqual([null, null, null]);
+  expect(pixelValue({ ...small, encoding: "8UC99999999999" }, 0, 0)).toBeNull();
 });

@@ -18,7 +18,7 @@ const READS: Readonly<Record<string, readonly [bytes: number, read: Read]>> = {
 function layoutOf(encoding: string): readonly [kind: string, channels: readonly string[]] | null {
   const [, colours, bits] = /^(rgba?|bgra?|mono)(8|16)$/.exec(encoding) ?? [];
   if (colours !== undefined && bits !== undefined) return [`U${bits}`, colours === "mono" ? [""] : Array.from(colours)];
-  const [, size, kind, count] = /^(8|16|32|64)([USF])C(\d*)$/.exec(encoding) ?? [];
+  const [, size, kind, count] = /^(8|16|32|64)([USF])C(\d{0,3})$/.exec(encoding) ?? [];
   if (size === undefined || kind === undefined) return null;
   return [`${kind}${size}`, Array.from({ length: Number(count === "" ? 1 : count) }, () => "")];
 }

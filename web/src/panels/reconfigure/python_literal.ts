@@ -9,12 +9,12 @@ export function parseLiteral(text: string): Literal | undefined {
     const value = reader.value();
     return reader.isAtEnd() ? value : undefined;
   } catch (error) {
-    if (error instanceof SyntaxError) return undefined;
+    if (error instanceof SyntaxError || error instanceof RangeError) return undefined; // or it nests without end
     throw error;
   }
 }
 
-const WORDS: Readonly<Record<string, Literal>> = { True: true, False: false, None: null };
+const WORDS = new Map<string, Literal>([["True", true], ["False", false], ["None", null]]);
 const ESCAPES: Readonly<Record<string, string>> = { n: "\n", t: "\t", r: "\r" };
 
 class Reader {
@@ -38,7 +38,7 @@ class Reader {
     }
     const [word = ""] = /^[\w.+-]+/.exec(this.text.slice(this.at)) ?? [];
     this.at += word.length;
-    const known = WORDS[word];
+    const known = WORDS.get(word);
     if (known !== undefined) return known;
     const number = Number(word);
     if (word === "" || Number.isNaN(number)) throw new SyntaxError(word);
