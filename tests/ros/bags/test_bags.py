@@ -117,6 +117,14 @@ def test_indexes_that_overlap_are_damaged(messages: Messages, tmp_path: Path) ->
         bag.stamps_ns()
 
 
+def test_times_after_all_calendars_are_damaged(messages: Messages, tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    with create_bag(path) as writer:
+        writer.write(BagMessage(_connection(messages, "/a"), 2**63, b"\0\0\0\0"))
+    with pytest.raises(BagError, match="is damaged: its messages are from"):
+        open_bag(path)
+
+
 def _times_of(written: list[BagMessage]) -> dict[str, list[int]]:
     return {topic: [m.stamp_ns for m in written if m.connection.topic == topic] for topic in ("/a", "/b")}
 

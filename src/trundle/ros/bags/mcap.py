@@ -22,6 +22,8 @@ _MAGIC = b"\x89MCAP0\r\n"
 """Start of a file, and its end unless recording was cut off."""
 _LARGEST = 2**30
 """Maximum record length [bytes]."""
+_END_NS = 2**63
+"""Times are below this one [ns], in the year 2262."""
 _INDEX_HEAD = struct.Struct("<BQHI")
 """Opcode and length of a message index, its channel, the length of its entries: time [ns] and offset, 8 bytes each."""
 
@@ -57,6 +59,8 @@ class McapReader:
         statistics = summary.statistics
         self.counts = [statistics.channel_message_counts.get(id_, 0) for id_ in self._by_id]
         self.start_ns, self.end_ns = statistics.message_start_time, statistics.message_end_time
+        if statistics.message_count and not self.start_ns <= self.end_ns < _END_NS:
+            raise BagError(f"{self.path} is damaged: its messages are from {self.start_ns} to {self.end_ns} ns")
         self._message_count = statistics.message_count
         self._chunk_indexes = summary.chunk_indexes
         self.chunks: list[Chunk] = [
