@@ -213,16 +213,15 @@ def _policy(fields: dict[str, str]) -> dict[str, list[str]]:
 
 
 def test_more_clients_than_a_hundred_are_refused_until_one_leaves(page: PageServer) -> None:
-    with ExitStack() as clients:
-        for _ in range(100):
-            last = clients.enter_context(ProtocolClient(page.url))
+    with ExitStack() as stack:
+        clients = [stack.enter_context(ProtocolClient(page.url)) for _ in range(100)]
         with pytest.raises(InvalidStatus) as refused:
             ProtocolClient(page.url)
         assert refused.value.response.status_code == 503
-        last.socket.close()
+        clients[0].socket.close()
         end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
             with suppress(InvalidStatus):
-                clients.enter_context(ProtocolClient(page.url))
+                stack.enter_context(ProtocolClient(page.url))
                 return
     pytest.fail("nobody is served any more")
