@@ -10,6 +10,7 @@ from .atomic_write import write_atomically
 from .diagnostics import UsageError
 
 _MAX_NAMED = 4
+"""Files that a message names."""
 _NAME = re.compile(r'[^\x00-\x1f\x7f-\x9f<>:"|?*\\/\ud800-\udfff]{1,120}')
 _MAX_BYTES = 255
 """Longest name of a file [bytes of UTF-8]."""

@@ -224,4 +224,4 @@ def test_more_clients_than_a_hundred_are_refused_until_one_leaves(page: PageServ
             with suppress(InvalidStatus):
                 stack.enter_context(ProtocolClient(page.url))
                 return
-    pytest.fail("nobody is served any more")
+    pytest.fail("the server answers no client any more")

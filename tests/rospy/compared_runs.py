@@ -102,7 +102,7 @@ def run(repository: Repository, python: str, program: Path) -> Run:
 
 
 def masked(seen: Run) -> Run:
-    """What the observer printed, with numbers masked in all but the messages' values."""
+    """Output of the observer; numbers are masked, except in the values of messages."""
     published = {name: "\n".join(kept) for name, kept in seen["messages"].items()}
     return {
         **{what: _masked_value(value) for what, value in seen.items()},

@@ -1,4 +1,4 @@
-"""What is compared of programs that run at other times."""
+"""Comparison of a program's runs: times and numbers that differ from run to run are masked."""
 
 from tests.rospy.compared_runs import mask, masked
 

@@ -19,7 +19,7 @@ from trundle.spatial import Pose
 
 @pytest.fixture
 def uploads(tmp_path: Path) -> Path:
-    """Of which `cart` needs `wheel`, and nothing needs `lamp`."""
+    """Models `cart`, `wheel` and `lamp`; `cart` names the files of `wheel`, no model those of `lamp`."""
     for name, text in (("cart", "model://wheel/wheel.obj"), ("wheel", "model://cart/"), ("lamp", "")):
         (tmp_path / "uploads" / name).mkdir(parents=True)
         (tmp_path / "uploads" / name / "model.sdf").write_text(f"<sdf><uri>{text}</uri></sdf>")
