@@ -1,31 +1,23 @@
-"""Vector environments on a GPU; Warp's CPU device stands for one."""
+"""Vector environments on a GPU; without one Warp's CPU device stands for it."""
 
 from importlib.util import find_spec
 
 import gymnasium
 import numpy as np
 import pytest
+from tests.warp_device import warp_device
 
 from trundle.bringup.loaded_simulation import load_simulation
 from trundle.diagnostics import UsageError
 from trundle.gym.ready_tasks import READY
 from trundle.gym.vector_env import SimulationVectorEnv
 from trundle.gym.worlds import Task, Worlds
-from trundle.physics import NoGpuError, find_gpu
 
 NAME = "Trundle/CartPole-v0"
 
 
-def _has_gpu() -> bool:
-    try:
-        find_gpu()
-    except NoGpuError:
-        return False
-    return True
-
-
 def test_without_a_gpu_a_warning_says_so_and_the_cpu_steps() -> None:
-    if _has_gpu():
+    if warp_device() != "cpu":
         pytest.skip("there is a GPU")
     with pytest.warns(UserWarning, match="device='cuda': .*; the worlds are stepped by the CPU"):
         envs = gymnasium.make_vec(NAME, num_envs=2, device="cuda")
@@ -51,7 +43,7 @@ def test_episodes_go_as_on_the_cpu_with_falls_and_resets() -> None:
     file, task = READY[NAME]
     cpu, gpu = (
         SimulationVectorEnv(Worlds(load_simulation(str(file)), Task(**task), rows=4, threads=1, gpu=device))
-        for device in (None, "cpu")
+        for device in (None, warp_device())
     )
     cpu.action_space.seed(1)
     ends = 0

@@ -1,4 +1,4 @@
-"""Sweeps whose rows a GPU steps together; Warp's CPU device stands for one."""
+"""Sweeps whose rows a GPU steps together; without one Warp's CPU device stands for it."""
 
 import re
 import subprocess
@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from tests.warp_device import warp_device
 
 import trundle
 from trundle.bringup.sweep.device import batches, device_choice
@@ -72,8 +73,8 @@ def plan(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def stand_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let Warp's CPU device stand for the GPU."""
-    monkeypatch.setattr(device_choice, "find_gpu", lambda: "cpu")
+    """Let Warp's CPU device stand for a GPU where there is none."""
+    monkeypatch.setattr(device_choice, "find_gpu", warp_device)
 
 
 @needs_warp
@@ -115,7 +116,8 @@ def test_a_killed_sweep_goes_on_and_its_table_is_the_same(plan: Path) -> None:
 def _kill_after_a_row(plan: Path) -> None:
     program = (
         "import sys, trundle\nfrom trundle.bringup.sweep.device import device_choice\n"
-        "device_choice.find_gpu = lambda: 'cpu'\ntrundle.sweep(sys.argv[1], device='cuda')"
+        f"device_choice.find_gpu = lambda: {warp_device()!r}\n"
+        "trundle.sweep(sys.argv[1], device='cuda')"
     )
     journal = plan.with_suffix(".sweep") / "journal.jsonl"
     process = subprocess.Popen([sys.executable, "-c", program, plan], stderr=subprocess.DEVNULL)
