@@ -95,3 +95,31 @@ def test_poses_after_a_loss_are_all_of_them(graph_page: PageServer) -> None:
     assert len(stalled.payloads("trundle/poses")) < len(reader.payloads("trundle/poses"))
     assert len(stalled.payloads("trundle/poses")[-1]) == 16 + 20_000 * 32
     assert len(reader.payloads("trundle/poses")[-1]) == 16 + 32
+
+
+def test_poses_reach_a_slow_client_in_order_with_transforms(graph: Graph, graph_page: PageServer) -> None:
+    """Otherwise frames would stand ahead of the robot that carries them."""
+    node = graph.node("robot")
+    cloud = node.advertise("/flood", "std_msgs/UInt8MultiArray")
+    frames = node.advertise("/tf", "tf2_msgs/TFMessage")
+    graph_page.set_world({"generation": 1, "files": []}, {})
+    numbers = range(100, 120)
+    with Stalled(graph_page.url) as stalled, ProtocolClient(graph_page.url) as reader:
+        for client in (stalled, reader):
+            for topic in ("/flood", "/tf", "trundle/poses"):
+                client.subscribe(topic)
+        graph.until(lambda: cloud.has_subscribers and frames.has_subscribers)
+        for count in range(1, 21):
+            cloud.publish({"data": np.zeros(MB, np.uint8)})
+            reader.until(lambda n=count: len(reader.payloads("/flood")) >= n)
+        for count, number in enumerate(numbers, 1):
+            frames.publish({"transforms": [{"child_frame_id": str(number)}]})
+            reader.until(lambda n=count: len(reader.payloads("/tf")) >= n)
+            graph_page.put_poses(number, np.full((3, 7), float(number)))
+            reader.until(lambda n=number: n in [payload[0] for payload in reader.payloads("trundle/poses")])
+        stalled.until(lambda: numbers[-1] in [payload[0] for payload in stalled.payloads("trundle/poses")])
+
+    order = [topic for topic, *_ in stalled.messages if topic != "/flood"]
+    assert order[-2 * len(numbers) :] == ["/tf", "trundle/poses"] * len(numbers)
+    for publisher in (cloud, frames):
+        publisher.unregister()

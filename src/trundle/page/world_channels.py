@@ -85,8 +85,7 @@ class BoxChannel(Channel):
             change, self._read = self.encode_change(self._read), None
             for client in self.clients - self._behind:
                 if client.is_waiting(self):
-                    client.count_drop(self)
-                    self._behind.add(client)
+                    self.send_late(client, time_ns)
                 else:
                     client.send_message(self, time_ns, change)
         ready = {client for client in self._behind if not client.is_waiting(self)}
@@ -95,6 +94,12 @@ class BoxChannel(Channel):
                 client.send_message(self, time_ns, whole)
             self._behind -= ready
         return is_new
+
+    def send_late(self, client: Client, time_ns: int) -> None:
+        """Keep a new message from a client whose last one still waits: it gets the newest one after that."""
+        del time_ns
+        client.count_drop(self)
+        self._behind.add(client)
 
     def receive(self) -> bytes | None:
         """Read the mailbox; return a new message."""
@@ -132,12 +137,16 @@ class RowsChannel(BoxChannel):
 
 
 class PosesChannel(RowsChannel):
-    """Poses: all of them first and after a loss, then only those that changed."""
+    """Poses: all of them first and for a slow client, then only those that changed."""
 
     def __init__(self, world: WorldChannel) -> None:
         super().__init__(POSES, world, period_s=0.0)
         self._time_ns, self._generation = 0, _NO_GENERATION
         self._rows: NDArray[np.float64] = np.empty((0, 7))
+
+    def send_late(self, client: Client, time_ns: int) -> None:
+        """Queue all poses, in order with tf, which is drawn beside them; the queue may drop those before."""
+        client.send_message(self, time_ns, self.encode_whole())
 
     def encode_change(self, message: bytes) -> Sequence[Buffer]:
         last, last_generation = self._rows, self._generation
