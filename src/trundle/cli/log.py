@@ -19,6 +19,8 @@ EXAMPLES = """
 """
 _WAITING = 10_000
 """Queue size for slow terminals; the oldest lines are dropped."""
+_LONGEST_WAIT_S = 0.5
+"""Until Ctrl-C is looked for: Linux may give a signal to another thread, and this one would wait on."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -48,7 +50,10 @@ def main(args: argparse.Namespace) -> int:
     with running_node("log") as (_, node):
         node.subscribe("/rosout_agg", "rosgraph_msgs/Log", on_message, queue_size=None)
         while args.count is None or printed < args.count:
-            message = inbox.get()
+            try:
+                message = inbox.get(timeout=_LONGEST_WAIT_S)
+            except queue.Empty:
+                continue
             if message.level < least or (node_name is not None and not node_name.fullmatch(message.name)):
                 continue
             if found is not None and not found.search(message.msg):
