@@ -5,7 +5,7 @@ import { effect, untracked } from "@preact/signals";
 import type { Outlined } from "../scene/world/selection_outline";
 import type { Page } from "../page/page";
 import { colourOf, nameOf, others } from "../page/people";
-import { selectedBodies } from "../page/selected";
+import { selectedBodies } from "../page/selection_lookup";
 
 /** An outline for each of the others who has selected something. */
 export function othersOutlines(page: Page): readonly Outlined[] {

@@ -9,7 +9,7 @@ import { bodiesOf } from "../page/world_nodes";
 import type { Transform } from "../frames/transform";
 import type { RequestAnswer } from "../protocol/connection";
 import type { Draft, FieldValue, PartPath } from "../scene/draft";
-import { poseFields, type Fields } from "../page/fields";
+import { poseFields, type Fields } from "../page/request_fields";
 
 /** From what is there to a new model, and half of what the view shows around it [m]. */
 const BESIDE = 1.5;

@@ -4,7 +4,7 @@ import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 
 import type { Connection, SharedSelection } from "../protocol/connection";
 import type { Selection } from "./page";
-import { placed } from "./selected";
+import { placed } from "./selection_lookup";
 
 export interface Person {
   readonly number: number;

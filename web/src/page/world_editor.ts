@@ -3,7 +3,7 @@
 import type { Quaternion, Vector3 } from "three";
 
 import type { SimulatedWorld } from "../scene/simulated_world";
-import type { Fields } from "./fields";
+import type { Fields } from "./request_fields";
 
 export interface WorldEditor {
   readonly world: SimulatedWorld;

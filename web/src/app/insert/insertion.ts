@@ -9,8 +9,8 @@ import type { Command, Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { ModelUpload } from "./model_upload";
 import { canEdit } from "../world/edits";
-import { findModel } from "../../page/selected";
-import type { Fields } from "../../page/fields";
+import { findModel } from "../../page/selection_lookup";
+import type { Fields } from "../../page/request_fields";
 
 /** A model of the model path, as the server lists it. */
 export type ModelEntry = NonNullable<RequestAnswer["models"]>[number];

@@ -8,7 +8,7 @@ import { Button } from "../../theme/button";
 import { copyModel, deleteModel, holdModel } from "../world/model_edits";
 import type { Shell } from "../shell";
 import { NumbersRow } from "./value_rows";
-import { withNumber } from "../../page/fields";
+import { withNumber } from "../../page/request_fields";
 
 const LIMITS = { min: -1e6, max: 1e6 };
 const AXES = ["x", "y", "z"] as const;

@@ -18,7 +18,7 @@ import { ShownSection } from "../views/view_menu";
 import { sensorIcon } from "../../page/world_nodes";
 import { KeyValue } from "./value_rows";
 import { LightSections, WorldSections } from "./world_sections";
-import { findJoint, findLink, findModel, findPlugin, findSensor } from "../../page/selected";
+import { findJoint, findLink, findModel, findPlugin, findSensor } from "../../page/selection_lookup";
 
 export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
   const selection = shell.page.selection.value;

@@ -13,7 +13,7 @@ import { PlotMenu } from "./plot_menu";
 import type { Shell } from "../shell";
 import { NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
-import type { Fields } from "../../page/fields";
+import type { Fields } from "../../page/request_fields";
 
 /** Range of a velocity slider [rad/s or m/s]. */
 const FASTEST = 10;

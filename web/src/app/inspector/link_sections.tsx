@@ -15,7 +15,7 @@ import { TwistSection } from "./twist_section";
 import { KeyValue, NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
 import { bodiesOf } from "../../page/world_nodes";
-import { poseFields, withNumber, type Fields } from "../../page/fields";
+import { poseFields, withNumber, type Fields } from "../../page/request_fields";
 
 /** Lightest and heaviest link that the server takes [kg]. */
 const MASSES = { min: 1e-6, max: 1e6 };

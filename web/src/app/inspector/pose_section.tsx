@@ -7,7 +7,7 @@ import { fixed } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
 import { useSampled } from "../sampled";
 import { rollPitchYaw } from "./twist";
-import { orientationOf, withNumber } from "../../page/fields";
+import { orientationOf, withNumber } from "../../page/request_fields";
 
 const DEGREE = Math.PI / 180;
 const AXES = ["x", "y", "z"] as const;

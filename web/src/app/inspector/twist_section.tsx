@@ -8,7 +8,7 @@ import { NumberField } from "../../theme/number_field";
 import type { Page } from "../../page/page";
 import { useSampled } from "../sampled";
 import { MotionSamples, type Twist } from "./twist";
-import { withNumber } from "../../page/fields";
+import { withNumber } from "../../page/request_fields";
 
 const STILL: Twist = { linear: [0, 0, 0], angular: [0, 0, 0] };
 

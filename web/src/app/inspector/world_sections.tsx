@@ -9,7 +9,7 @@ import { deleteLight } from "../world/model_edits";
 import type { Shell } from "../shell";
 import { KeyValue, NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
-import { withNumber, type Fields } from "../../page/fields";
+import { withNumber, type Fields } from "../../page/request_fields";
 
 const MILLI = 1e-3;
 const AXES = ["x", "y", "z"] as const;

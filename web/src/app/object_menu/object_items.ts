@@ -12,7 +12,7 @@ import type { Shell } from "../shell";
 import { PART_NAMES, partsOf, toggleHidden } from "../views/shown_parts";
 import { canEdit } from "../world/edits";
 import { openWrench } from "./open_wrench";
-import { findModel, placed } from "../../page/selected";
+import { findModel, placed } from "../../page/selection_lookup";
 
 type InModel = Extract<Selection, { kind: "model" | "link" }>;
 

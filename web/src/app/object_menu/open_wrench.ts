@@ -2,7 +2,7 @@
 
 import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";
-import { findModel } from "../../page/selected";
+import { findModel } from "../../page/selection_lookup";
 
 /** Select the link, or a model's first, and go to the form's first field. */
 export function openWrench({ page, layout }: Shell, selection: Extract<Selection, { kind: "model" | "link" }>): void {

@@ -4,7 +4,7 @@ import type { CameraInfo } from "../../scene/simulated_world";
 import { isFollowing, robotTarget, targetOf } from "./following";
 import type { Command, Page } from "../../page/page";
 import { allModels } from "../../page/world_nodes";
-import { selectedBodies } from "../../page/selected";
+import { selectedBodies } from "../../page/selection_lookup";
 
 /** Height over what is ridden on [m]. */
 const OVER = 0.05;

@@ -3,7 +3,7 @@
 import { FIXED_FRAME } from "../../rviz/properties";
 import { simulatedRobot } from "./framing";
 import type { Page, Selection } from "../../page/page";
-import { findJoint, findModel, placed } from "../../page/selected";
+import { findJoint, findModel, placed } from "../../page/selection_lookup";
 
 const TARGET = "Target Frame";
 

@@ -6,7 +6,7 @@ import { isEnabled, withMembers } from "../../displays/group";
 import { NoTransform, type Transform } from "../../frames/transform";
 import type { Page, Selection } from "../../page/page";
 import { bodiesOf, robotOf, type ScopedModel } from "../../page/world_nodes";
-import { findLink, placed, selectedBodies } from "../../page/selected";
+import { findLink, placed, selectedBodies } from "../../page/selection_lookup";
 
 /** Frame a selection; with none the robot, else all there is. */
 export function frameSelection(page: Page, selection: Selection | null): void {

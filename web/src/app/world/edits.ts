@@ -3,7 +3,7 @@
 import type { SimulatedWorld } from "../../scene/simulated_world";
 import type { WorldEditor } from "../../page/world_editor";
 import { canControl } from "../../page/looking";
-import type { Fields } from "../../page/fields";
+import type { Fields } from "../../page/request_fields";
 import type { Shell } from "../shell";
 
 /**

@@ -8,7 +8,7 @@ import type { Shell } from "../shell";
 import { canEdit, editWorld } from "./edits";
 import { bodiesOf } from "../../page/world_nodes";
 import type { ModelInfo } from "../../scene/simulated_world";
-import { findModel } from "../../page/selected";
+import { findModel } from "../../page/selection_lookup";
 
 /** Gap between a model and its copy [m]. */
 const GAP = 0.1;

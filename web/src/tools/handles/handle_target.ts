@@ -9,8 +9,8 @@ import type { Transform } from "../../frames/transform";
 import type { JointInfo, LightInfo, SixNumbers } from "../../scene/simulated_world";
 import { fixed } from "../../theme/format";
 import type { WorldEditor } from "../../page/world_editor";
-import { findJoint, findLink, findModel } from "../../page/selected";
-import { orientationOf, poseFields, type Fields } from "../../page/fields";
+import { findJoint, findLink, findModel } from "../../page/selection_lookup";
+import { orientationOf, poseFields, type Fields } from "../../page/request_fields";
 
 /** A request to the server, as its name and fields. */
 export interface Asked {

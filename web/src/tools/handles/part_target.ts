@@ -7,7 +7,7 @@ import type { SixNumbers } from "../../scene/simulated_world";
 import type { Asked, Drawn, HandleTarget } from "./handle_target";
 import type { WorldEditor } from "../../page/world_editor";
 import { findPart, linkAround, type PartPath, bodiesOfPart } from "../../scene/draft";
-import { orientationOf, poseFields } from "../../page/fields";
+import { orientationOf, poseFields } from "../../page/request_fields";
 
 /** The handles of a part's link, or of the model; null: they move nothing. */
 export function partTarget(editor: WorldEditor, path: PartPath): HandleTarget | null {

@@ -8,7 +8,7 @@ import { selectionOf } from "../picked";
 import type { PointerInput } from "../../scene/pointer_input";
 import type { WorldEditor } from "../../page/world_editor";
 import { LatestRequest } from "./latest_request";
-import { findModel } from "../../page/selected";
+import { findModel } from "../../page/selection_lookup";
 
 /** Time after which the server hears again of a pull that rests [ms]; after a second it lets go, however slowly pictures are drawn. */
 const RENEWAL = 300;

@@ -7,7 +7,7 @@ import type { Shell } from "../../../src/app/shell";
 import { rollPitchYaw } from "../../../src/app/inspector/twist";
 import { editWorld } from "../../../src/app/world/edits";
 import { fakePage } from "../../fake_page";
-import { orientationOf, poseFields, withNumber } from "../../../src/page/fields";
+import { orientationOf, poseFields, withNumber } from "../../../src/page/request_fields";
 
 function fakeShell(answer: () => Promise<unknown>): { shell: Shell; sent: object[] } {
   const page = fakePage();

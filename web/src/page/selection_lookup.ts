@@ -1,4 +1,4 @@
-/** What a selection is in the world. */
+/** Finding what a selection names in the world. */
 
 import { bodiesOfPart } from "../scene/draft";
 import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../scene/simulated_world";
