@@ -19,7 +19,7 @@ _PATIENCE_MS = 120_000
 _DRAWN = """() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(() => {
   const gl = document.querySelector("canvas[aria-label='3D view']").getContext("webgl2");
   gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until all before it is drawn
-  resolve();
+  requestAnimationFrame(() => requestAnimationFrame(resolve));  // and shown
 }))))"""
 
 

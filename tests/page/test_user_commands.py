@@ -24,10 +24,17 @@ def test_each_command_of_the_table_is_on_the_page(chromium: Any, tmp_path: Path)
         user = PanelUser(chromium, url)
         user.page.get_by_role("treeitem").get_by_text("crate", exact=True).click()
         user.page.get_by_role("heading", name="crate", exact=True).wait_for()
+        offered = _offered(user)
+        user.page.keyboard.press("Delete")
+        user.button("Undo: Delete crate").wait_for()
+        offered |= _offered(user)
+        user.page.keyboard.press("Control+z")
+        user.button("Redo: Delete crate").wait_for()
+        offered |= _offered(user)
         user.button("Search commands, Ctrl K").click()
-        rows = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
-        parts = "row => ['span', 'kbd'].map(part => row.querySelector(part)?.innerText ?? '')"
-        offered = dict(rows.evaluate_all(f"all => all.map({parts})"))
+        user.page.get_by_role("option", name="New model…").click()
+        user.page.get_by_role("heading", name="model", exact=True).wait_for()
+        offered |= _offered(user)
         user.close()
 
     assert len(named) > 50
@@ -37,3 +44,14 @@ def test_each_command_of_the_table_is_on_the_page(chromium: Any, tmp_path: Path)
         if title not in offered or (keys and offered[title] != keys.replace("Escape", "Esc"))
     }
     assert wrong == set()
+
+
+def _offered(user: PanelUser) -> dict[str, str]:
+    """Return the commands that can run now, each with its keys."""
+    user.button("Search commands, Ctrl K").click()
+    rows = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
+    rows.first.wait_for()
+    parts = "row => ['span', 'kbd'].map(part => row.querySelector(part)?.innerText ?? '')"
+    offered = dict(rows.evaluate_all(f"all => all.map({parts})"))
+    user.page.keyboard.press("Escape")
+    return offered

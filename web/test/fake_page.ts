@@ -66,6 +66,7 @@ export class FakeWorld implements SimulatedWorld {
 }
 
 export class FakeScene implements SceneView {
+  readonly isSlow = false;
   readonly status = signal<SceneView["status"]["value"]>({ kind: "drawing" });
   readonly displays = new Group();
   readonly world = new Group();

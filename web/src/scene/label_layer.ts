@@ -68,6 +68,7 @@ export class LabelSet {
 
 export class LabelLayer {
   readonly canvas = document.createElement("canvas");
+  private readonly context = this.canvas.getContext("2d");
   /** The canvas' style as it is now, whenever it is read. */
   private readonly style = getComputedStyle(this.canvas);
   private readonly known = new WeakMap<SceneLabel, Seen>();
@@ -77,6 +78,10 @@ export class LabelLayer {
   private pointer: { readonly x: number; readonly y: number } | null = null;
   private hovered: SceneLabel | null = null;
   private font = "";
+  private size: PictureSize = { width: 0, height: 0 };
+  private pixelRatio = 1;
+  /** True if there was no label, and is none. */
+  private isEmpty = true;
 
   constructor(private readonly set: LabelSet) {
     Object.assign(this.canvas.style, { position: "absolute", pointerEvents: "none" });
@@ -91,18 +96,26 @@ export class LabelLayer {
     this.set.onChange();
   }
 
-  draw(camera: Camera, size: PictureSize, pixelRatio: number): void {
-    const context = this.canvas.getContext("2d");
+  /** Place the labels as a picture of a size [px] needs them. */
+  place(camera: Camera, size: PictureSize, pixelRatio: number): void {
+    this.isEmpty = this.set.labels.size === 0 && this.seen.length === 0;
+    this.size = size;
+    this.pixelRatio = pixelRatio;
+    this.font = this.style.getPropertyValue("--font") || "sans-serif";
+    this.findSeen(camera, size);
+    layoutLabels(this.seen, size.width, size.height);
+  }
+
+  /** Draw the labels where they were placed. */
+  show(): void {
+    const { context, size, pixelRatio } = this;
     if (context === null) return;
     const width = Math.round(size.width * pixelRatio);
     const height = Math.round(size.height * pixelRatio);
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    else if (this.set.labels.size === 0 && this.seen.length === 0) return; // it is empty
+    else if (this.isEmpty) return;
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     context.clearRect(0, 0, size.width, size.height);
-    this.font = this.style.getPropertyValue("--font") || "sans-serif";
-    this.findSeen(camera, size, context);
-    layoutLabels(this.seen, size.width, size.height);
     for (const each of this.seen) if (each.corner >= 0) this.drawLabel(context, each);
   }
 
@@ -150,7 +163,7 @@ export class LabelLayer {
     context.font = isBold ? `600 ${SIZE}px ${this.font}` : `${SIZE}px ${this.font}`;
   }
 
-  private findSeen(camera: Camera, size: PictureSize, context: CanvasRenderingContext2D): void {
+  private findSeen(camera: Camera, size: PictureSize): void {
     this.seen.length = 0;
     for (const label of this.set.labels) {
       if (!isShown(label.anchor)) continue;
@@ -161,7 +174,7 @@ export class LabelLayer {
       seen.y = at.y;
       seen.distance = at.z;
       seen.hovered = label === this.hovered || label.colour !== undefined;
-      this.measure(context, seen);
+      if (this.context !== null) this.measure(this.context, seen);
       this.seen.push(seen);
     }
   }

@@ -92,6 +92,8 @@ export interface DrawStep {
 
 export interface SceneView {
   readonly status: ReadonlySignal<SceneStatus>;
+  /** True where the browser draws on the CPU: edges are not smoothed then. */
+  readonly isSlow: boolean;
   /** Root of displays, in the fixed frame: x forward, z up [m]. */
   readonly displays: Group;
   /** Root of the simulated world, placed at its frame in the fixed frame. */

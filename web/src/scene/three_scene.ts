@@ -11,12 +11,12 @@ import { drawingCanvas, pixelRatio } from "./drawing_canvas";
 import { NO_INSETS, type Area } from "./free_area";
 import { GroundGrid } from "./ground_grid";
 import { LabelSet } from "./label_layer";
+import { OffscreenPicture } from "./offscreen_picture";
 import { pickBox } from "./box_picking";
 import type { Pane } from "./panes/pane";
 import { panePlaces, type PanePlace } from "./panes/pane_layout";
 import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
-import { UnfinishedPicture } from "./unfinished_picture";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
 const NO_WEBGL = "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
@@ -55,17 +55,16 @@ export class ThreeScene implements SceneView {
   private frame = 0;
   /** Of the last picture; 0 before the first. */
   private pixelRatio = 0;
-  /** True where the browser draws on the CPU: edges are not smoothed then. */
   readonly isSlow: boolean;
-  /** Null where pictures are drawn at once. */
-  private readonly unfinished: UnfinishedPicture | null;
+  /** Null where drawing holds nothing up. */
+  private readonly offscreen: OffscreenPicture | null;
 
   /** Fills `host`, which is positioned. */
   constructor(private readonly host: HTMLElement) {
     const { element, context, isSlow } = drawingCanvas();
     this.element = element;
     this.isSlow = isSlow;
-    this.unfinished = isSlow && context !== null ? new UnfinishedPicture(context) : null;
+    this.offscreen = isSlow && context !== null ? new OffscreenPicture(context) : null;
     this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
     this.element.setAttribute("aria-label", "3D view");
@@ -135,6 +134,7 @@ export class ThreeScene implements SceneView {
     const size = { width: width / ratio, height: height / ratio };
     const places = panePlaces(this.panes.layout.peek(), size, NO_INSETS, 0);
     this.draw(size, ratio, places);
+    this.show();
     const { drawingBufferWidth, drawingBufferHeight } = this.renderer.getContext();
     context.drawImage(this.element, 0, 0, width, height);
     this.panes.shown.peek().forEach(({ labels }, index) => {
@@ -219,13 +219,18 @@ export class ThreeScene implements SceneView {
 
   private tick(now: number): void {
     this.frame = requestAnimationFrame((next) => this.tick(next));
+    const { offscreen } = this;
+    if (offscreen?.isBegun === true) {
+      if (offscreen.isDone()) this.show();
+      return;
+    }
     const elapsed = Math.min(0.25, (now - this.last) / 1000);
     this.last = now;
     for (const callback of this.ticks) callback(elapsed);
-    if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost" || this.unfinished?.isDone() === false) return;
+    if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
     this.isChanged = false;
-    this.draw(this.size.peek(), this.ratio, this.panes.places.peek());
-    this.unfinished?.begin();
+    if (this.draw(this.size.peek(), this.ratio, this.panes.places.peek()) || offscreen === null) this.show();
+    else offscreen.begin();
   }
 
   /** Device pixels per pixel of the element. */
@@ -234,17 +239,20 @@ export class ThreeScene implements SceneView {
     return pixelRatio(width, height, this.isSlow);
   }
 
-  /** Fit the canvas to a size [px]. */
-  private fit({ width, height }: PictureSize, ratio: number): void {
+  /** Fit the canvas to a size [px]; true: it had another one, and is empty. */
+  private fit({ width, height }: PictureSize, ratio: number): boolean {
     const isSame = ratio === this.pixelRatio && this.element.width === Math.floor(width * ratio) && this.element.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
       this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
     }
+    this.offscreen?.fit(this.element.width, this.element.height);
     this.pixelRatio = ratio;
+    return !isSame;
   }
 
-  private draw(size: PictureSize, ratio: number, places: readonly PanePlace[]): void {
-    this.fit(size, ratio);
+  /** Draw a picture, which `show` puts before the person; true: the canvas has another size, and is empty. */
+  private draw(size: PictureSize, ratio: number, places: readonly PanePlace[]): boolean {
+    const isResized = this.fit(size, ratio);
     const { renderer } = this;
     const shown = this.panes.shown.peek();
     if (renderer !== null) for (const step of this.steps) step.before?.(renderer);
@@ -253,12 +261,18 @@ export class ThreeScene implements SceneView {
       const place = places[i];
       if (pane !== undefined && place !== undefined) this.drawPane(pane, place, ratio, shown.length > 1 ? size : null);
     }
-    if (renderer === null) return;
-    if (shown.length > 1) {
+    if (renderer !== null && shown.length > 1) {
       renderer.setScissorTest(false);
       renderer.setViewport(0, 0, size.width, size.height);
     }
-    for (const step of this.steps) step.after?.(renderer);
+    return isResized;
+  }
+
+  /** Show what was drawn, with its labels and axes. */
+  private show(): void {
+    this.offscreen?.show();
+    for (const pane of this.panes.shown.peek()) pane.showOver();
+    if (this.renderer !== null) for (const step of this.steps) step.after?.(this.renderer);
   }
 
   /** Draw a pane, which is a part of a picture of this size; null: it is the whole picture. */
@@ -281,6 +295,6 @@ export class ThreeScene implements SceneView {
       renderer.render(this.scene, camera);
       for (const step of this.steps) step.afterPane?.(renderer, camera);
     }
-    pane.drawOver(area, ratio);
+    pane.placeOver(area, ratio);
   }
 }

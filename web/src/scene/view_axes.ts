@@ -1,6 +1,6 @@
 /** The axes at the top right: they show how the camera stands, and a press on an end looks from that side. */
 
-import { Matrix4, Vector3, type Camera } from "three";
+import { Matrix4, Vector3 } from "three";
 
 import type { SixSides } from "./view_controller";
 
@@ -32,8 +32,8 @@ export class ViewAxes {
   private readonly tips: Tip[];
   private readonly turned = new Vector3();
   private order = "";
-  /** Of the camera, as it is drawn. */
-  private readonly drawn = new Matrix4();
+  /** Of the camera, as it is shown. */
+  private readonly shown = new Matrix4();
 
   constructor(onPress: (side: SixSides) => void) {
     Object.assign(this.element.style, { position: "absolute", touchAction: "none" });
@@ -68,12 +68,12 @@ export class ViewAxes {
     return { axis: new Vector3(...end.axis), side: end.side, group, line };
   }
 
-  /** Turn with the camera; nearer ends lie over farther ones. */
-  draw(camera: Camera): void {
-    if (this.drawn.equals(camera.matrixWorldInverse) && this.order !== "") return;
-    this.drawn.copy(camera.matrixWorldInverse);
+  /** Turn with the camera, whose place's inverse is given; nearer ends lie over farther ones. */
+  show(view: Matrix4): void {
+    if (this.shown.equals(view) && this.order !== "") return;
+    this.shown.copy(view);
     const placed = this.tips.map((tip) => {
-      const at = this.turned.copy(tip.axis).transformDirection(camera.matrixWorldInverse);
+      const at = this.turned.copy(tip.axis).transformDirection(view);
       const [x, y, depth] = [LENGTH * at.x, -LENGTH * at.y, at.z];
       tip.group.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
       tip.line?.setAttribute("x2", x.toFixed(2));

@@ -5,8 +5,6 @@ import { effect, signal } from "@preact/signals";
 import { drawPicture, PictureStream, type Picture, type PictureSource } from "../../displays/pictures/picture_stream";
 import type { Connection } from "../../protocol/connection";
 
-const REST = 1000; // ms
-
 export class CameraSamples implements PictureSource {
   readonly picture = signal<Picture | null>(null);
   readonly fault = signal<string | null>(null);
@@ -17,6 +15,8 @@ export class CameraSamples implements PictureSource {
   constructor(
     private readonly connection: Connection,
     private readonly topic: string,
+    /** Pause after each picture [ms]. */
+    private readonly pause: number,
   ) {
     this.take();
   }
@@ -36,7 +36,7 @@ export class CameraSamples implements PictureSource {
       const image = document.createElement("canvas"); // the stream's own picture ends with it
       drawPicture(image, picture);
       this.picture.value = { ...picture, image };
-      this.timer = setTimeout(() => this.take(), REST);
+      this.timer = setTimeout(() => this.take(), this.pause);
       queueMicrotask(() => this.rest()); // not while the stream tells of its picture
     });
   }

@@ -40,6 +40,10 @@ export function CameraTiles({ shell }: { readonly shell: Shell }): JSX.Element |
   );
 }
 
+/** Rest after each picture of a tile that nothing makes live, and of a live one where the CPU draws the scene [ms]. */
+const REST = 1000;
+const SLOW_REST = 200;
+
 interface TileProps {
   readonly shell: Shell;
   readonly camera: CameraTopic;
@@ -48,7 +52,7 @@ interface TileProps {
 }
 
 function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
-  const { connection, drive } = shell.page;
+  const { connection, drive, scene } = shell.page;
   const tile = useRef<HTMLElement>(null);
   const isSeen = useSeen(tile);
   const isPointedAt = useSignal(false);
@@ -56,10 +60,11 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
   const { display } = camera;
   const topic = display === undefined ? streamedTopic(camera.topic, connection.topics.value, location.hostname) : camera.topic;
   const isLive = camera.rate === null || isLarge || isPointedAt.value || drive.command.value !== null;
-  const stream = useStream(shell, isSeen && display === undefined ? topic : null, isLive);
+  const rest = !isLive ? REST : scene.isSlow ? SLOW_REST : 0;
+  const stream = useStream(shell, isSeen && display === undefined ? topic : null, rest);
   const source = display ?? stream;
   const fault = display === undefined ? (stream?.fault.value ?? null) : displayFault(display);
-  const hertz = !wasDrawn.value ? null : isLive ? connection.statistics(topic).rate : camera.rate;
+  const hertz = !wasDrawn.value ? null : rest === 0 || display !== undefined ? connection.statistics(topic).rate : camera.rate;
   return (
     <figure
       ref={tile}
@@ -96,19 +101,19 @@ function displayFault(display: PictureDisplay): string | null {
   return fault?.text ?? null;
 }
 
-/** Pictures of a topic while there is one to read: all of them, or one now and then. The last one stays till the next. */
-function useStream(shell: Shell, topic: string | null, isLive: boolean): PictureStream | CameraSamples | null {
+/** Pictures of a topic while there is one to read, with rests between them [ms]; 0: all of them. The last one stays till the next. */
+function useStream(shell: Shell, topic: string | null, rest: number): PictureStream | CameraSamples | null {
   const [stream, setStream] = useState<PictureStream | CameraSamples | null>(null);
   useEffect(() => {
     if (topic === null) return undefined;
     const { connection } = shell.page;
-    const opened = isLive ? new PictureStream(connection, topic) : new CameraSamples(connection, topic);
+    const opened = rest === 0 ? new PictureStream(connection, topic) : new CameraSamples(connection, topic, rest);
     setStream(opened);
     return () => {
       setStream(null);
       opened.close();
     };
-  }, [shell, topic, isLive]);
+  }, [shell, topic, rest]);
   return stream;
 }
 

@@ -1,7 +1,7 @@
 /** A part of the scene with a camera, labels and axes of its own. */
 
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
-import { PerspectiveCamera, type OrthographicCamera } from "three";
+import { Matrix4, PerspectiveCamera, type OrthographicCamera } from "three";
 
 import { centreOn, freeArea, type Area } from "../free_area";
 import { LabelLayer, type LabelSet } from "../label_layer";
@@ -24,6 +24,8 @@ export class Pane {
   /** A side of the view axes was pressed. */
   onSide: (side: SixSides) => void = () => undefined;
   private readonly axes = new ViewAxes((side) => this.onSide(side));
+  /** Inverse of the camera's place in the picture that was drawn last. */
+  private readonly drawn = new Matrix4();
   private readonly stop: () => void;
 
   constructor(host: HTMLElement, labels: LabelSet) {
@@ -55,11 +57,17 @@ export class Pane {
     camera.updateMatrixWorld();
   }
 
-  /** Draw labels and axes over the picture. */
-  drawOver(size: PictureSize, pixelRatio: number): void {
+  /** Place labels and axes as the picture that is drawn now needs them. */
+  placeOver(size: PictureSize, pixelRatio: number): void {
     const camera = this.camera.peek();
-    this.labels.draw(camera, size, pixelRatio);
-    this.axes.draw(camera);
+    this.labels.place(camera, size, pixelRatio);
+    this.drawn.copy(camera.matrixWorldInverse);
+  }
+
+  /** Show labels and axes where they were placed. */
+  showOver(): void {
+    this.labels.show();
+    this.axes.show(this.drawn);
   }
 
   private putElements({ area: { left, top, width, height }, insets }: PanePlace): void {

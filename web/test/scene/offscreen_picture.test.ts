@@ -1,0 +1,106 @@
+import { describe, expect, it } from "vitest";
+
+import { OffscreenPicture } from "../../src/scene/offscreen_picture";
+
+const [READ, DRAW, BOTH, BACK, COLOUR, DEPTH, UNSIGNALED, SIGNALED] = [1, 2, 3, 4, 5, 6, 7, 8];
+
+/** A context that notes where things are drawn and what is copied. */
+class FakeContext {
+  readonly READ_FRAMEBUFFER = READ;
+  readonly DRAW_FRAMEBUFFER = DRAW;
+  readonly FRAMEBUFFER = BOTH;
+  readonly BACK = BACK;
+  readonly COLOR_ATTACHMENT0 = COLOUR;
+  readonly DEPTH_ATTACHMENT = DEPTH;
+  readonly UNSIGNALED = UNSIGNALED;
+  readonly canvas = new EventTarget();
+  /** Where it draws, and from where it reads; null: the canvas. */
+  readonly bound: Record<number, unknown> = {};
+  readonly copies: unknown[] = [];
+  readonly sizes: unknown[] = [];
+  chosen: readonly number[] = [];
+  status = UNSIGNALED;
+  private made = 0;
+
+  bindFramebuffer(target: number, framebuffer: unknown): void {
+    for (const part of target === BOTH ? [READ, DRAW] : [target]) this.bound[part] = framebuffer;
+  }
+  drawBuffers(buffers: readonly number[]): void {
+    this.chosen = buffers;
+  }
+  createFramebuffer(): unknown {
+    this.made += 1;
+    return `framebuffer ${this.made}`;
+  }
+  createRenderbuffer(): unknown {
+    return {};
+  }
+  renderbufferStorage(_target: number, _format: number, width: number, height: number): void {
+    this.sizes.push([width, height]);
+  }
+  blitFramebuffer(...[left, top, right, bottom]: number[]): void {
+    this.copies.push({ from: this.bound[READ], to: this.bound[DRAW], area: [left, top, right, bottom] });
+  }
+  fenceSync(): unknown {
+    return "sync";
+  }
+  getSyncParameter(): number {
+    return this.status;
+  }
+  bindRenderbuffer(): void {}
+  framebufferRenderbuffer(): void {}
+  flush(): void {}
+  deleteSync(): void {}
+}
+
+function begun(): { context: FakeContext; picture: OffscreenPicture } {
+  const context = new FakeContext();
+  const picture = new OffscreenPicture(context as unknown as WebGL2RenderingContext);
+  picture.fit(30, 20);
+  return { context, picture };
+}
+
+describe("a picture beside the canvas", () => {
+  it("takes what would be drawn to the canvas, and nothing else", () => {
+    const { context } = begun();
+
+    context.bindFramebuffer(BOTH, null);
+    context.drawBuffers([BACK]);
+    expect([context.bound[DRAW], context.chosen]).toEqual(["framebuffer 1", [COLOUR]]);
+    context.bindFramebuffer(BOTH, "another");
+    expect(context.bound[DRAW]).toBe("another");
+  });
+
+  it("is copied to the canvas once it is done, and drawn to again", () => {
+    const { context, picture } = begun();
+
+    picture.begin();
+    expect([picture.isBegun, picture.isDone()]).toEqual([true, false]);
+    context.status = SIGNALED;
+    expect(picture.isDone()).toBe(true);
+    picture.show();
+    expect(picture.isBegun).toBe(false);
+    expect(context.copies).toEqual([{ from: "framebuffer 1", to: null, area: [0, 0, 30, 20] }]);
+    expect(context.bound[DRAW]).toBe("framebuffer 1");
+  });
+
+  it("takes another size only where it is another one", () => {
+    const { context, picture } = begun();
+    const before = context.sizes.length;
+
+    picture.fit(30, 20);
+    expect(context.sizes.length).toBe(before);
+    picture.fit(60, 20);
+    expect(context.sizes.slice(before)).toEqual([[60, 20], [60, 20]]);
+  });
+
+  it("is made anew, as large as before, after its context was lost", () => {
+    const { context, picture } = begun();
+
+    picture.begin();
+    context.canvas.dispatchEvent(new Event("webglcontextrestored"));
+    context.bindFramebuffer(BOTH, null);
+    expect([context.bound[DRAW], picture.isBegun]).toEqual(["framebuffer 2", false]);
+    expect(context.sizes.at(-1)).toEqual([30, 20]);
+  });
+});
