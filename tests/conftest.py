@@ -1,5 +1,6 @@
 """Fixtures every room's tests share."""
 
+import os
 import signal
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,7 +9,11 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+from trundle import packages
+
 _SHARED = Path(__file__).resolve().parents[2] / "shared"
+_VARIABLES = ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", packages.ALLOW_OUTSIDE, packages.LENIENT)
+"""A user's shell may have set them, and commands that run in this process set them."""
 _CHROMIUM = Path("/usr/bin/chromium")
 _SOFTWARE_GL = (
     "--no-sandbox",
@@ -27,6 +32,8 @@ _SOFTWARE_GL = (
 
 def pytest_configure() -> None:
     """Make tests repeatable, and reset signals that programs would inherit as ignored from background jobs or nohup."""
+    for variable in _VARIABLES:
+        os.environ.pop(variable, None)
     # Tests are the same on each run and on a slow machine; `--hypothesis-profile default` draws new examples.
     quiet = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
     settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=quiet)
@@ -38,9 +45,10 @@ def pytest_configure() -> None:
 
 
 @pytest.fixture(autouse=True)
-def _no_ros_of_the_users(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
-    for variable in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE"):
-        monkeypatch.delenv(variable, raising=False)
+def _commands_leave_no_variables(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+    for variable in _VARIABLES:
+        monkeypatch.setenv(variable, "")  # so that it is taken back, whatever the test does
+        monkeypatch.delenv(variable)
 
 
 @pytest.fixture(scope="session")
