@@ -171,6 +171,7 @@ def test_a_finger_that_rests_opens_the_menu(chromium: Any, url: str) -> None:
     tab.get_by_label("Connected").first.wait_for()
     tab.get_by_role("navigation").get_by_role("button", name="World").click()
     row = tab.get_by_role("treeitem").filter(has_text="drum").first
+    row.click(trial=True)  # the sheet has come to rest
     box = row.bounding_box()
     touch = context.new_cdp_session(tab)
     at = {"x": box["x"] + 80, "y": box["y"] + box["height"] / 2}

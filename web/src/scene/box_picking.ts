@@ -17,7 +17,10 @@ export function pickBox(roots: readonly Object3D[], camera: Camera, size: Pictur
     const at = toPicture(seen.copy(point), camera, size);
     return at !== null && at.x >= box.left && at.x <= box.right && at.y >= box.top && at.y <= box.bottom;
   };
-  for (const root of roots) visit(root, contains, picked, limit);
+  for (const root of roots) {
+    root.updateMatrixWorld();
+    visit(root, contains, picked, limit);
+  }
   return picked;
 }
 

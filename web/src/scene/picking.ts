@@ -41,11 +41,14 @@ export class Picker {
     this.raycaster.params.Line2 = { threshold: TOLERANCE };
   }
 
-  /** Nearest of what lies under a point [px] of the picture. */
+  /** Nearest of what lies under a point [px] of the picture, where it is now: the picture may be older. */
   pick(roots: readonly Object3D[], camera: Camera, size: PictureSize, x: number, y: number): Pick | null {
     this.aim(camera, size, x, y);
     const found: Candidate[] = [];
-    for (const root of roots) this.visit(root, camera, size, new Vector2(x, y), found);
+    for (const root of roots) {
+      root.updateMatrixWorld();
+      this.visit(root, camera, size, new Vector2(x, y), found);
+    }
     let best: Candidate | null = null;
     for (const candidate of found) if (best === null || candidate.depth < best.depth) best = candidate;
     return best === null ? null : { point: best.point, object: best.object, index: best.index };
