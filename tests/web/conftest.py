@@ -15,6 +15,17 @@ import pytest
 from numpy.typing import NDArray
 
 _WEB = Path(__file__).resolve().parents[2] / "web"
+_SHOWN = """new Promise((done) => {
+  let left = 2;  // the first may have been begun before
+  const stop = scene.addStep({
+    after: () => {
+      left -= 1;
+      if (left > 0) return scene.invalidate();
+      stop();
+      requestAnimationFrame(() => requestAnimationFrame(done));
+    },
+  });
+})"""
 
 
 class _Quiet(http.server.SimpleHTTPRequestHandler):
@@ -99,7 +110,7 @@ class WorldPage:
         from PIL import Image
 
         self.page.add_style_tag(content="svg { display: none }")
-        self.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.page.evaluate(_SHOWN)
         return np.asarray(Image.open(BytesIO(self.page.screenshot())).convert("RGB"))
 
 
