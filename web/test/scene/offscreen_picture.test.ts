@@ -61,7 +61,7 @@ function begun(): { context: FakeContext; picture: OffscreenPicture } {
 }
 
 describe("a picture beside the canvas", () => {
-  it("takes what would be drawn to the canvas, and nothing else", () => {
+  it("receives what is drawn to the canvas, and nothing else", () => {
     const { context } = begun();
 
     context.bindFramebuffer(BOTH, null);
@@ -94,7 +94,7 @@ describe("a picture beside the canvas", () => {
     expect(context.sizes.slice(before)).toEqual([[60, 20], [60, 20]]);
   });
 
-  it("is made anew, as large as before, after its context was lost", () => {
+  it("is created again in its size when a lost context is restored", () => {
     const { context, picture } = begun();
 
     picture.begin();
