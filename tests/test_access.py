@@ -1,4 +1,4 @@
-"""Requests that the page serves, as a table; tests/page/test_http_server.py uses real sockets."""
+"""Requests that the page serves, as a table; tests/page/http/test_server.py uses real sockets."""
 
 import socket
 

@@ -2,6 +2,6 @@
 
 import pytest
 
-from trundle.page.client_files import CLIENT
+from trundle.page.http.client_files import CLIENT
 
 needs_client = pytest.mark.skipif(not (CLIENT / "index.html").is_file(), reason="the page's client is not built: make")

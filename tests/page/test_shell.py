@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
-from tests.page.test_driving import Robot
+from tests.page.driving.test_driving import Robot
 
 from trundle.page import GraphAddress, PageServer, RvizFile, SaveRviz, Session
 from trundle.page_address import PageAddress

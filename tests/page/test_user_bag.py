@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.bag.test_source import MAP, START, TEXT, S, text
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
-from tests.page.test_bag import MAP, START, TEXT, S, text
 
 from trundle.page import BagFile, PageServer, Session
 from trundle.page_address import PageAddress

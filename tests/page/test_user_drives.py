@@ -10,8 +10,8 @@ from urllib.parse import urlsplit
 import pytest
 from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
+from tests.page.driving.test_driving import Robot
 from tests.page.panel_user import PanelUser
-from tests.page.test_driving import Robot
 
 from trundle.page import GraphAddress, PageServer, Session
 from trundle.page_address import PageAddress

@@ -13,8 +13,8 @@ from tests.graphs import Graph, running_graph
 from tests.page_client import ProtocolClient
 
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page.protocol import ClientOperation
-from trundle.page.requests import ClientAction, SaveRvizAs
+from trundle.page.clients.protocol import ClientOperation
+from trundle.page.requests.request import ClientAction, SaveRvizAs
 from trundle.page_address import PageAddress
 
 REFUSAL = "this link only allows looking"

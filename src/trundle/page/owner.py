@@ -3,10 +3,10 @@
 import asyncio
 from collections.abc import Callable
 
-from .connection import Connection
-from .requests import ClientAction, PageAction, RenderView, Request
+from .clients.connection import Connection
+from .requests.request import ClientAction, PageAction, RenderView, Request
+from .requests.world import RenderModel
 from .wire import Driven, FromServer, Plotted, Respond, Watched
-from .world_requests import RenderModel
 
 MAX_IN_FLIGHT = 64
 """Requests of one client that wait for the owner."""

@@ -14,17 +14,12 @@ from trundle.diagnostics import UsageError
 from trundle.output_folder import find_target, save_files
 from trundle.ros import GraphLoop, MessageError, WallClock, open_bag
 
-from .assets import Assets
-from .bag_source import BagSource
-from .camera_channel import TYPE as IMAGE
-from .camera_channel import CameraChannel
-from .connection import Connection
-from .hub import Hub
-from .mailbox import Mailbox
-from .outbox import Outbox
-from .owner import MAX_IN_FLIGHT, Owner, PictureError, respond
-from .people import PeopleChannel
-from .protocol import (
+from .bag.source import BagSource
+from .clients.assets import Assets
+from .clients.connection import Connection
+from .clients.hub import Hub
+from .clients.outbox import Outbox
+from .clients.protocol import (
     CAPABILITIES,
     ERROR,
     GRAPH_CAPABILITIES,
@@ -36,11 +31,13 @@ from .protocol import (
     Unsubscribe,
     operation_decoder,
 )  # fmt: skip
-from .requests import ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs
-from .ros_graph import RosGraph
+from .graph.ros_graph import RosGraph
+from .mailbox import Mailbox
+from .owner import MAX_IN_FLIGHT, Owner, PictureError, respond
+from .requests.request import ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs
+from .requests.world import RenderModel
 from .session import RvizFile, Session
-from .session_channel import SessionChannel
-from .uploads import Uploads
+from .uploads.uploads import Uploads
 from .view_only import allows, allows_binary, allows_request
 from .wire import (
     AddFile,
@@ -55,7 +52,9 @@ from .wire import (
     ToServer,
     Uploaded,
 )  # fmt: skip
-from .world_channels import (
+from .world.camera_channel import TYPE as IMAGE
+from .world.camera_channel import CameraChannel
+from .world.channels import (
     BoxChannel,
     PosesChannel,
     StateChannel,
@@ -66,7 +65,8 @@ from .world_channels import (
     performance_channel,
     series_channel,
 )
-from .world_requests import RenderModel
+from .world.people import PeopleChannel
+from .world.session_channel import SessionChannel
 
 _NO_GRAPH = "this page has no ROS graph"
 _action_decoder = msgspec.json.Decoder(ClientAction | Definition | PlotSeries | SaveRvizAs)

@@ -19,27 +19,11 @@ from numpy.typing import NDArray
 from trundle.diagnostics import UsageError
 from trundle.page_address import PageAddress
 
-from .drive_stop import DriveStop
+from .driving.stop import DriveStop
 from .errors import PageError
 from .mailbox import Mailbox, Piece
-from .requests import GraphAction, Request
+from .requests.request import GraphAction, Request
 from .session import Session
-from .streams import (
-    ARRAY_HEADER,
-    CONTACTS,
-    IMAGE_HEADER,
-    JOINTS,
-    LINES,
-    PERFORMANCE,
-    POSES,
-    RANGES,
-    SERIES,
-    SERIES_HEADER,
-    STATE,
-    ClockState,
-    Line,
-    line_pieces,
-)
 from .wire import (
     AddFile,
     BagFile,
@@ -62,6 +46,22 @@ from .wire import (
     from_server_decoder,
     read_frame,
 )  # fmt: skip
+from .world.streams import (
+    ARRAY_HEADER,
+    CONTACTS,
+    IMAGE_HEADER,
+    JOINTS,
+    LINES,
+    PERFORMANCE,
+    POSES,
+    RANGES,
+    SERIES,
+    SERIES_HEADER,
+    STATE,
+    ClockState,
+    Line,
+    line_pieces,
+)
 
 if TYPE_CHECKING:
     from trundle.ros import Node
@@ -183,7 +183,7 @@ class PageServer:
         return self._generation
 
     def is_watched(self, stream: str) -> bool:
-        """True if some client looks at a stream: one of `trundle.page.streams`, or a camera's topic.
+        """True if some client looks at a stream: one of `trundle.page.world.streams`, or a camera's topic.
 
         Streams that are not watched need not be put.
         """

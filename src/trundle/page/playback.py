@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from trundle.diagnostics import UsageError
 from trundle.spatial import NS_PER_S
 
-from .requests import PageAction, Pause, Play, Reset, Seek, SetSpeed, Step
-from .streams import ClockState, TimelineSpan
+from .requests.request import PageAction, Pause, Play, Reset, Seek, SetSpeed, Step
+from .world.streams import ClockState, TimelineSpan
 
 _FASTEST = 100.0
 """Speed of a playback as fast as possible."""

@@ -18,10 +18,10 @@ from trundle.access import Access
 from trundle.page_address import AllowedNames, PageAddress
 from trundle.ros import GraphLoop
 
-from .assets import Assets
-from .client_files import ClientFiles
-from .http_server import HttpServer
-from .listening import AddressError, listen
+from .clients.assets import Assets
+from .http.client_files import ClientFiles
+from .http.listening import AddressError, listen
+from .http.server import HttpServer
 from .page import Page
 from .wire import FromServer, Refused, Served, Start, frame, read_frame, start_decoder, to_server_decoder
 

@@ -1,8 +1,7 @@
 """Refusals to clients that may look and change nothing: only the operations listed here are done."""
 
-from .connection import Connection
-from .owner import respond
-from .protocol import (
+from .clients.connection import Connection
+from .clients.protocol import (
     CLIENT_SERVICE_CALL,
     ERROR,
     SERVICE_HEADER,
@@ -18,7 +17,8 @@ from .protocol import (
     UnsubscribeConnectionGraph,
     UnsubscribeParameterUpdates,
 )  # fmt: skip
-from .requests import Definition, PlotSeries
+from .owner import respond
+from .requests.request import Definition, PlotSeries
 
 REFUSAL = "this link only allows looking"
 _LOOKING = (

@@ -11,7 +11,7 @@ from typing import IO, Any, TypeAlias
 
 import msgspec
 
-from .requests import Request
+from .requests.request import Request
 from .session import Session
 from .shared_memory import MemoryAddress
 

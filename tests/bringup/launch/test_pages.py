@@ -6,7 +6,7 @@ from trundle.bringup.launch.pages import reserved_ports
 from trundle.diagnostics import Diagnostics
 from trundle.launch import read_launch_text
 from trundle.packages import Packages
-from trundle.page.listening import listen
+from trundle.page.http.listening import listen
 from trundle.page_address import PageAddress
 
 VIDEO = 'pkg="web_video_server" type="web_video_server"'

@@ -1,0 +1,1 @@
+"""Recorded messages, played as a graph's."""

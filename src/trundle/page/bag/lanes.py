@@ -1,0 +1,75 @@
+"""Channel of a bag's lanes: when each topic has messages, by the bag's index."""
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from trundle.diagnostics import TrundleError
+from trundle.ros import open_bag
+
+from ..clients.channel import Channel, Client
+from ..world.streams import LANES
+
+_BUCKETS = 600
+"""Parts of the bag's duration; a part with a message is drawn whole."""
+
+
+class Lane(msgspec.Struct, frozen=True):
+    """A topic's messages over time."""
+
+    count: int
+    bands: list[tuple[int, int]]
+    """First and last bucket of each stretch without an empty bucket."""
+
+
+class Lanes(msgspec.Struct, frozen=True):
+    """Content of the channel."""
+
+    start_ns: int
+    bucket_ns: int
+    topics: Mapping[str, Lane]
+
+
+class LanesChannel(Channel):
+    """Lanes of a bag; the index is read for the first client, by a reader and a thread of its own."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(LANES, encoding="json", is_droppable=False, is_own=True)
+        self._path = path
+        self._lanes: bytes | None = None
+        self._reading: asyncio.Task[None] | None = None
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        if self._lanes is not None:
+            client.send_message(self, 0, (self._lanes,))
+        elif self._reading is None:
+            self._reading = asyncio.get_running_loop().create_task(self._read())
+
+    async def _read(self) -> None:
+        with ThreadPoolExecutor(1, thread_name_prefix="trundle-bag-lanes") as thread:
+            lanes = await asyncio.get_running_loop().run_in_executor(thread, read_lanes, self._path)
+        self._lanes = msgspec.json.encode(lanes)
+        self.publish(0, (self._lanes,))
+
+
+def read_lanes(path: Path) -> Lanes:
+    """Read when the topics of a bag have messages; where the file is damaged, no topic has a lane."""
+    try:
+        with open_bag(path) as bag:
+            bucket_ns = (bag.end_ns - bag.start_ns) // _BUCKETS + 1
+            topics = {topic: _lane(stamps, bag.start_ns, bucket_ns) for topic, stamps in bag.stamps_ns().items()}
+            return Lanes(bag.start_ns, bucket_ns, topics)
+    except (TrundleError, OSError):  # playback says what is wrong
+        return Lanes(0, 1, {})
+
+
+def _lane(stamps_ns: Sequence[int], start_ns: int, bucket_ns: int) -> Lane:
+    """Return the lane of a topic's ascending stamps [ns]."""
+    buckets = np.unique((np.array(stamps_ns, dtype=np.int64) - start_ns) // bucket_ns)
+    stretches = np.split(buckets, np.flatnonzero(np.diff(buckets) > 1) + 1)
+    return Lane(len(stamps_ns), [(int(each[0]), int(each[-1])) for each in stretches if len(each)])

@@ -1,0 +1,157 @@
+"""A bag on the page: its topics, played and sought by its clients."""
+
+import asyncio
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+
+import msgspec
+import numpy as np
+
+from trundle.diagnostics import TrundleError
+from trundle.ros import BagConnection, BagMessage, BagReader
+
+from ..clients.channel import Channel, Client
+from ..clients.hub import Hub
+from ..clients.topic_channel import is_droppable
+from ..playback import Playback
+from ..requests.request import PageAction, Reset, Seek, Step
+from ..wire import BagFile
+from ..world.streams import STATE
+from .lanes import LanesChannel
+from .reader import BagCursor, is_kept
+
+_STEP_NS = 100_000_000
+"""A step of a bag [ns]."""
+_MAX_STEPS = 1_000_000
+"""Steps of a bag at most, which are longer then: a stamp of zero makes a bag fifty years long."""
+_MOST_NS = 2_000_000_000
+"""Longest part that is read at once [ns]; time waits for slower reading."""
+_PAUSE_S = 0.5
+"""A longer time between two polls does not count as played: there was no client."""
+_STATE_PERIOD_S = 0.1
+_CONDITION = "bag"
+
+
+class BagTopic(Channel):
+    """Channel of a topic of the bag; a client gets what holds when it subscribes."""
+
+    def __init__(self, connection: BagConnection) -> None:
+        super().__init__(
+            connection.topic,
+            schema_name=connection.type,
+            schema=connection.definition,
+            is_droppable=is_droppable(connection.topic, connection.type) and not is_kept(connection),
+        )
+        self.md5sum = connection.md5sum
+        self.has_new_client = False
+        """True if a client has come since the last message."""
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        self.has_new_client = True
+
+
+class BagState(Channel):
+    """Clock of the playback."""
+
+    def __init__(self, playback: Playback) -> None:
+        super().__init__(STATE, encoding="json", is_own=True)
+        self._playback = playback
+        self._due_s = 0.0
+        self._sent = b""
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        self._due_s, self._sent = 0.0, b""
+
+    def send(self, now_s: float) -> None:
+        """Send the state, if it is due and has changed."""
+        state = msgspec.json.encode(self._playback.state)
+        if now_s >= self._due_s and state != self._sent:
+            self._due_s, self._sent = now_s + _STATE_PERIOD_S, state
+            self.publish(self._playback.time_ns, (state,))
+
+
+class BagSource:
+    """Topics of one bag; used on the loop only, but for reading."""
+
+    def __init__(self, bag: BagReader, options: BagFile, hub: Hub) -> None:
+        """Offer the topics of a bag that has messages."""
+        self._hub = hub
+        step_ns = max(_STEP_NS, (bag.end_ns - bag.start_ns) // _MAX_STEPS)
+        times_ns = np.arange(bag.start_ns, bag.end_ns, step_ns, dtype=np.int64)
+        times_ns = np.append(times_ns, np.int64(bag.end_ns))
+        self._playback = Playback(times_ns, speed=options.speed, paused=options.paused)
+        self._state = BagState(self._playback)
+        self._topics: dict[str, BagTopic] = {}
+        for connection in bag.connections:
+            self._topics.setdefault(connection.topic, BagTopic(connection))
+        hub.add_channels([self._state, LanesChannel(bag.path), *self._topics.values()])
+        self._cursor = BagCursor(bag)
+        self._reader = ThreadPoolExecutor(1, thread_name_prefix="trundle-bag")
+        self._reading: asyncio.Task[None] | None = None
+        self._shown_ns = self._playback.time_ns - 1
+        self._jumped = True
+        self._polled_s: float | None = None
+
+    @property
+    def time_ns(self) -> int:
+        """Recorded time [ns]."""
+        return self._playback.time_ns
+
+    def handle(self, action: PageAction) -> None:
+        """Do what a person asks for.
+
+        Raises:
+            UsageError: a bag cannot do it.
+        """
+        self._playback.handle(action)
+        match action:
+            case Seek() | Reset():
+                self._jumped = True
+            case Step(count) if count * _STEP_NS > _MOST_NS:
+                self._jumped = True
+            case _:
+                pass
+
+    def poll(self, now_s: float, time_ns: int) -> bool:
+        """Play, and read what is to be sent; it goes out when it is read."""
+        del time_ns
+        elapsed_s = 0.0 if self._polled_s is None else now_s - self._polled_s
+        self._polled_s = now_s
+        self._playback.advance(elapsed_s if elapsed_s < _PAUSE_S else 0.0)
+        self._state.send(now_s)
+        if self._reading is None or self._reading.done():
+            self._reading = asyncio.get_running_loop().create_task(self._show())
+        return False
+
+    async def _show(self) -> None:
+        """Send the messages up to now; after a jump, and to new clients, what holds now."""
+        watched = {topic for topic, channel in self._topics.items() if channel.clients}
+        target_ns = self._playback.time_ns
+        jumped = self._jumped or target_ns < self._shown_ns
+        self._jumped = False
+        if not jumped and target_ns - self._shown_ns > _MOST_NS:
+            target_ns = self._playback.time_ns = self._shown_ns + _MOST_NS
+        fresh = watched if jumped else {topic for topic in watched if self._topics[topic].has_new_client}
+        after_ns, self._shown_ns = self._shown_ns, target_ns
+        for topic in fresh:
+            self._topics[topic].has_new_client = False
+        messages = await self._read(frozenset(watched - fresh), frozenset(fresh), after_ns, target_ns)
+        for message in messages:
+            channel = self._topics[message.connection.topic]
+            if message.connection.md5sum == channel.md5sum:
+                channel.publish(message.stamp_ns, (message.data,))
+
+    async def _read(
+        self, topics: frozenset[str], fresh: frozenset[str], after_ns: int, until_ns: int
+    ) -> Iterable[BagMessage]:
+        def read() -> list[BagMessage]:
+            state = self._cursor.read_state(fresh, until_ns) if fresh else []
+            return state + (self._cursor.read(topics, after_ns, until_ns) if topics and until_ns > after_ns else [])
+
+        try:
+            return await asyncio.get_running_loop().run_in_executor(self._reader, read)
+        except (TrundleError, OSError) as error:
+            self._hub.set_condition(_CONDITION, f"the bag cannot be read on: {error}")
+            return ()

@@ -1,0 +1,1 @@
+"""Clients of the Foxglove protocol: their messages, what they subscribe to, what waits for them."""

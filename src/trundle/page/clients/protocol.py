@@ -1,0 +1,218 @@
+"""Messages of the Foxglove WebSocket protocol and of `trundle.v1`: what clients send, and headers of what they get.
+
+Fields and opcodes are those of the published specification, foxglove/ws-protocol docs/spec.md;
+docs/decisions/0020 says what `trundle.v1` adds.
+"""
+
+import struct
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+FOXGLOVE, FOXGLOVE_SDK, TRUNDLE = "foxglove.websocket.v1", "foxglove.sdk.v1", "trundle.v1"
+SUBPROTOCOLS = (TRUNDLE, FOXGLOVE_SDK, FOXGLOVE)
+ENCODING = "ros1"
+SCHEMA_ENCODING = "ros1msg"
+CAPABILITIES = ("assets", "time")
+GRAPH_CAPABILITIES = ("clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph")
+"""Further ones of a page that has a ROS graph."""
+CONTROL_CAPABILITIES = ("clientPublish", "services")
+"""Capabilities that clients which may only look are not offered."""
+
+_MAX_LIST = 10_000
+_MAX_NAME = 1_000
+U32: TypeAlias = Annotated[int, msgspec.Meta(ge=0, lt=2**32)]
+Name: TypeAlias = Annotated[str, msgspec.Meta(max_length=_MAX_NAME)]
+Names: TypeAlias = Annotated[tuple[Name, ...], msgspec.Meta(max_length=_MAX_LIST)]
+Ids: TypeAlias = Annotated[tuple[U32, ...], msgspec.Meta(max_length=_MAX_LIST)]
+Velocity: TypeAlias = float
+
+
+class Operation(msgspec.Struct, frozen=True, tag_field="op", rename="camel"):
+    """Base of what clients send as text."""
+
+
+class Subscription(msgspec.Struct, frozen=True, rename="camel"):
+    """Channel that a client subscribes to, under a number of its own."""
+
+    id: U32
+    channel_id: U32
+
+
+class Subscribe(Operation, frozen=True, tag="subscribe"):
+    """Begin to receive channels."""
+
+    subscriptions: Annotated[tuple[Subscription, ...], msgspec.Meta(max_length=_MAX_LIST)]
+
+
+class Unsubscribe(Operation, frozen=True, tag="unsubscribe"):
+    """Stop receiving."""
+
+    subscription_ids: Ids
+
+
+class ClientChannel(msgspec.Struct, frozen=True, rename="camel"):
+    """Topic that a client publishes."""
+
+    id: U32
+    topic: Name
+    encoding: Name
+    schema_name: Name
+    schema: str | None = None
+
+
+class Advertise(Operation, frozen=True, tag="advertise"):
+    """Announce topics of the client."""
+
+    channels: Annotated[tuple[ClientChannel, ...], msgspec.Meta(max_length=_MAX_LIST)]
+
+
+class Unadvertise(Operation, frozen=True, tag="unadvertise"):
+    """End topics of the client."""
+
+    channel_ids: Ids
+
+
+class GetParameters(Operation, frozen=True, tag="getParameters"):
+    """Ask for parameters; no names: all of them."""
+
+    parameter_names: Names
+    id: str | None = None
+
+
+class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
+    """Parameter and its value; unset: the parameter is deleted, or is not set."""
+
+    name: Name
+    value: object = msgspec.UNSET
+    type: Literal["byte_array", "float64", "float64_array"] | None = None
+
+    @property
+    def is_set(self) -> bool:
+        """True if there is a value."""
+        return self.value is not msgspec.UNSET
+
+
+class SetParameters(Operation, frozen=True, tag="setParameters"):
+    """Set or delete parameters."""
+
+    parameters: Annotated[tuple[Parameter, ...], msgspec.Meta(max_length=_MAX_LIST)]
+    id: str | None = None
+
+
+class SubscribeParameterUpdates(Operation, frozen=True, tag="subscribeParameterUpdates"):
+    """Ask for changes of parameters; no names: of all."""
+
+    parameter_names: Names
+
+
+class UnsubscribeParameterUpdates(Operation, frozen=True, tag="unsubscribeParameterUpdates"):
+    """Ask for changes no more; no names: of none."""
+
+    parameter_names: Names
+
+
+class SubscribeConnectionGraph(Operation, frozen=True, tag="subscribeConnectionGraph"):
+    """Ask for nodes of topics and services."""
+
+
+class UnsubscribeConnectionGraph(Operation, frozen=True, tag="unsubscribeConnectionGraph"):
+    """Ask for nodes of topics and services no more."""
+
+
+class FetchAsset(Operation, frozen=True, tag="fetchAsset"):
+    """Ask for a file."""
+
+    uri: Name
+    request_id: U32
+
+
+class Drive(Operation, frozen=True, tag="trundle/drive"):
+    """Drive at a velocity, until 0.3 s pass without the next such message."""
+
+    topic: Name
+    linear: Velocity
+    """Forward [m/s]."""
+    angular: Velocity
+    """To the left [rad/s]."""
+
+
+class Release(Operation, frozen=True, tag="trundle/release"):
+    """Stop driving."""
+
+    topic: Name
+
+
+class SharedSelection(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unknown_fields=True):
+    """Selection of a person in the simulated world."""
+
+    kind: Literal["model", "link", "joint", "light"]
+    model: Name = ""
+    link: Name = ""
+    joint: Name = ""
+    light: Name = ""
+
+
+class Presence(Operation, frozen=True, tag="trundle/presence"):
+    """Show the others what this client has selected."""
+
+    selection: SharedSelection | None
+
+
+class PageRequest(Operation, frozen=True, tag="trundle/request"):
+    """Request to the page's owner; `request` and its fields are read by `trundle.page.requests.request`."""
+
+    id: int | Name
+
+
+ClientOperation: TypeAlias = (
+    Subscribe
+    | Unsubscribe
+    | Advertise
+    | Unadvertise
+    | GetParameters
+    | SetParameters
+    | SubscribeParameterUpdates
+    | UnsubscribeParameterUpdates
+    | SubscribeConnectionGraph
+    | UnsubscribeConnectionGraph
+    | FetchAsset
+    | Drive
+    | Release
+    | Presence
+    | PageRequest
+)
+operation_decoder = msgspec.json.Decoder(ClientOperation)
+
+CLIENT_MESSAGE, CLIENT_SERVICE_CALL = 1, 2
+CLIENT_MESSAGE_HEADER = struct.Struct("<BI")
+"""Opcode, channel id."""
+SERVICE_HEADER = struct.Struct("<BIII")
+"""Opcode, service id, call id, length of the encoding's name; in both directions."""
+_MESSAGE_HEADER = struct.Struct("<BIQ")
+_TIME = struct.Struct("<BQ")
+_ASSET_HEADER = struct.Struct("<BIBI")
+_U64 = 2**64 - 1
+INFO, WARNING, ERROR = 0, 1, 2
+"""Levels of a status message."""
+
+
+def message_header(subscription_id: int, time_ns: int) -> bytes:
+    """Header of a message on a channel."""
+    return _MESSAGE_HEADER.pack(1, subscription_id, time_ns & _U64)
+
+
+def time_message(time_ns: int) -> bytes:
+    """Time of the server."""
+    return _TIME.pack(2, time_ns & _U64)
+
+
+def service_header(service_id: int, call_id: int) -> bytes:
+    """Header of a service's response."""
+    return SERVICE_HEADER.pack(3, service_id, call_id, len(ENCODING)) + ENCODING.encode()
+
+
+def asset_header(request_id: int, error: str | None) -> bytes:
+    """Header of a file, or the message that says why there is none."""
+    text = b"" if error is None else error.encode("utf-8", "replace")
+    return _ASSET_HEADER.pack(4, request_id, int(error is not None), len(text)) + text

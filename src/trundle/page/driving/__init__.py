@@ -1,0 +1,1 @@
+"""Driving by a dead man's switch."""

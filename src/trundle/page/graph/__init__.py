@@ -1,0 +1,1 @@
+"""The ROS graph, as clients see it and call it."""

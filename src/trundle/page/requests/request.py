@@ -1,0 +1,169 @@
+"""Requests of a person at the page; the thread that owns the simulation or the graph polls `PageServer.requests`.
+
+They arrive as JSON; the field `request` names the class.
+"""
+
+import math
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+from .draft import DraftAction
+from .edits import Action, EditAction
+from .world import FileName, InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
+
+MAX_STEPS = 1_000_000
+"""Steps that one request may ask for."""
+_MAX_TEXT = 4_000_000
+Count: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MAX_STEPS)]
+TimeNs: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
+Factor: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
+Values: TypeAlias = Annotated[tuple[float, ...], msgspec.Meta(max_length=64)]
+Text: TypeAlias = Annotated[str, msgspec.Meta(max_length=_MAX_TEXT)]
+
+
+class Play(Action, frozen=True):
+    """Let time run."""
+
+
+class Pause(Action, frozen=True):
+    """Stop time."""
+
+
+class Step(Action, frozen=True):
+    """Pause, then take physics steps."""
+
+    count: Count = 1
+
+
+class RunTo(Action, frozen=True, tag="run_to"):
+    """Pause, then take physics steps up to a time that is ahead."""
+
+    time_ns: TimeNs
+
+
+class Reset(Action, frozen=True):
+    """Put time, poses or both back as loaded."""
+
+    what: Literal["all", "poses", "time"] = "all"
+
+
+class Reload(Action, frozen=True):
+    """Load the world again."""
+
+
+class SetSpeed(Action, frozen=True, tag="speed"):
+    """Pace time at a multiple of real time; None: as fast as possible."""
+
+    factor: Factor | None
+
+
+class Seek(Action, frozen=True):
+    """Go to a time of a recorded run or bag."""
+
+    time_ns: TimeNs
+
+
+class MoveSlider(Action, frozen=True, tag="slider"):
+    """Move a joint of joint_state_publisher_gui."""
+
+    joint: str
+    position: float
+    """[rad or m]"""
+
+
+class MoveJoystick(Action, frozen=True, tag="joystick"):
+    """Positions of a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order."""
+
+    axes: Values
+    buttons: Annotated[tuple[Literal[0, 1], ...], msgspec.Meta(max_length=64)]
+
+
+class SaveRviz(Action, frozen=True, tag="save_rviz"):
+    """Replace the .rviz file that the page was started with."""
+
+    text: Text
+
+
+class SaveRvizAs(Action, frozen=True, tag="save_rviz_as"):
+    """Save an .rviz file below the folder where Trundle was started, as `SaveWorld` does; the server itself does it."""
+
+    file: FileName
+    text: Text
+    replace: bool = False
+    """True: a file of that name is replaced."""
+
+
+class Record(Action, frozen=True):
+    """Begin or end recording."""
+
+    on: bool
+
+
+class PlotSeries(Action, frozen=True, tag="plot"):
+    """Sample these values of the simulation for `trundle/series`, and no others; the server itself answers."""
+
+    series: Annotated[tuple[Annotated[str, msgspec.Meta(max_length=1000)], ...], msgspec.Meta(max_length=64)]
+    """Names such as `rp2w::chassis.pose.x`."""
+
+
+class Definition(Action, frozen=True):
+    """Text of a message type; the server itself answers."""
+
+    type: Annotated[str, msgspec.Meta(max_length=200)]
+
+
+class RenderView(Action, frozen=True, tag="camera"):
+    """Draw the scene by Trundle's own renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
+
+    The camera looks at what the page frames first, from a distance, turned about z and raised.
+    """
+
+    width: Annotated[int, msgspec.Meta(ge=16, le=1920)]
+    """[px]"""
+    height: Annotated[int, msgspec.Meta(ge=16, le=1200)]
+    """[px]"""
+    azimuth: Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)] = 0.8
+    """[rad]"""
+    elevation: Annotated[float, msgspec.Meta(ge=-1.6, le=1.6)] = 0.5
+    """[rad]"""
+    distance: Annotated[float, msgspec.Meta(ge=0.01, le=1e5)] = 4.0
+    """[m]"""
+
+    def __post_init__(self) -> None:
+        """Check that the numbers are finite."""
+        if not all(map(math.isfinite, (self.azimuth, self.elevation, self.distance))):
+            raise ValueError("a view's numbers are finite")
+
+
+ClientAction: TypeAlias = (
+    Play
+    | Pause
+    | Step
+    | RunTo
+    | Reset
+    | Reload
+    | SetSpeed
+    | Seek
+    | EditAction
+    | SaveWorld
+    | SaveReplay
+    | InsertAction
+    | ModelAction
+    | DraftAction
+    | MoveSlider
+    | MoveJoystick
+    | SaveRviz
+    | Record
+)
+"""Requests that arrive over the page's socket."""
+GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz
+"""Requests to nodes of the graph; all others are to what the page shows."""
+PageAction: TypeAlias = ClientAction | RenderView | RenderModel
+
+
+class Request(msgspec.Struct, frozen=True, tag=True):
+    """One request, to be answered by `PageServer.respond` with its id."""
+
+    id: int
+    action: PageAction

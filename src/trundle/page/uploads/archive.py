@@ -1,0 +1,67 @@
+"""Unpacking of a model's .zip, of which every byte may be hostile."""
+
+import os
+import stat
+import struct
+import zlib
+from io import FileIO
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
+
+from trundle.diagnostics import UsageError
+
+from .tree import MAX_FILES, UploadTree
+
+_CHUNK_BYTES = 1024 * 1024
+_MAX_DIRECTORY_BYTES = 4 * _CHUNK_BYTES
+"""Longest table of contents, which `ZipFile` reads whole."""
+_ENCRYPTED = 1
+"""Flag of an entry."""
+
+
+class _BoundedReads(FileIO):
+    """File that refuses to return very much at once."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        wanted = os.fstat(self.fileno()).st_size - self.tell() if size is None or size < 0 else size
+        if wanted > _MAX_DIRECTORY_BYTES:
+            raise UsageError(f"it has more than {MAX_FILES} files")
+        return super().read(size) or b""
+
+
+def unpack(archive: Path, tree: UploadTree) -> None:
+    """Write an archive's files into a tree; sizes are counted as they are unpacked, not as the archive says.
+
+    Raises:
+        UsageError: it is no archive, is damaged, or has entries that are refused.
+    """
+    try:
+        with _BoundedReads(archive) as file, ZipFile(file) as packed:
+            for entry in packed.infolist():
+                if not entry.is_dir():
+                    _unpack_entry(packed, entry, tree)
+    except (BadZipFile, zlib.error, struct.error, OSError, EOFError, ValueError, NotImplementedError) as error:
+        raise UsageError(f"the archive cannot be unpacked: {error}") from None
+
+
+def _unpack_entry(packed: ZipFile, entry: ZipInfo, tree: UploadTree) -> None:
+    if reason := _refusal(entry):
+        raise UsageError(f"{entry.filename[:80]!r} in it {reason}")
+    target = tree.create(entry.orig_filename)
+    if target is None:
+        return
+    with target, packed.open(entry) as content:
+        while piece := content.read(_CHUNK_BYTES):
+            tree.write(target, piece)
+
+
+def _refusal(entry: ZipInfo) -> str | None:
+    """Return why an entry is not unpacked."""
+    kind = stat.S_IFMT(entry.external_attr >> 16)
+    if kind not in (0, stat.S_IFREG):
+        return "is a link, or no file at all"
+    if entry.flag_bits & _ENCRYPTED:
+        return "asks for a password"
+    if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+        return "is packed by a method other than deflate"
+    return None

@@ -1,0 +1,123 @@
+"""Models that people upload by the browser: a folder of temporary files, which ends with the page."""
+
+import asyncio
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path, PurePosixPath
+
+from aiohttp import BodyPartReader, MultipartReader
+
+from trundle.diagnostics import UsageError
+from trundle.output_folder import is_portable
+from trundle.packages import Packages, is_stand_in
+
+from .archive import unpack
+from .model import find_models
+from .tree import MAX_BYTES, UploadTree
+
+_MAX_RUN_BYTES = 4 * MAX_BYTES
+_CHUNK_BYTES = 256 * 1024
+_PATIENCE_S = 600.0
+_ARCHIVE = ".zip"
+
+
+class Uploads:
+    """Takes one upload at a time; used on the loop only."""
+
+    def __init__(self, made: Callable[[Path], None], environment: Mapping[str, str]) -> None:
+        """Prepare.
+
+        Args:
+            made: called with the folder once there is one; each of its folders is a model.
+            environment: has the model path, whose models are not hidden by uploaded ones.
+        """
+        self._made, self._environment = made, environment
+        self._folder: Path | None = None
+        self._is_busy = False
+
+    async def receive(self, parts: MultipartReader) -> list[str]:
+        """Receive a model's files, or its .zip, and return the names of what `model://` finds now.
+
+        Args:
+            parts: files of a form; the name of each field is a path.
+
+        Raises:
+            UsageError: there is no model in it, or it is refused; the text says why.
+        """
+        if self._is_busy:
+            raise UsageError("another model is being uploaded")
+        self._is_busy = True
+        try:
+            folder = self._open_folder()
+            with tempfile.TemporaryDirectory(prefix="trundle-upload-", dir=folder.parent) as staging:
+                tree = UploadTree(Path(staging) / "sent", max_bytes=_MAX_RUN_BYTES - _size(folder))
+                async with asyncio.timeout(_PATIENCE_S):
+                    first = await _write_parts(parts, tree)
+                return await asyncio.to_thread(self._install, tree, first, folder)
+        except TimeoutError:
+            raise UsageError(f"it did not come within {_PATIENCE_S:.0f} s") from None
+        except OSError as error:
+            raise UsageError(f"it cannot be kept: {error.strerror}") from None
+        finally:
+            self._is_busy = False
+
+    def _install(self, tree: UploadTree, first: str, folder: Path) -> list[str]:
+        """Move the models of an upload into the folder, in place of earlier ones of their names."""
+        archive, root = tree.root / first, tree.root
+        if first.lower().endswith(_ARCHIVE) and archive.is_file():
+            opened = UploadTree(root.with_name("opened"), max_bytes=_MAX_RUN_BYTES - _size(folder))
+            opened.root.mkdir()
+            unpack(archive, opened)
+            root = opened.root
+        models = find_models(root, PurePosixPath(first).stem)
+        known = Packages(self._environment, start=Path.cwd()).models()
+        for name in models:
+            if not is_portable(name):
+                raise UsageError(f"{name!r} is no name of a folder")
+            if name in known and not is_stand_in(known[name] / name):
+                raise UsageError(f"a model {name!r} is on the model path already; give its folder another name")
+        for name, there in models.items():
+            if (folder / name).exists():
+                (folder / name).rename(tree.root.with_name(f"before {name}"))
+            there.rename(folder / name)
+        return list(models)
+
+    def _open_folder(self) -> Path:
+        """Return the folder, made on the first upload."""
+        if self._folder is None:
+            self._folder = Path(tempfile.mkdtemp(prefix="trundle-models-")) / "models"
+            self._folder.mkdir()
+            self._made(self._folder)
+        return self._folder
+
+    def close(self) -> None:
+        """Remove all that was uploaded."""
+        if self._folder is not None:
+            shutil.rmtree(self._folder.parent, ignore_errors=True)
+
+
+async def _write_parts(parts: MultipartReader, tree: UploadTree) -> str:
+    """Write the files of a form into a tree; return the first of their names: of a file, or of their folder."""
+    tree.root.mkdir()
+    first = ""
+    while (part := await parts.next()) is not None:
+        if not isinstance(part, BodyPartReader) or not part.name:
+            raise UsageError("a file of the form has no name")
+        first = first or part.name.partition("/")[0]
+        file = tree.create(part.name)
+        if file is None:
+            await part.release()
+            continue
+        with file:
+            while piece := await part.read_chunk(_CHUNK_BYTES):
+                tree.write(file, piece)
+    if not first:
+        raise UsageError("no file was sent")
+    return first
+
+
+def _size(folder: Path) -> int:
+    """Return the size of a folder's files [B]."""
+    return sum(os.lstat(os.path.join(home, name)).st_size for home, _, names in os.walk(folder) for name in names)

@@ -1,0 +1,1 @@
+"""Streams of the simulated world, which only our own client reads."""

@@ -1,0 +1,58 @@
+"""Channel of the people at the page: who is there, what each has selected, and who may only look."""
+
+import itertools
+
+import msgspec
+
+from ..clients.channel import Channel, Client
+from ..clients.outbox import Buffer
+from ..clients.protocol import SharedSelection
+from .streams import PEOPLE
+
+_PERIOD_S = 0.1
+
+
+class Person(msgspec.Struct):
+    """A client that subscribes to the channel."""
+
+    number: int
+    """From 1; that of a person who has left is given again."""
+    view_only: bool
+    selection: SharedSelection | None = None
+
+
+class PeopleChannel(Channel):
+    """List of people, sent to each with the number of its own: at subscription, and at most 10 Hz as it changes."""
+
+    def __init__(self) -> None:
+        super().__init__(PEOPLE, encoding="json", is_own=True)
+        self._people: dict[Client, Person] = {}
+        self._has_changed = False
+        self._due_s = 0.0
+
+    def subscribe(self, client: Client) -> None:
+        super().subscribe(client)
+        taken = {person.number for person in self._people.values()}
+        number = next(number for number in itertools.count(1) if number not in taken)
+        self._people[client] = Person(number, client.is_view_only)
+        self._has_changed = True
+
+    def unsubscribe(self, client: Client) -> None:
+        super().unsubscribe(client)
+        del self._people[client]
+        self._has_changed = True
+
+    def select(self, client: Client, selection: SharedSelection | None) -> None:
+        """Note what a person has selected."""
+        if (person := self._people.get(client)) is not None:
+            person.selection = selection
+            self._has_changed = True
+
+    def poll(self, now_s: float, time_ns: int) -> bool:
+        """Send the list if it has changed and is due; nothing new comes from the owner here."""
+        if self._has_changed and now_s >= self._due_s:
+            self._has_changed, self._due_s = False, now_s + _PERIOD_S
+            people: Buffer = msgspec.json.encode(sorted(self._people.values(), key=lambda person: person.number))
+            for client, person in self._people.items():
+                client.send_message(self, time_ns, (b'{"you":%d,"people":' % person.number, people, b"}"))
+        return False

@@ -1,0 +1,165 @@
+"""Stops and reports of driving, part by part: the order of events that a whole page hides."""
+
+import time
+from collections.abc import Callable, Iterator
+from typing import cast
+
+import pytest
+from tests.graphs import Graph, running_graph, until
+
+from trundle.page.clients.connection import Connection
+from trundle.page.clients.protocol import Advertise, ClientChannel, Drive
+from trundle.page.driving.driving import Driving
+from trundle.page.driving.stop import DriveStop
+from trundle.page.graph.client_publishers import ClientPublishers
+from trundle.ros import Node
+
+TOPIC = "/cmd_vel"
+TWIST = "geometry_msgs/Twist"
+CLIENT = cast("Connection", object())
+FORWARD = Drive(topic=TOPIC, linear=0.5, angular=0.0)
+
+
+class Events:
+    """Reports to the owner and velocities at the robot, in their order."""
+
+    def __init__(self) -> None:
+        self.seen: list[object] = []
+
+    def report(self, topics: dict[str, str]) -> None:
+        self.seen.append(set(topics))
+
+    def subscribe(self, node: Node) -> None:
+        node.subscribe(TOPIC, TWIST, lambda twist: self.seen.append(twist.linear.x), on_loop=True)
+
+
+@pytest.fixture(scope="module")
+def shared_graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture
+def graph(shared_graph: Graph) -> Iterator[Graph]:
+    """The graph, without the nodes of the tests before."""
+    yield shared_graph
+    for node in list(shared_graph.loop.local.members):
+        if isinstance(node, Node) and node.name in ("/page", "/robot", "/other"):
+            shared_graph.loop.run(node.shutdown())
+
+
+@pytest.fixture
+def page(graph: Graph) -> Node:
+    return graph.node("page")
+
+
+def _call(graph: Graph, function: Callable[[], object]) -> None:
+    """Call a function on the loop, where the page's server is."""
+
+    async def call() -> None:
+        function()
+
+    graph.loop.run(call())
+
+
+def _driven_robot(graph: Graph, page: Node) -> tuple[Driving, Events]:
+    """A robot that is being driven."""
+    events = Events()
+    driving = Driving(events.report)
+    events.subscribe(graph.node("robot"))
+
+    def drive() -> bool:
+        _call(graph, lambda: driving.drive(CLIENT, FORWARD, {}))
+        return 0.5 in events.seen
+
+    _call(graph, lambda: driving.set_node(page))
+    until(drive)
+    events.seen.clear()
+    return driving, events
+
+
+def test_a_server_that_was_suspended_reports_before_it_moves_the_robot(graph: Graph, page: Node) -> None:
+    driving, events = _driven_robot(graph, page)
+    time.sleep(0.2)  # nobody polls: reports are overdue
+
+    _call(graph, lambda: driving.drive(CLIENT, FORWARD, {}))
+
+    until(lambda: 0.5 in events.seen)
+    assert events.seen == [{TOPIC}, 0.5]
+
+
+def test_a_robot_is_reported_as_driven_until_its_zero_has_gone_out(graph: Graph, page: Node) -> None:
+    driving, events = _driven_robot(graph, page)
+
+    _call(graph, lambda: driving.release(CLIENT, TOPIC))
+
+    until(lambda: len(events.seen) == 2)
+    assert events.seen == [0.0, set()]
+
+
+def test_a_robot_that_connects_after_the_release_is_stopped(graph: Graph, page: Node) -> None:
+    """It may have heard a command by a connection that has broken since."""
+    events = Events()
+    driving = Driving(events.report)
+    _call(graph, lambda: driving.set_node(page))
+    _call(graph, lambda: driving.drive(CLIENT, FORWARD, {}))
+    _call(graph, lambda: driving.release(CLIENT, TOPIC))
+
+    events.subscribe(graph.node("robot"))
+
+    until(lambda: 0.0 in events.seen)
+
+
+def test_another_node_leaves_no_robot_driving(graph: Graph, page: Node) -> None:
+    """A robot that does not register again at a new master hears the old node alone."""
+    driving, events = _driven_robot(graph, page)
+
+    _call(graph, lambda: driving.set_node(graph.node("other")))
+
+    until(lambda: 0.0 in events.seen)
+
+
+def test_a_client_that_goes_leaves_the_topics_that_others_drive(graph: Graph, page: Node) -> None:
+    driving, _ = _driven_robot(graph, page)
+    publishers = ClientPublishers(is_shared=lambda topic: topic in driving.topics)
+    channels = tuple(
+        ClientChannel(id=number, topic=topic, encoding="ros1", schema_name=TWIST)
+        for number, topic in enumerate((TOPIC, "/own"))
+    )
+    driven = page.advertise(TOPIC, TWIST)
+
+    _call(graph, lambda: publishers.set_node(page))
+    _call(graph, lambda: publishers.advertise(CLIENT, Advertise(channels=channels), {}))
+    until(lambda: publishers.topics == {TOPIC, "/own"})
+    own = page.advertise("/own", TWIST)
+    _call(graph, lambda: publishers.forget(CLIENT))
+
+    assert page.advertise(TOPIC, TWIST) is driven
+    assert page.advertise("/own", TWIST) is not own
+
+
+def test_a_robot_that_connects_long_after_the_servers_end_is_stopped(graph: Graph, page: Node) -> None:
+    """On a busy machine the connection may take seconds."""
+    stop = DriveStop(page)
+    stop.follow({TOPIC: TWIST})
+    stop.end()
+    time.sleep(1.1)
+
+    events = Events()
+    events.subscribe(graph.node("robot"))
+
+    until(lambda: events.seen == [0.0])
+
+
+def test_the_end_of_a_server_that_had_been_silent_stops_again(graph: Graph, page: Node) -> None:
+    stop = DriveStop(page)
+    events = Events()
+    events.subscribe(graph.node("robot"))
+    publisher = page.advertise(TOPIC, TWIST)
+    until(lambda: publisher.has_subscribers)
+    stop.follow({TOPIC: TWIST})
+    until(lambda: events.seen == [0.0])
+
+    stop.end()
+
+    until(lambda: events.seen == [0.0, 0.0])

@@ -1,0 +1,227 @@
+"""HTTP of the page: its session, the client's files, policies, and who is refused."""
+
+import gzip
+import http.client
+import json
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from tests.page.built_client import needs_client
+from tests.page_client import PATIENCE_S, ProtocolClient
+from websockets.exceptions import InvalidStatus
+from websockets.typing import Origin
+
+import trundle
+from trundle.access import Access, PageRequest
+from trundle.page import PageServer, Session
+from trundle.page.http.client_files import CLIENT, ClientFiles
+from trundle.page.http.content_policy import response_fields
+from trundle.page_address import AllowedNames, PageAddress
+
+EVIL = "http://evil.example"
+
+
+def _get(url: str, **fields: str) -> tuple[int, str, http.client.HTTPMessage]:
+    request = urllib.request.Request(url, headers={name.title(): value for name, value in fields.items()})
+    try:
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return answer.status, answer.read().decode(), answer.headers
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.read().decode(), error.headers
+
+
+def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
+    session = json.loads(_get(f"{page.url}/session.json")[1])
+
+    assert session == {
+        "title": "test", "kind": "simulation", "version": trundle.__version__, "robot": "cart", "rviz": None,
+        "fixed_frame": None, "panels": [], "plots": [], "images": [], "drive_topic": None, "sliders": [],
+        "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
+        "view_only": False, "view_token": page.view_url.partition("?token=")[2], "asks_token": False,
+    }  # fmt: skip
+    page.set_session(Session(title="other", kind="graph"))
+    with ProtocolClient(page.url) as client:
+        client.until(lambda: json.loads(_get(f"{page.url}/session.json")[1])["title"] == "other")
+
+
+def test_a_foreign_page_is_refused_and_the_token_lets_it_in(page: PageServer) -> None:
+    here = page.url
+    for origin in (EVIL, "null", here.replace("127.0.0.1", "localhost"), f"{here}.evil.example"):
+        assert _get(f"{here}/session.json", origin=origin)[0] == 403
+        with pytest.raises(InvalidStatus) as refused:
+            ProtocolClient(here, origin=Origin(origin))
+        assert refused.value.response.status_code == 403
+        assert b"does not answer pages of" in (refused.value.response.body or b"")
+    for origin in (EVIL, "https://app.foxglove.dev"):
+        token = page.foxglove_url.partition("?")[2]
+        with ProtocolClient(f"{here}/?{token}", origin=Origin(origin), protocol="foxglove.sdk.v1") as client:
+            client.until(lambda client=client: client.jsons)
+    with ProtocolClient(here, origin=Origin(here)) as client:
+        client.until(lambda: client.jsons)
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [
+        ("/", 200),
+        ("/session.json", 200),
+        ("/world/model.glb", 200),
+        ("/world/none.glb", 404),
+        ("/camera.png?width=1&height=1", 400),
+        ("/none.js", 404),
+    ],
+)
+def test_no_address_answers_a_foreign_page_or_name_without_the_token(page: PageServer, path: str, status: int) -> None:
+    page.set_world({"generation": 1, "files": [{"id": "m", "url": "world/model.glb"}]}, {"world/model.glb": b"glTF"})
+    with ProtocolClient(page.url) as client:
+        client.subscribe("trundle/world")
+        client.until(lambda: client.payloads("trundle/world"))
+    token = page.foxglove_url.partition("?")[2]
+    foreign: list[dict[str, str]] = [{"origin": EVIL}, {"origin": "null"}, {"host": "evil.example"}]
+
+    for fields in foreign:
+        assert _get(f"{page.url}{path}", **fields)[0] == 403
+        assert _get(f"{page.url}{path}{'&' if '?' in path else '?'}{token}", **fields)[0] == status
+
+
+def test_a_name_that_leads_here_but_is_not_ours_is_refused(page: PageServer) -> None:
+    status, body, _ = _get(page.url, host="evil.example:8080")
+
+    assert (status, body) == (
+        403,
+        "refused: this page is not served as 'evil.example:8080'; open it at localhost, "
+        "or start trundle with --allow-host NAME\n",
+    )
+    assert _get(page.url, host="localhost:9000")[0] == 200
+
+
+@pytest.fixture
+def open_page() -> Iterator[PageServer]:
+    allowed = AllowedNames(origins=("https://studio.example",))
+    at = PageAddress(host="0.0.0.0", port=0, allowed=allowed)
+    with PageServer.start(Session(title="test", kind="graph"), at=at) as page:
+        yield page
+
+
+def test_off_loopback_the_token_opens_and_the_cookie_keeps_open(open_page: PageServer) -> None:
+    bare = f"http://{urlsplit(open_page.url).netloc}"
+    assert _get(bare)[0] == 403
+    for origin in (bare, "https://studio.example"):
+        with pytest.raises(InvalidStatus):
+            ProtocolClient(bare, origin=Origin(origin))
+
+    status, _, fields = _get(open_page.url)
+
+    assert status == 200
+    kept = str(fields["Set-Cookie"]).partition(";")[0]
+    assert _get(bare, cookie=kept)[0] == 200
+    with ProtocolClient(bare, origin=Origin(bare), additional_headers={"Cookie": kept}) as client:
+        client.until(lambda: client.jsons)
+    with pytest.raises(InvalidStatus):
+        ProtocolClient(bare, origin=Origin(EVIL), additional_headers={"Cookie": kept})
+
+
+def test_a_socket_without_a_known_protocol_is_refused(page: PageServer) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        ProtocolClient(page.url, protocol="chat")
+
+    assert refused.value.response.status_code == 400
+    assert b"trundle.v1" in (refused.value.response.body or b"")
+
+
+def test_a_field_that_stands_twice_is_refused(page: PageServer) -> None:
+    connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=30)
+    connection.putrequest("GET", "/", skip_host=True)
+    for name, value in (("Host", "localhost"), ("Origin", page.url), ("Origin", EVIL)):
+        connection.putheader(name, value)
+    connection.endheaders()
+
+    assert connection.getresponse().status == 403
+    connection.close()
+
+
+@pytest.mark.parametrize(
+    "path", ["/../wire.py", "/%2e%2e/wire.py", "/assets/../../wire.py", "/nothing.js", "//etc/passwd"]
+)
+def test_only_files_of_the_client_are_served(page: PageServer, path: str) -> None:
+    connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=30)
+    connection.request("GET", path)
+
+    assert connection.getresponse().status == 404
+    connection.close()
+
+
+def test_the_documents_policy_has_no_eval_and_blobs_for_textures() -> None:
+    access = Access(host="127.0.0.1", port=80)
+    policy = _policy(response_fields(access, PageRequest(target="/", host="127.0.0.1:80"), path="/"))
+
+    assert policy["script-src"] == ["'self'"]
+    assert {"blob:", "'self'"} <= set(policy["img-src"])
+    assert {"blob:", "'self'", "ws://127.0.0.1:80"} <= set(policy["connect-src"])
+    assert policy["frame-ancestors"] == ["'self'"]
+
+
+def test_a_workers_policy_lets_it_connect_to_nothing() -> None:
+    access = Access(host="127.0.0.1", port=80)
+    request = PageRequest(target="/assets/decoder.worker-1a2b.js", host="127.0.0.1:80")
+    policy = _policy(response_fields(access, request, path=request.target))
+
+    assert policy["connect-src"] == ["'none'"]
+    assert policy["default-src"] == ["'none'"]
+
+
+@needs_client
+@pytest.mark.parametrize("encoding", ["gzip, deflate", "identity"])
+def test_scripts_are_sent_compressed_to_who_takes_that(page: PageServer, encoding: str) -> None:
+    """They may be kept for ever, since their names change with them."""
+    script = max((CLIENT / "assets").glob("*.js"), key=lambda file: file.stat().st_size)
+    request = urllib.request.Request(f"{page.url}/assets/{script.name}", headers={"Accept-Encoding": encoding})
+    with urllib.request.urlopen(request, timeout=30) as answer:
+        body, fields = answer.read(), answer.headers
+
+    assert fields["Content-Type"] == "text/javascript"
+    assert "immutable" in fields["Cache-Control"]
+    assert fields["Content-Encoding"] == ("gzip" if "gzip" in encoding else None)
+    if "gzip" in encoding:
+        assert len(body) < script.stat().st_size / 3
+        body = gzip.decompress(body)
+    assert body == script.read_bytes()
+
+
+def test_the_clients_files_are_found_by_their_path(tmp_path: Path) -> None:
+    (tmp_path / "assets").mkdir()
+    for name in ("index.html", "assets/a.js", "assets/a.js.gz"):
+        (tmp_path / name).write_text(name)
+    files = ClientFiles(tmp_path)
+
+    assert files.find("") == files.find("index.html") == tmp_path / "index.html"
+    assert files.find("assets/a.js") == tmp_path / "assets/a.js"
+    assert files.find("assets/../index.html") is None
+    assert files.find("assets/a.js.gz") is None
+
+
+def _policy(fields: dict[str, str]) -> dict[str, list[str]]:
+    parts = fields["Content-Security-Policy"].split("; ")
+    return {part.split()[0]: part.split()[1:] for part in parts}
+
+
+def test_more_clients_than_a_hundred_are_refused_until_one_leaves(page: PageServer) -> None:
+    with ExitStack() as stack:
+        clients = [stack.enter_context(ProtocolClient(page.url)) for _ in range(100)]
+        with pytest.raises(InvalidStatus) as refused:
+            ProtocolClient(page.url)
+        assert refused.value.response.status_code == 503
+        clients[0].socket.close()
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            with suppress(InvalidStatus):
+                stack.enter_context(ProtocolClient(page.url))
+                return
+    pytest.fail("the server answers no client any more")
