@@ -19,8 +19,10 @@ def _access(**changes: object) -> Access:
     return Access(**{"host": "127.0.0.1", "port": 8080, "token": TOKEN} | changes)  # pyright: ignore[reportArgumentType]
 
 
-def _asked(host: str | None, origin: str | None = None, *, query: str = "", cookie: str = "") -> PageRequest:
-    return PageRequest(target=f"/{query}", host=host, origin=origin, cookie=cookie)
+def _asked(
+    host: str | None, origin: str | None = None, *, query: str = "", cookie: str = "", is_embedded: bool = False
+) -> PageRequest:
+    return PageRequest(target=f"/{query}", host=host, origin=origin, cookie=cookie, is_embedded=is_embedded)
 
 
 SERVED = {
@@ -42,6 +44,12 @@ SERVED = {
 REFUSED = {
     "another origin": ({}, _asked(HERE, EVIL), "--allow-origin"),
     "another port's origin": ({}, _asked(HERE, "http://localhost:8081"), "--allow-origin"),
+    "an image in another page": ({}, _asked(HERE, is_embedded=True), "--allow-origin"),
+    "such an image, with the cookie": (
+        CLOSED,
+        _asked("10.0.0.3:8080", cookie=f"trundle-8080={TOKEN}", is_embedded=True),
+        "?token=",
+    ),
     "a sandbox": ({}, _asked(HERE, "null"), "--allow-origin"),
     "an origin that begins like ours": ({}, _asked(HERE, "http://localhost:8080.evil.example"), "--allow-origin"),
     "rebinding": ({}, _asked("evil.example:8080", "http://evil.example:8080"), "--allow-host"),

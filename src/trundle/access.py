@@ -34,6 +34,8 @@ class PageRequest:
     host: str | None = None
     origin: str | None = None
     cookie: str = ""
+    is_embedded: bool = False
+    """True if another site's page shows the answer as a part of its own, as an image: it sends no Origin."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,10 +90,8 @@ class Access:
                 f"{words.server} is not served as {(request.host or '')[:100]!r}; open it at localhost, or {words.host}"
             )
         if not _is_own(request) and not self._serves_origin(request.origin or ""):
-            return (
-                f"{words.server} does not answer pages of {(request.origin or '')[:100]!r}; "
-                f"{words.origin} to let them in"
-            )
+            pages = f"pages of {request.origin[:100]!r}" if request.origin else "other sites' pages"
+            return f"{words.server} does not answer {pages}; {words.origin} to let them in"
         return None
 
     def answer_fields(self, request: PageRequest) -> dict[str, str]:
@@ -163,7 +163,7 @@ def _is_same(text: str, token: str) -> bool:
 def _is_own(request: PageRequest) -> bool:
     """True if the request comes from no page or from one of this server."""
     if request.origin is None:
-        return True
+        return not request.is_embedded
     host = (request.host or "").lower()
     return request.origin.lower() in (f"http://{host}", f"https://{host}")
 

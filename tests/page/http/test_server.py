@@ -85,6 +85,8 @@ def test_no_address_answers_a_foreign_page_or_name_without_the_token(page: PageS
         client.until(lambda: client.payloads("trundle/world"))
     token = page.foxglove_url.partition("?")[2]
     foreign: list[dict[str, str]] = [{"origin": EVIL}, {"origin": "null"}, {"host": "evil.example"}]
+    image = {"sec-fetch-mode": "no-cors"}
+    foreign += [{**image, "sec-fetch-site": site} for site in ("cross-site", "same-site")]
 
     for fields in foreign:
         assert _get(f"{page.url}{path}", **fields)[0] == 403
@@ -100,6 +102,15 @@ def test_a_name_that_leads_here_but_is_not_ours_is_refused(page: PageServer) -> 
         "or start trundle with --allow-host NAME\n",
     )
     assert _get(page.url, host="localhost:9000")[0] == 200
+
+
+def test_an_image_of_this_page_and_a_link_of_another_are_served(page: PageServer) -> None:
+    asked: list[dict[str, str]] = [
+        {"sec-fetch-mode": "no-cors", "sec-fetch-site": "same-origin"},
+        {"sec-fetch-mode": "navigate", "sec-fetch-site": "cross-site"},
+    ]
+    for fields in asked:
+        assert _get(f"{page.url}/session.json", **fields)[0] == 200
 
 
 @pytest.fixture

@@ -33,6 +33,8 @@ _TEXT = "text/plain"
 _KEPT = "private, max-age=31536000, immutable"
 """For files whose name holds a hash of their content."""
 _ONCE = ("Host", "Origin")
+_OTHER_SITES = ("cross-site", "same-site")
+"""The latter: another port of this host."""
 
 
 class Page(Protocol):
@@ -233,6 +235,8 @@ def _page_request(request: web.Request) -> PageRequest:
         host=request.headers.get("Host"),
         origin=request.headers.get("Origin"),
         cookie="; ".join(request.headers.getall("Cookie", [])),
+        is_embedded=request.headers.get("Sec-Fetch-Mode") == "no-cors"
+        and request.headers.get("Sec-Fetch-Site") in _OTHER_SITES,
     )
 
 
