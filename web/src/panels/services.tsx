@@ -27,13 +27,13 @@ class Call {
     private readonly connection: Connection,
     readonly service: ServiceInfo,
   ) {
-    let type = MessageType.parse("");
+    let form = new FormState(MessageType.parse(""));
     try {
-      type = MessageType.parse(service.request);
+      form = new FormState(MessageType.parse(service.request));
     } catch (error) {
-      this.fault.value = `The definition of ${service.type} cannot be read: ${sentence(error)}`;
+      this.fault.value = `There is no form for ${service.type}: ${sentence(error)}`;
     }
-    this.form = new FormState(type);
+    this.form = form;
   }
 
   async run(): Promise<void> {

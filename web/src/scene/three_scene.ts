@@ -224,7 +224,7 @@ export class ThreeScene implements SceneView {
       if (offscreen.isDone()) this.show();
       return;
     }
-    const elapsed = Math.min(0.25, (now - this.last) / 1000);
+    const elapsed = Math.min(1, (now - this.last) / 1000); // a tab that was hidden does not leap
     this.last = now;
     for (const callback of this.ticks) callback(elapsed);
     if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;

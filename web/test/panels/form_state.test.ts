@@ -65,3 +65,15 @@ test("YAML fills the form", () => {
 test("numbers that can be plotted", () => {
   expect(numericPaths(TYPE)).toEqual([".header.seq", ".point.x", ".point.yz[0]", ".point.yz[1]", ".latched", ".data[0]"]);
 });
+
+test("a type of more values than a form can hold is refused with a sentence", () => {
+  const nested = Array.from({ length: 30 }, (_, level) => `===\nMSG: a/L${level}\na/L${level + 1} one\na/L${level + 1} other\n`).join("");
+  for (const text of ["float64[1000000000] values", `a/L0 first\n${nested}===\nMSG: a/L30\nbool end\n`, "a/A first\nbool end\n===\nMSG: a/A\na/A same\n"]) {
+    expect(() => new FormState(MessageType.parse(text))).toThrow("It holds more than 100,000 values, too many for a form.");
+  }
+  expect(new FormState(MessageType.parse("float64[36] covariance")).rows).toHaveLength(1);
+});
+
+test("numbers are looked for in a type without end", () => {
+  expect(numericPaths(MessageType.parse("a/A[] same\n===\nMSG: a/A\nstring name\na/A[] one\na/A[] other\n"))).toEqual([]);
+});

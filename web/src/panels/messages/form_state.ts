@@ -4,7 +4,10 @@ import { signal } from "@preact/signals";
 
 import type { RosMessage, RosValue } from "../../protocol/ros_types";
 import type { Field, MessageType } from "./definition";
-import { emptyMessage, messageFromText, valueFromText, ValueError } from "./values";
+import { emptyMessage, emptyValues, messageFromText, valueFromText, ValueError } from "./values";
+
+/** Most values that a form begins with. */
+const MOST_VALUES = 100_000;
 
 /** A row of the form: a field that takes a value, or the heading of a message's fields. */
 export interface FormRow {
@@ -29,7 +32,9 @@ export class FormState {
   readonly texts = signal<ReadonlyMap<string, string>>(new Map());
   readonly rows: readonly FormRow[];
 
+  /** Throws an Error with a sentence where the type holds too much for a form. */
   constructor(readonly type: MessageType) {
+    if (!(emptyValues(type) <= MOST_VALUES)) throw new Error(`It holds more than ${MOST_VALUES.toLocaleString("en")} values, too many for a form.`);
     this.rows = formRows(type, "", 0);
   }
 

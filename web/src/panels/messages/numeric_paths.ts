@@ -5,11 +5,16 @@ import { isNumeric } from "./values";
 
 const MOST_ELEMENTS = 9;
 const MOST_PATHS = 200;
+/** A definition may hold messages within messages without end. */
+const MOST_MESSAGES = 2000;
 
 /** As `.pose.position.x`; of arrays without a fixed length the first element, of long ones the first nine. */
 export function numericPaths(type: MessageType): readonly string[] {
   const paths: string[] = [];
+  let messages = 0;
   const add = (within: MessageType, prefix: string): void => {
+    messages += 1;
+    if (messages > MOST_MESSAGES) return;
     for (const field of within.root.fields) {
       const count = field.isArray ? Math.min(MOST_ELEMENTS, field.length ?? 1) : 1;
       for (let index = 0; index < count && paths.length < MOST_PATHS; index += 1) {

@@ -29,6 +29,22 @@ export function emptyMessage(type: MessageType): RosMessage {
   return Object.fromEntries(type.root.fields.map((field) => [field.name, emptyValue(type, field)]));
 }
 
+/** Number of values of the empty message; infinite where a type contains itself. */
+export function emptyValues(type: MessageType): number {
+  const counts = new Map<string, number>();
+  const countOf = (within: MessageType): number => within.root.fields.reduce((sum, field) => sum + (field.isArray ? (field.length ?? 0) : 1) * elementOf(within, field), 0);
+  const elementOf = (within: MessageType, { isComplex, type: name }: Field): number => {
+    if (!isComplex) return 1;
+    const known = counts.get(name);
+    if (known !== undefined) return known;
+    counts.set(name, Infinity); // while it is counted
+    const count = countOf(within.within(name));
+    counts.set(name, count);
+    return count;
+  };
+  return countOf(type);
+}
+
 function emptyValue(type: MessageType, field: Field): RosValue {
   if (!field.isArray) return emptyElement(type, field);
   return Array.from({ length: field.length ?? 0 }, () => emptyElement(type, field));
