@@ -1,6 +1,5 @@
 """The pointer in a world of 200 models: script time of hovering, selecting and dragging, by Chromium's own trace."""
 
-import importlib.util
 import json
 import re
 import signal
@@ -11,10 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from bench.chromium import chromium, is_there
 from bench.table import Row
 
-_CHROMIUM = Path("/usr/bin/chromium")
-_SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 _PATIENCE_MS = 120_000
 _FRAME_US = 1e6 / 60
 _ROWS, _COLUMNS, _GAP_M = 10, 20, 1.0
@@ -25,14 +23,10 @@ _POINTER = re.compile(r"pointer|mouse|click")
 
 def run() -> list[Row]:
     """Measure in one browser."""
-    if not _CHROMIUM.exists() or importlib.util.find_spec("playwright") is None:
-        return []  # Debian's browser is what the figure is of
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=str(_CHROMIUM), args=list(_SOFTWARE_GL))
+    if not is_there():
+        return []
+    with chromium() as browser:
         shares = measure(browser)
-        browser.close()
     return [
         Row(f"200 models, {what}: script per event", share, "% of frame", "", None) for what, share in shares.items()
     ]

@@ -1,19 +1,16 @@
 """The page in headless Chromium: time from its URL, which `trundle run` prints, until the world is drawn."""
 
-import importlib.util
 import re
 import signal
 import statistics
 import subprocess
 import sys
 import time
-from pathlib import Path
 from typing import Any
 
+from bench.chromium import chromium, is_there
 from bench.table import Row
 
-_CHROMIUM = Path("/usr/bin/chromium")
-_SOFTWARE_GL = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 _RUNS = 3
 _PATIENCE_MS = 120_000
 _DRAWN = """() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(() => {
@@ -25,14 +22,10 @@ _DRAWN = """() => new Promise((resolve) => requestAnimationFrame(() => requestAn
 
 def run() -> list[Row]:
     """Time a few starts in one browser that is running already."""
-    if not _CHROMIUM.exists() or importlib.util.find_spec("playwright") is None:
-        return []  # Debian's browser is what the figure is of
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=str(_CHROMIUM), args=list(_SOFTWARE_GL))
+    if not is_there():
+        return []
+    with chromium() as browser:
         seconds = [_usable_s(browser) for _ in range(_RUNS)]
-        browser.close()
     return [Row("RP2W at home: page usable after its URL", statistics.median(seconds), "s", "", None)]
 
 
