@@ -61,7 +61,8 @@ export function toolCommands(shell: Shell): readonly Command[] {
     .flatMap((tool) => {
       const letter = tool.shortcut.toUpperCase();
       const command: Command = { id: `tool.${tool.className}`, group: "Tools", title: tool.name, keys: letter, run: () => shell.page.tools.use(tool.className) };
-      const shifted: Command = { ...command, id: `${command.id}.shift`, keys: `Shift ${letter}` };
-      return "WASD".includes(letter) ? [shifted, { ...command, enabled: () => shell.page.drive.topic.peek() === null }] : [command];
+      const isDriving = (): boolean => shell.page.drive.topic.peek() !== null;
+      const shifted: Command = { ...command, id: `${command.id}.shift`, keys: `Shift ${letter}`, enabled: isDriving };
+      return "WASD".includes(letter) ? [shifted, { ...command, enabled: () => !isDriving() }] : [command];
     });
 }
