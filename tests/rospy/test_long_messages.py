@@ -47,3 +47,36 @@ def test_kept_messages_stay_as_they_came(kind: str, container: str, tmp_path: Pa
                 source.publish({"header": {"frame_id": str(number)}, "data": data})
             printed, _ = program.communicate(timeout=PATIENCE_S)
     assert printed.splitlines() == [f"{number} {container} {_LENGTH} {number}" for number in range(_COUNT)]
+
+
+_SLOW_NODE = """
+import rospy, rospy.subscription
+from sensor_msgs.msg import Image
+
+rospy.subscription._MAX_WAITING_BYTES = 1_000_000  # ten messages
+rospy.init_node("slow")
+kept = []
+def keep(message):
+    if not kept:
+        rospy.sleep(1.0)
+    kept.append(message.header.frame_id)
+subscriber = rospy.Subscriber("in", Image, keep)
+while "last" not in kept and not rospy.is_shutdown():
+    rospy.sleep(0.01)
+print(*kept)
+"""
+
+
+def test_a_slow_callback_loses_nothing(tmp_path: Path) -> None:
+    (tmp_path / "slow.py").write_text(_SLOW_NODE)
+    names = [*map(str, range(300)), "last"]
+    with running_graph() as graph:
+        env = environment(sys.executable, graph.core.uri, tmp_path)
+        with subprocess.Popen([sys.executable, str(tmp_path / "slow.py")], env=env, stdout=subprocess.PIPE) as program:
+            node = graph.node("tester")
+            source = node.advertise("/in", "sensor_msgs/Image", queue_size=None)
+            graph.until(lambda: source.has_subscribers)
+            for name in names:
+                source.publish({"header": {"frame_id": name}, "data": bytes(_LENGTH)})
+            printed, _ = program.communicate(timeout=PATIENCE_S)
+    assert printed.decode().split() == names

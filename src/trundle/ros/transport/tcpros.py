@@ -35,6 +35,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self._selector: FastSelector | None = None
         self._socket: socket.socket | None = None
         """Duplicate of the socket, read directly instead of through asyncio."""
+        self._is_paused = False
         self._ending: str | None = None
 
     # for subclasses to override
@@ -150,6 +151,18 @@ class FrameProtocol(asyncio.BufferedProtocol):
             self._end(reason)
             transport.close()
 
+    def pause(self) -> None:
+        """Read no more until `resume`: what the peer sends waits with the peer."""
+        if self._selector is not None and self._socket is not None and not self._is_paused:
+            self._selector.remove_reader(self._socket)
+            self._is_paused = True
+
+    def resume(self) -> None:
+        """Read again."""
+        if self._is_paused and self._selector is not None and self._socket is not None and self.transport is not None:
+            self._selector.add_reader(self._socket, self._readable)
+            self._is_paused = False
+
     def set_nodelay(self) -> None:
         """Set TCP_NODELAY: small messages are sent at once."""
         if self.transport is not None and not self.out.is_local:
@@ -185,10 +198,10 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def _end(self, reason: str) -> None:
         if self.transport is None:
             return
+        self.pause()
         self.transport = None
         self.out.close()
-        if self._selector is not None and self._socket is not None:
-            self._selector.remove_reader(self._socket)
+        if self._socket is not None:
             self._socket.close()
         if self._deadline is not None:
             self._deadline.cancel()

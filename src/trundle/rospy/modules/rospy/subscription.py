@@ -18,6 +18,7 @@ from trundle.ros.node.loop import SLICE_NS
 from trundle.ros.node.node import Node
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.node.subscription import Subscription as GraphSubscription
+from trundle.ros.transport.tcpros import FrameProtocol
 from trundle.rospy.message_methods import codec, has_only_bytes, is_plain
 
 from . import core, graph
@@ -27,7 +28,7 @@ _NO_STATISTICS = ("/clock", "/statistics")
 _FRAME = 4
 """Bytes of a message's length on the wire."""
 _MAX_WAITING_BYTES = 256 * 1024 * 1024
-"""Limit of messages that wait for slow callbacks, where the program sets none."""
+"""Messages that wait for slow callbacks here; more wait with their publishers, as all do with the original."""
 _Callback = tuple[Callable[..., object], Any]
 
 
@@ -80,6 +81,8 @@ class Subscription:
         self._waiting: SimpleQueue[tuple[_Data, Mapping[str, str]] | None] = SimpleQueue()
         self._received_bytes = self._read_bytes = 0
         """Sizes of messages, without those that were dropped; written by the loop, and by the topic's thread."""
+        self._is_held = False
+        """True if publishers wait."""
         self._latched: dict[str, Any] = {}
         """Publisher → its latched message, for callbacks added later."""
         self._subscription: ByteSubscription | None = None
@@ -158,10 +161,19 @@ class Subscription:
         if self.queue_size is not None:
             while self._waiting.qsize() >= self.queue_size and self._drop_oldest():
                 pass
-        while self._received_bytes - self._read_bytes > _MAX_WAITING_BYTES and self._drop_oldest():
-            pass
         self._received_bytes += len(data)
         self._waiting.put((data, header))
+        if self._received_bytes - self._read_bytes > _MAX_WAITING_BYTES and self._subscription is not None:
+            self._subscription.pause()
+            self._is_held = True
+            self._release()  # all may have been read meanwhile
+
+    def _release(self) -> None:
+        """Have publishers go on once half has been read; on the loop or the topic's thread."""
+        if self._is_held and self._received_bytes - self._read_bytes <= _MAX_WAITING_BYTES // 2:
+            self._is_held = False
+            assert self._subscription is not None
+            self._subscription.resume()
 
     def close(self) -> None:
         """Unsubscribe."""
@@ -192,6 +204,8 @@ class Subscription:
         while (entry := self._waiting.get()) is not None:
             data, header = entry
             self._read_bytes += len(data)
+            if self._is_held:
+                self._release()
             try:
                 message = data.message if isinstance(data, _ReadMessage) else read(data)
             except Exception as error:
@@ -262,6 +276,21 @@ class ByteSubscription(GraphSubscription):
     @property
     def md5sum(self) -> str:
         return self._subscription.md5sum
+
+    def pause(self) -> None:
+        """Have publishers of other processes wait; on the loop."""
+        for link in self._links.values():
+            if isinstance(link, FrameProtocol):
+                link.pause()
+
+    def resume(self) -> None:
+        """Have them go on; thread-safe."""
+        self._node.loop.call_soon(self._resume)
+
+    def _resume(self) -> None:
+        for link in self._links.values():
+            if isinstance(link, FrameProtocol):
+                link.resume()
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str], *, from_outside: bool = True) -> None:
         del from_outside
