@@ -147,15 +147,19 @@ def _camera(topic: str, encoding: str, depth: bytes, step: int, colour: bytes | 
 
 def _depth_cloud(name: str, topic: str, sent: list[Message], colour: str = "", **properties: Any) -> Case:
     shown = {"Class": "rviz/DepthCloud", "Name": "DepthCloud", "Depth Map Topic": f"{topic}/image"}
-    return Case(name=f"DepthCloud {name}", display=shown | {"Color Image Topic": colour} | properties, messages=sent)
+    display = shown | {"Color Image Topic": colour} | properties
+    return Case(
+        name=f"DepthCloud {name}", display=display, repeated=sent
+    )  # rviz skips an image before its camera's info
 
 
 _SLOPE = [1.5 + u / 40 for _ in range(48) for u in range(64)]
 _METRES = b"".join(struct.pack("<f", value) for value in _SLOPE)
 _MILLIMETRES = b"".join(struct.pack("<H", round(1000 * value)) for value in _SLOPE)
 _GRADIENT = bytes(part for v in range(48) for u in range(64) for part in (4 * u, 5 * v, 90))
+_COLOURED = _camera("/depth", "32FC1", _METRES, 256, _GRADIENT)
 _DEPTHS = [
-    _depth_cloud("in colours", "/depth", _camera("/depth", "32FC1", _METRES, 256, _GRADIENT), "/depth/color"),
+    _depth_cloud("in colours", "/depth", _COLOURED, "/depth/color"),
     _depth_cloud(
         "by depth",
         "/depth16",
@@ -163,7 +167,11 @@ _DEPTHS = [
         **{"Color Transformer": "AxisColor", "Axis": "Z"},
     ),
     _depth_cloud(
-        "in points of one size", "/depth", [], "/depth/color", **{"Auto Size": {"Value": False}, "Size (m)": 0.06}
+        "in points of one size",
+        "/depth",
+        _COLOURED,
+        "/depth/color",
+        **{"Auto Size": {"Value": False}, "Size (m)": 0.06},
     ),
 ]
 CLOUDS = [*_SCANS, *_CLOUDS, *_DEPTHS]
