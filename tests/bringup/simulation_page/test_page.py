@@ -306,6 +306,25 @@ def test_pictures_are_drawn_for_browsers_without_webgl(tmp_path: Path) -> None:
     assert rgb[1, 1].min() > 4 * rgb[24, 32].min()
 
 
+def test_a_picture_of_any_shape_holds_a_tall_robot(tmp_path: Path) -> None:
+    """A red pole of 1.6 m, whose first link is at its foot, as the RP2W's."""
+    pole = """<model name="pole"><link name="foot"/><link name="mast"><pose>0 0 1.6 0 0 0</pose><visual name="v">
+<pose>0 0 -0.8 0 0 0</pose><geometry><cylinder><radius>0.05</radius><length>1.6</length></cylinder></geometry>
+<material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link>
+<joint name="j" type="fixed"><parent>foot</parent><child>mast</child></joint></model>"""
+    shown = Shown(loaded(tmp_path, pole)[0])
+    for width, height in ((320, 120), (120, 320)):
+        shown.server.ask(RenderView(width=width, height=height))
+        shown.page.handle_requests(shown.pacer, paused=True)
+        _, png = shown.server.pictures.get(timeout=60)
+        red, green, _ = np.moveaxis(np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int), -1, 0)
+        rows = np.flatnonzero((red > 2 * green).any(axis=1))
+
+        assert rows[0] > height // 10
+        assert rows[-1] < height * 9 // 10
+        assert rows[-1] - rows[0] > min(width, height) // 4
+
+
 def test_recording_is_begun_and_shown(tmp_path: Path) -> None:
     class Recorder:
         since_ns: int | None = None

@@ -15,11 +15,12 @@ from trundle.diagnostics import Diagnostics
 from trundle.model import AnimationState, World
 from trundle.page import RenderView
 from trundle.render import Intrinsics, NativeRenderer, Scene, scene_from_world, update_skins
-from trundle.spatial import Pose, Vector3, pose_from_row
+from trundle.spatial import Pose, Vector3
 
 from .manifest import find_robot
 
 _FOV_RAD = 0.9
+"""Of the shorter side."""
 _FAR_M = 1e5
 
 
@@ -78,23 +79,33 @@ class WorldPictures:
             renderer.update(job.poses)
             update_skins(renderer, scene, lambda actor, job=job: job.states.get(actor, AnimationState()))
             view = job.view
-            lens = Intrinsics(
-                width_px=view.width, height_px=view.height, horizontal_fov_rad=_FOV_RAD, near_m=0.01, far_m=_FAR_M
-            )
-            (picture,) = renderer.render([(_eye(view, job.target), lens)])
+            (picture,) = renderer.render([(_eye(view, job.target), _lens(view))])
             png = io.BytesIO()
             Image.fromarray(picture.rgb).save(png, "PNG", compress_level=1)
             self._respond(job.id, png.getvalue())
 
 
 def _target(world: World, poses: NDArray[np.float64]) -> Vector3:
-    """Return the place of the robot's first link, or the origin [m]."""
+    """Return the middle of the robot's links, or the origin [m]."""
     robot, row = find_robot(world), 0
     for model in world.models:
         if model is robot:
-            return pose_from_row(poses[row]).position
+            places = poses[row : row + len(model.links), :3]
+            x, y, z = ((places.min(axis=0) + places.max(axis=0)) / 2).tolist()
+            return (x, y, z)
         row += len(model.links)
     return (0.0, 0.0, 0.0)
+
+
+def _lens(view: RenderView) -> Intrinsics:
+    half = math.tan(_FOV_RAD / 2) * view.width / min(view.width, view.height)
+    return Intrinsics(
+        width_px=view.width,
+        height_px=view.height,
+        horizontal_fov_rad=2 * math.atan(half),
+        near_m=0.01,
+        far_m=_FAR_M,
+    )
 
 
 def _eye(view: RenderView, target: Vector3) -> Pose:

@@ -41,6 +41,8 @@ function Loading({ shell }: { readonly shell: Shell }): JSX.Element | null {
 }
 
 const REFRESH = 500; // ms
+/** Largest picture that is asked for [px]. */
+const [MOST_WIDE, MOST_HIGH] = [960, 720];
 const TURN = 0.01; // rad per pixel
 
 /** Pictures by our own renderer, turned by a drag. */
@@ -52,7 +54,8 @@ function Pictures({ shell, reason }: { readonly shell: Shell; readonly reason: s
   useEffect(() => {
     const ask = (): void => {
       const { azimuth, elevation, distance } = view.peek();
-      const [w, h] = [Math.min(960, width.peek()), Math.min(720, height.peek())];
+      const share = Math.min(1, MOST_WIDE / width.peek(), MOST_HIGH / height.peek());
+      const [w, h] = [Math.round(share * width.peek()), Math.round(share * height.peek())]; // as wide and high as the window: nothing is cut off
       shown.value = `camera.png?width=${w}&height=${h}&azimuth=${azimuth}&elevation=${elevation}&distance=${distance}&t=${performance.now()}`;
     };
     ask();
@@ -90,7 +93,7 @@ function Pictures({ shell, reason }: { readonly shell: Shell; readonly reason: s
           onKeyDown={(event) => keys[event.key]?.()}
         />
       )}
-      <p class={isPhone.value || !failed.value ? "scene-note low float" : "scene-note float"} role="status">
+      <p class={isPhone.value || !failed.value ? "scene-note high float" : "scene-note float"} role="status">
         {reason}
         {!failed.value && " These pictures come from the simulator's own renderer: drag to turn."}
       </p>
