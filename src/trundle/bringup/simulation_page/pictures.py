@@ -20,7 +20,7 @@ from trundle.spatial import Pose, Vector3
 from .manifest import find_robot
 
 _FOV_RAD = 0.9
-"""Of the shorter side."""
+"""Field of view of the shorter side."""
 _FAR_M = 1e5
 
 
