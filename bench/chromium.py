@@ -1,4 +1,4 @@
-"""Debian's Chromium as it starts by itself: without a graphics card it composes pages and draws WebGL on the CPU."""
+"""Debian's Chromium, headless, which chooses how it draws: without a graphics card it composes pages on the CPU."""
 
 import importlib.util
 from collections.abc import Generator
@@ -8,8 +8,7 @@ from typing import Any
 
 _PROGRAM = Path("/usr/bin/chromium")
 _FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader")
-"""The latter: WebGL is allowed there. Flags that choose how it draws would have a page composed by an emulated
-graphics card, as no user's is."""
+"""The latter allows WebGL there. `--use-gl` and `--use-angle` would have an emulated graphics card compose the page."""
 
 
 def is_there() -> bool:
