@@ -118,14 +118,19 @@ def test_the_longest_unused_go_first(large: Path, cache_folder: Path, monkeypatc
     assert not list(cache_folder.glob("*.tmp"))
 
 
-def test_what_is_interrupted_leaves_nothing_behind(
-    large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("has_moved", [False, True])
+def test_what_is_interrupted_leaves_nothing_half_done_behind(
+    has_moved: bool, large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupt(*_: object) -> None:
+    move = os.replace
+
+    def interrupt(source: str, target: Path) -> None:
+        if has_moved:
+            move(source, target)
         raise KeyboardInterrupt
 
     parts = load._read(large.read_bytes(), ".obj", large)
     monkeypatch.setattr(cache.os, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
         cache.save_parts("key", parts)
-    assert not list(cache_folder.iterdir())
+    assert [path.name for path in cache_folder.iterdir()] == (["key.npz"] if has_moved else [])

@@ -72,7 +72,7 @@ def _write(path: Path, data: bytes) -> None:
             file.close()
             os.replace(file.name, path)
         except BaseException:
-            os.unlink(file.name)
+            Path(file.name).unlink(missing_ok=True)  # missing if Ctrl-C came just after the move
             raise
 
 

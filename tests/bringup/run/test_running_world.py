@@ -54,6 +54,7 @@ def test_the_nodes_and_topics_of_a_model_go_and_come_with_it(graph: Graph, world
 
     edits = _model_edits(world)
     until(lambda: nodes() == {ours})
+    until(imu_topics)
     (topic,) = imu_topics()
     edits.handle(CopyModel("cart", "cart_0", (3, 0, 0)))
     until(lambda: nodes() == {ours, "/cart_0/move"})
