@@ -10,7 +10,7 @@ NPM    := $(BIN)/python web/npm.py
 CLIENT := src/trundle/page/client/index.html
 WEB    := $(shell find web -path web/node_modules -prune -o -path web/test -prune -o -type f -print)
 
-.PHONY: demo test test-all check tidy format docs film bench load dist system clean help
+.PHONY: demo test test-all check lint types tidy format docs film bench load dist system clean help
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
@@ -63,13 +63,18 @@ $(VENV)/.large: $(READY)
 	@touch $@
 
 check: $(READY)  ## lint, types, layers, the format of C++
+	@$(MAKE) --no-print-directory --jobs 2 --output-sync lint types
+
+lint: $(READY)
 	$(BIN)/python cpp/lint.py format --check
 	$(BIN)/python cpp/lint.py tidy --changed
 	$(BIN)/ruff check src tests bench examples docs cpp web
 	$(BIN)/ruff format --check src tests bench examples docs cpp web
-	PYRIGHT_PYTHON_IGNORE_WARNINGS=1 $(BIN)/pyright  # which else asks the net for its newest version
 	$(BIN)/lint-imports
 	$(NPM) run --silent check
+
+types: $(READY)
+	PYRIGHT_PYTHON_IGNORE_WARNINGS=1 $(BIN)/pyright  # which else asks the net for its newest version
 
 tidy: $(READY)  ## clang-tidy over all of cpp/ (installs it, 46 MB)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt clang-tidy nanobind

@@ -1,5 +1,6 @@
 """Reading files that other files name, and the pipes that the command line may name."""
 
+import io
 import os
 import sys
 from collections.abc import Callable
@@ -91,6 +92,12 @@ def test_files_folders_and_nothing_are_no_streams(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
 
     assert not any(files.is_stream(each) for each in (tmp_path, tmp_path / "file", tmp_path / "no", "a\0b"))
+
+
+@pytest.mark.parametrize("text", ["x: 1\n", ""])
+def test_a_program_may_put_a_text_in_place_of_standard_input(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", io.StringIO(text))
+    assert files.read_standard_input() == text.encode()
 
 
 class TestEveryReader:

@@ -34,8 +34,8 @@ TERMS = {"give_up", "look_ahead", "look_up"}
 
 
 @cache
-def _tree(file: Path) -> ast.Module:
-    return ast.parse(file.read_text())
+def _nodes(file: Path) -> list[ast.AST]:
+    return list(ast.walk(ast.parse(file.read_text())))
 
 
 def _sources() -> Iterator[Path]:
@@ -45,7 +45,7 @@ def _sources() -> Iterator[Path]:
 def _definitions(kinds: tuple[type[ast.AST], ...]) -> Iterator[tuple[str, str]]:
     """Place and name of each definition, without leading underscores."""
     for file in _sources():
-        for node in ast.walk(_tree(file)):
+        for node in _nodes(file):
             if isinstance(node, kinds):
                 name: str = node.name  # type: ignore[attr-defined]
                 yield f"{file.relative_to(SOURCE)}:{node.lineno}", name.lstrip("_")  # type: ignore[attr-defined]
@@ -91,7 +91,7 @@ RIDDLES = re.compile(
 def _docstrings() -> Iterator[tuple[str, str]]:
     """Place and text of each docstring, those of attributes included."""
     for file in _sources():
-        for node in ast.walk(_tree(file)):
+        for node in _nodes(file):
             for statement in getattr(node, "body", []) if not isinstance(node, ast.Lambda | ast.IfExp) else []:
                 match statement:
                     case ast.Expr(value=ast.Constant(value=str(text))):

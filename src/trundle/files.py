@@ -5,6 +5,7 @@ returns False for invalid names; `pathlib` raises for some of them.
 """
 
 import errno
+import io
 import math
 import os
 import re
@@ -111,7 +112,11 @@ def read_standard_input() -> bytes:
     Raises:
         OSError: as `read_stream`.
     """
-    descriptor = 0 if sys.stdin is None else sys.stdin.fileno()  # pyright: ignore[reportUnnecessaryComparison]
+    given = sys.stdin
+    try:
+        descriptor = 0 if given is None else given.fileno()  # pyright: ignore[reportUnnecessaryComparison]
+    except (AttributeError, io.UnsupportedOperation):  # a program put text there
+        return sys.stdin.read().encode()
     return _joined(_chunks(descriptor, "<stdin>"), MAX_BYTES, "<stdin>")
 
 

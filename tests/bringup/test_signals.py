@@ -37,6 +37,7 @@ def test_it_stays_set() -> None:
     assert flag.is_set()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="timers that send signals are POSIX's")
 def test_a_signal_may_set_it_at_any_moment() -> None:
     """Thousands of signals hit every line of a wait; none of them may block it."""

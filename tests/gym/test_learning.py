@@ -23,6 +23,7 @@ def trained(name: str, *, enough: float, worlds: int, iterations: int, steps: in
     pytest.fail(f"{name}: the best score is {best:.2f}, not {enough}")
 
 
+@pytest.mark.slow
 def test_a_policy_learns_to_balance_a_pole_and_is_the_same_from_its_file(tmp_path) -> None:
     policy = trained("Trundle/CartPole-v0", enough=475.0, worlds=16, iterations=30)
     policy.save(tmp_path / "policy.npz")

@@ -105,6 +105,7 @@ def test_waiting_for_a_slow_command_prints_a_message(
     assert capfd.readouterr().err == f"still waiting for command {PYTHON!r}, 60 s at most\n"
 
 
+@pytest.mark.slow
 def test_child_processes_of_a_killed_command_may_go_on_writing(tmp_path: Path) -> None:
     """A daemon holds the output open and writes after the reader has gone."""
     daemon = tmp_path / "daemon.py"

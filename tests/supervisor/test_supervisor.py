@@ -244,6 +244,7 @@ def test_a_task_is_cancelled_on_stop(tmp_path: Path) -> None:
     assert cleaned == [True]
 
 
+@pytest.mark.slow
 def test_a_task_that_ignores_its_cancellation_holds_up_nobody(tmp_path: Path) -> None:
     release = asyncio.Event()
 

@@ -366,6 +366,7 @@ def test_quiet_leaves_what_nodes_say_and_what_goes_wrong(launch: Launch, package
     assert of_b[1].startswith("log file: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("distro", "topic"), [("indigo", "/tf"), ("noetic", "/tf_static")])
 def test_a_launch_is_like_the_distribution_asked_for(
     launch: Launch, trundle, package: Path, tmp_path: Path, distro: str, topic: str
@@ -388,6 +389,7 @@ def test_a_launch_is_like_the_distribution_asked_for(
     assert re.findall(r"/tf\w*", topics) == [topic]
 
 
+@pytest.mark.slow
 def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/></launch>'

@@ -9,6 +9,7 @@ import pytest
 from trundle.ros import open_bag
 
 
+@pytest.mark.slow
 def test_it_drives_through_a_living_room_and_sees_the_walls(start, trundle, master, until) -> None:
     start("launch", "smartcar", "drive.launch", "--headless")
     topics = {"/scan", "/odom", "/camera/image_raw", "/joint_states", "/gazebo/model_states"}

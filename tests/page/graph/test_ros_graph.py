@@ -330,6 +330,7 @@ def test_simulated_time_is_the_time_of_messages(graph: Graph, graph_page: PageSe
         client.until(lambda: client.times[-1:] > [10**18])
 
 
+@pytest.mark.slow
 def test_a_master_that_comes_late_dies_and_returns() -> None:
     with running_graph() as graph:
         uri, port = graph.core.uri, int(graph.core.uri.rstrip("/").rpartition(":")[2])

@@ -40,7 +40,7 @@ def show(config, folder):
     for node in config.nodes:
         print(node.package, node.type, node.name, node.namespace, repr(node.args), node.output, node.cwd)
         print("  ", node.respawn, node.respawn_delay, node.required, node.launch_prefix, node.machine_name)
-        print("  ", sorted(map(list, node.remap_args)), sorted(map(list, node.env_args)), node.machine is not None)
+        print("  ", sorted(node.remap_args), sorted(map(list, node.env_args)), node.machine is not None)
     for test in config.tests:
         print(test.test_name, test.package, test.type, test.time_limit, test.retry)
     for name, param in sorted(config.params.items()):

@@ -142,7 +142,7 @@ def _common(node: LaunchNode) -> dict[str, Any]:
         "namespace": node.namespace,
         "machine_name": node.machine,
         "args": node.arguments,
-        "remap_args": node.remappings,
+        "remap_args": [[here, there] for here, there in node.remappings],
         "env_args": node.env,
         "cwd": "node" if node.cwd == "node" else None,
         "launch_prefix": node.launch_prefix,
