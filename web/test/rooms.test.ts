@@ -14,7 +14,7 @@ const FLOORS = [
   ["displays"],
   ["page"],
   ["panels", "tools"],
-  ["app", "editor"],
+  ["app"],
   ["replay"],
 ];
 

@@ -16,7 +16,7 @@ import "../theme/dialogs.css";
 import "../theme/insert.css";
 import "../theme/phone.css";
 import "../theme/dockview.css";
-import { editorCommands } from "../editor/editor_commands";
+import { editorCommands } from "./editor/editor_commands";
 import type { Panel } from "../panels/panel";
 import { App } from "./app";
 import { modelCommands } from "./world/model_edits";

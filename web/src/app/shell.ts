@@ -3,7 +3,7 @@
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
 import type { Display } from "../displays/display";
-import { ModelEditor } from "../editor/model_editor";
+import { ModelEditor } from "./editor/model_editor";
 import type { PaneLayout } from "../scene/panes/pane_layout";
 import { cameraTopics } from "./cameras/topics";
 import { CommandList } from "./commands";

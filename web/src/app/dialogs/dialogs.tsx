@@ -2,8 +2,8 @@
 
 import type { JSX } from "preact";
 
-import { AskDialog } from "../../editor/ask_dialog";
-import { SaveModel } from "../../editor/save_model";
+import { AskDialog } from "../editor/ask_dialog";
+import { SaveModel } from "../editor/save_model";
 import { CodeDialog } from "./code_dialog";
 import { Help } from "./help";
 import { NoticeList } from "../notices/list";

@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import { PartForm } from "../../editor/part_form";
+import { PartForm } from "../editor/part_form";
 import { NoTransform } from "../../frames/transform";
 import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";

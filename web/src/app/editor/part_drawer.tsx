@@ -4,12 +4,12 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
-import type { Shell } from "../app/shell";
-import type { RequestAnswer } from "../protocol/connection";
-import { Button } from "../theme/button";
-import { Icon } from "../theme/icons";
-import { Tabs } from "../theme/tabs";
-import { findPart, linkAround, type Draft } from "../scene/draft";
+import type { Shell } from "../shell";
+import type { RequestAnswer } from "../../protocol/connection";
+import { Button } from "../../theme/button";
+import { Icon } from "../../theme/icons";
+import { Tabs } from "../../theme/tabs";
+import { findPart, linkAround, type Draft } from "../../scene/draft";
 
 const TABS = [
   { id: "link", title: "Link" },

@@ -2,8 +2,8 @@
 
 import type { JSX } from "preact";
 
-import { Dialog } from "../app/dialogs/dialog";
-import type { Shell } from "../app/shell";
+import { Dialog } from "../dialogs/dialog";
+import type { Shell } from "../shell";
 import type { Question } from "./model_editor";
 
 export function AskDialog({ shell, question }: { readonly shell: Shell; readonly question: Question }): JSX.Element {

@@ -2,13 +2,13 @@
 
 import type { JSX } from "preact";
 
-import type { Shell } from "../app/shell";
-import { canEdit } from "../app/world/edits";
-import { Button } from "../theme/button";
-import { Icon } from "../theme/icons";
-import { StatusShape } from "../theme/status_shape";
-import { TextField } from "../theme/text_field";
-import { findPart, type Draft, type DraftFinding, type DraftPart, type PartPath } from "../scene/draft";
+import type { Shell } from "../shell";
+import { canEdit } from "../world/edits";
+import { Button } from "../../theme/button";
+import { Icon } from "../../theme/icons";
+import { StatusShape } from "../../theme/status_shape";
+import { TextField } from "../../theme/text_field";
+import { findPart, type Draft, type DraftFinding, type DraftPart, type PartPath } from "../../scene/draft";
 import { FieldRow } from "./field_rows";
 import { iconOf } from "./part_icons";
 

@@ -2,8 +2,8 @@
 
 import type { JSX } from "preact";
 
-import { SaveFile } from "../app/dialogs/save_file";
-import type { Shell } from "../app/shell";
+import { SaveFile } from "../dialogs/save_file";
+import type { Shell } from "../shell";
 
 export function SaveModel({ shell }: { readonly shell: Shell }): JSX.Element {
   return (

@@ -1,9 +1,9 @@
 /** Commands of the model editor. */
 
-import type { Command } from "../page/page";
-import type { Shell } from "../app/shell";
-import { canEdit } from "../app/world/edits";
-import type { PartPath } from "../scene/draft";
+import type { Command } from "../../page/page";
+import type { Shell } from "../shell";
+import { canEdit } from "../world/edits";
+import type { PartPath } from "../../scene/draft";
 
 export function editorCommands(shell: Shell): readonly Command[] {
   if (!canEdit(shell)) return [];

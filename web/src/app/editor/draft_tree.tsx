@@ -3,15 +3,15 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import type { Selection } from "../page/page";
-import type { Shell } from "../app/shell";
-import { canEdit } from "../app/world/edits";
-import { Button } from "../theme/button";
-import { count, fixed } from "../theme/format";
-import { Icon } from "../theme/icons";
-import { StatusShape } from "../theme/status_shape";
-import { Tree, type TreeRow } from "../theme/tree";
-import type { Draft, DraftPart, PartPath } from "../scene/draft";
+import type { Selection } from "../../page/page";
+import type { Shell } from "../shell";
+import { canEdit } from "../world/edits";
+import { Button } from "../../theme/button";
+import { count, fixed } from "../../theme/format";
+import { Icon } from "../../theme/icons";
+import { StatusShape } from "../../theme/status_shape";
+import { Tree, type TreeRow } from "../../theme/tree";
+import type { Draft, DraftPart, PartPath } from "../../scene/draft";
 import { iconOf } from "./part_icons";
 import { PartDrawer } from "./part_drawer";
 

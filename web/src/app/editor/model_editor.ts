@@ -3,13 +3,13 @@
 import { computed, signal } from "@preact/signals";
 import { Box3, Vector3 } from "three";
 
-import type { Notices } from "../app/notices/notices";
-import type { Page } from "../page/page";
-import { bodiesOf } from "../page/world_nodes";
-import type { Transform } from "../frames/transform";
-import type { RequestAnswer } from "../protocol/connection";
-import type { Draft, FieldValue, PartPath } from "../scene/draft";
-import { poseFields, type Fields } from "../page/request_fields";
+import type { Notices } from "../notices/notices";
+import type { Page } from "../../page/page";
+import { bodiesOf } from "../../page/world_nodes";
+import type { Transform } from "../../frames/transform";
+import type { RequestAnswer } from "../../protocol/connection";
+import type { Draft, FieldValue, PartPath } from "../../scene/draft";
+import { poseFields, type Fields } from "../../page/request_fields";
 
 /** From what is there to a new model, and half of what the view shows around it [m]. */
 const BESIDE = 1.5;
