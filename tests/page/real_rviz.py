@@ -133,11 +133,14 @@ class RealRviz:
     def _is_alive(self) -> bool:
         return self._rviz is not None and self._rviz.poll() is None
 
-    def saved(self) -> str:
-        """Let rviz save what it shows; return the file's text."""
+    def saved(self, text: str) -> str:
+        """Show a file and let rviz save it; return the text that rviz writes."""
         path = self._folder / "saved.rviz"
-        assert self._call("/rviz/save_config", path), "rviz does not save its file"
-        return path.read_text()
+        for _ in _PATIENCE_S:
+            if self.show(text) and self._call("/rviz/save_config", path):
+                return path.read_text()
+            self._stop()
+        pytest.fail(f"rviz was started {len(_PATIENCE_S)} times and saved no file")
 
     def _load(self, path: Path) -> bool:
         return self._call(_SERVICE, path)

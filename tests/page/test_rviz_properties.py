@@ -96,8 +96,7 @@ def test_displays_have_rvizs_properties_and_defaults(chromium: Any, tmp_path: Pa
         session = Session(title="p", kind="graph", rviz=RvizFile(name="case.rviz", text=text, writable=True))
         address = GraphAddress(master_uri=graph.core.uri)
         try:
-            rviz.show(text)
-            real = rviz.saved()
+            real = rviz.saved(text)
             with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
                 ours = _saved_by_page(chromium, server)
         finally:
