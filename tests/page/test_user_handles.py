@@ -97,6 +97,7 @@ def test_a_joint_has_a_ring_about_its_axis(user: WorldUser) -> None:
     user.pick("hinge")
     user.drag((1.5 + 0.935, 0.5), (1.5 + 0.66, 1.16))
     user.until(lambda: abs(_yaw(user.pose("gate", 1)) - math.pi / 4) < 0.03, what=f"{user.pose('gate', 1)}")
+    user.page.get_by_text("0.79 rad").first.wait_for()  # shown ten times a second, and what undo goes back to
     user.drag((1.5 + 0.66, 1.16), (1.5 - 0.66, 1.16))
     user.until(lambda: abs(_yaw(user.pose("gate", 1)) - 1) < 1e-3)
     user.button("Undo: Joint hinge").click()
@@ -186,3 +187,19 @@ def test_a_model_is_copied_and_deleted_by_keys_and_both_are_undone(user: WorldUs
     user.until(lambda: user.model("crate_0"))
     user.button("Undo: Copy of crate").click()
     user.until(lambda: not user.model("crate_0"))
+
+
+def test_a_number_that_moves_stands_still_for_who_types_it(user: WorldUser) -> None:
+    """The crate falls meanwhile; what is clicked is selected, and what is typed takes its place."""
+    user.pick("crate")
+    user.type("z [m]", "40")
+    user.until(lambda: 1 < user.place("crate")[2] < 39)
+    field = user.field("z [m]")
+    field.click()
+    shown = field.input_value()
+    high = user.place("crate")[2]
+    user.until(lambda: user.place("crate")[2] < high - 1)
+    assert field.input_value() == shown
+    user.page.keyboard.type("1.5")
+    user.page.keyboard.press("Enter")
+    user.until(lambda: user.place("crate")[2] < 1.6)

@@ -17,6 +17,8 @@ export class UndoHistory implements PageUndo {
   private readonly undone = signal<readonly Edit[]>([]);
   private readonly others = signal<ReadonlySignal<DeferredUndo | null> | null>(null);
   private readonly other = computed(() => this.others.value?.value ?? null);
+  /** Edits that were asked for and are not recorded yet. */
+  private readonly asked = new Set<Promise<unknown>>();
   readonly undoTitle = computed(() => (this.other.value === null ? (this.done.value.at(-1)?.title ?? null) : this.other.value.undoTitle));
   readonly redoTitle = computed(() => (this.other.value === null ? (this.undone.value.at(-1)?.title ?? null) : this.other.value.redoTitle));
 
@@ -34,10 +36,21 @@ export class UndoHistory implements PageUndo {
     this.undone.value = [];
   }
 
+  /** Record something once it is done; what is taken back or done again meanwhile waits for it. */
+  ask<T>(edit: Promise<T>): Promise<T> {
+    const asked = edit.finally(() => this.asked.delete(asked));
+    this.asked.add(asked);
+    return asked;
+  }
+
   undo(): void {
     const other = this.other.peek();
     if (other !== null) {
       other.undo();
+      return;
+    }
+    if (this.asked.size > 0) {
+      this.afterAsked(() => this.undo());
       return;
     }
     const edit = this.done.peek().at(-1);
@@ -53,10 +66,18 @@ export class UndoHistory implements PageUndo {
       other.redo();
       return;
     }
+    if (this.asked.size > 0) {
+      this.afterAsked(() => this.redo());
+      return;
+    }
     const edit = this.undone.peek().at(-1);
     if (edit === undefined) return;
     edit.redo();
     this.undone.value = this.undone.peek().slice(0, -1);
     this.done.value = [...this.done.peek(), edit];
+  }
+
+  private afterAsked(next: () => void): void {
+    void Promise.allSettled(this.asked).then(next);
   }
 }

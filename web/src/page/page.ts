@@ -61,6 +61,8 @@ export interface Commands {
 export interface PageUndo extends UndoStack {
   /** While there is another stack, it is the one whose edits are taken back. */
   defer(other: ReadonlySignal<DeferredUndo | null>): void;
+  /** An edit that is recorded once it is done; what is taken back meanwhile waits for it. */
+  ask<T>(edit: Promise<T>): Promise<T>;
 }
 
 /** Edits that something else remembers. */

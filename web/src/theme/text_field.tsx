@@ -1,7 +1,7 @@
 /** A line of text that is applied by Enter or by leaving it; Esc leaves it as it was. */
 
 import type { ComponentChildren, JSX, TargetedKeyboardEvent } from "preact";
-import { useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 
 export interface TextFieldProps {
   readonly label: string;
@@ -21,23 +21,34 @@ export interface TextFieldProps {
 export function TextField(props: TextFieldProps): JSX.Element {
   const { label, value, check = () => null, onCommit, placeholder, disabled, before, after, onKey } = props;
   const [draft, setDraft] = useState<string | null>(null);
+  /** What it showed when it got the focus or a click: a number that moves would take the selection away before anything is typed. */
+  const [held, setHeld] = useState<string | null>(null);
   const input = useRef<HTMLInputElement>(null);
   const fault = draft === null ? null : check(draft);
-  const commit = (): void => {
-    if (draft !== null && fault === null && draft !== value) onCommit(draft);
+  const shown = draft ?? held ?? value;
+  const showValue = (): void => {
     setDraft(null);
+    setHeld(null);
   };
+  /** The text as the browser has it: a key may come before the last one is drawn. */
+  const commit = (text: string): void => {
+    if (text !== (held ?? value) && check(text) === null) onCommit(text);
+    showValue();
+  };
+  useLayoutEffect(() => {
+    if (draft === null && document.activeElement === input.current) input.current?.select();
+  }, [shown]);
   const keyDown = (event: TargetedKeyboardEvent<HTMLInputElement>): void => {
     const changed = onKey?.(event, event.currentTarget.value) ?? null;
     if (changed !== null) {
       event.preventDefault();
-      setDraft(null);
+      showValue();
       onCommit(changed);
     } else if (event.key === "Enter") {
-      if (fault === null) commit();
+      if (check(event.currentTarget.value) === null) commit(event.currentTarget.value);
       input.current?.select();
     } else if (event.key === "Escape") {
-      setDraft(null);
+      event.currentTarget.value = held ?? value;
       event.currentTarget.blur();
     } else return;
     event.stopPropagation();
@@ -50,14 +61,18 @@ export function TextField(props: TextFieldProps): JSX.Element {
           ref={input}
           aria-label={label}
           aria-invalid={fault !== null}
-          value={draft ?? value}
+          value={shown}
           placeholder={placeholder}
           disabled={disabled}
           spellcheck={false}
           autocomplete="off"
-          onFocus={(event) => event.currentTarget.select()}
+          onFocus={(event) => {
+            setHeld(value);
+            event.currentTarget.select();
+          }}
+          onClick={() => setHeld(held ?? value)}
           onInput={(event) => setDraft(event.currentTarget.value)}
-          onBlur={commit}
+          onBlur={(event) => commit(event.currentTarget.value)}
           onKeyDown={keyDown}
         />
         {after}

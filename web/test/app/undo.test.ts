@@ -1,4 +1,4 @@
-import { expect, it } from "vitest";
+import { expect, it, vi } from "vitest";
 
 import { UndoHistory } from "../../src/app/undo";
 
@@ -19,4 +19,30 @@ it("takes edits back and does them again, with their titles", () => {
   expect([value, undo.redoTitle.value]).toEqual([1, "Change of Size"]);
   undo.run("Change of Name", set(7), set(1));
   expect(undo.redoTitle.value).toBeNull();
+});
+
+it("takes back nothing earlier than an edit that is on its way", async () => {
+  const undo = new UndoHistory();
+  const taken: string[] = [];
+  const record = (title: string): void => undo.record(title, () => undefined, () => taken.push(title));
+  let answer = (): void => undefined;
+  record("first");
+  const edit = undo.ask(new Promise<void>((resolve) => (answer = resolve)).then(() => record("second")));
+  undo.undo();
+  expect(taken).toEqual([]);
+  answer();
+  await edit;
+  await vi.waitFor(() => expect(taken).toEqual(["second"]));
+  undo.undo();
+  expect(taken).toEqual(["second", "first"]);
+});
+
+it("goes on after an edit that failed", async () => {
+  const undo = new UndoHistory();
+  const taken: string[] = [];
+  undo.record("first", () => undefined, () => taken.push("first"));
+  const edit = undo.ask(Promise.reject(new Error("refused")));
+  undo.undo();
+  await expect(edit).rejects.toThrow("refused");
+  await vi.waitFor(() => expect(taken).toEqual(["first"]));
 });

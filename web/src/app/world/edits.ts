@@ -11,7 +11,13 @@ import type { Shell } from "../shell";
  *
  * `before` are the fields that take it back. Nothing can be undone that was refused.
  */
-export async function editWorld(shell: Shell, title: string, request: string, after: Fields, before: Fields): Promise<void> {
+export function editWorld(shell: Shell, ...edit: Edit): Promise<void> {
+  return shell.page.undo.ask(editAndRecord(shell, ...edit));
+}
+
+type Edit = readonly [title: string, request: string, after: Fields, before: Fields];
+
+async function editAndRecord(shell: Shell, ...[title, request, after, before]: Edit): Promise<void> {
   try {
     await shell.page.connection.request(request, after);
   } catch (error) {

@@ -87,7 +87,13 @@ interface Asked {
 }
 
 /** An edit that another kind of request takes back, and `again` redoes; true: it is done. */
-async function change(shell: Shell, title: string, after: Asked, before: Asked, again = after): Promise<boolean> {
+function change(shell: Shell, ...edit: Change): Promise<boolean> {
+  return shell.page.undo.ask(changeAndRecord(shell, ...edit));
+}
+
+type Change = readonly [title: string, after: Asked, before: Asked, again?: Asked];
+
+async function changeAndRecord(shell: Shell, ...[title, after, before, again = after]: Change): Promise<boolean> {
   try {
     await shell.page.connection.request(after.request, after.fields);
   } catch (error) {
