@@ -86,16 +86,24 @@ class ReplayUser:
         """Scrub to a time, and return the picture without the controls."""
         self.time.fill(str(time_s))
         self.page.add_style_tag(content=".replay-bar, .replay-scene > :not(canvas) { opacity: 0 }")
-        before = b""
-        while (png := self.page.screenshot()) != before:
-            before = png
+        picture, before = self._picture(), None
+        while not np.array_equal(picture, before) or not _is_drawn(picture):
             self.page.wait_for_timeout(200)
-        return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"))
+            picture, before = self._picture(), picture
+        return picture
+
+    def _picture(self) -> NDArray[np.uint8]:
+        return np.asarray(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB"))
 
     def close(self) -> None:
         self.page.context.close()
         assert self.faults == []
         assert [url for url in self.requests if not url.startswith(("file:", "blob:"))] == []
+
+
+def _is_drawn(picture: NDArray[np.uint8]) -> bool:
+    """False for one colour: a scene that is not drawn yet stands as still as one that is."""
+    return bool(picture.std() > 5.0)
 
 
 def pictured(user: PanelUser, folder: Path) -> NDArray[np.uint8]:

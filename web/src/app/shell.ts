@@ -37,6 +37,8 @@ export class Shell {
   readonly menu = signal<OpenMenu | null>(null);
   /** Name of the model that Paste puts into the world once more. */
   readonly copied = signal<string | null>(null);
+  /** The link whose form of a force is to take the focus; null once it has it. */
+  readonly wrench = signal<{ readonly model: string; readonly link: string } | null>(null);
   /** The display that is selected in its panel. */
   readonly display = signal<Display | null>(null);
   /** The .rviz file that took the place of the session's: opened or saved by the person; null: none did. */

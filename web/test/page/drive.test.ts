@@ -56,6 +56,7 @@ describe("driving", () => {
     expect(connection.released).toEqual(["/cmd_vel"]);
     expect(press("d", field)).toBe(true);
     expect(connection.driven.length).toBe(1);
+    field.remove();
   });
 
   it("releases when the connection is lost, and holds nothing until it is back", () => {

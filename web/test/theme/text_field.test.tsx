@@ -3,11 +3,12 @@
 
 import { render, type JSX } from "preact";
 import { act } from "preact/test-utils";
-import { beforeEach, expect, it, vi } from "vitest";
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
 
 import { TextField } from "../../src/theme/text_field";
 
 const commit = vi.fn<(text: string) => void>();
+let host: HTMLElement;
 
 function Field({ value }: { readonly value: string }): JSX.Element {
   return <TextField label="z" value={value} onCommit={commit} />;
@@ -15,9 +16,9 @@ function Field({ value }: { readonly value: string }): JSX.Element {
 
 function show(value: string): HTMLInputElement {
   void act(() => {
-    render(<Field value={value} />, document.body);
+    render(<Field value={value} />, host);
   });
-  const input = document.querySelector("input");
+  const input = host.querySelector("input");
   if (input === null) throw new Error("there is no field");
   return input;
 }
@@ -47,10 +48,14 @@ function selected(input: HTMLInputElement): string {
 }
 
 beforeEach(() => {
-  void act(() => {
-    render(null, document.body);
-  });
+  host = document.body.appendChild(document.createElement("div"));
   commit.mockClear();
+});
+afterEach(() => {
+  void act(() => {
+    render(null, host);
+  });
+  host.remove();
 });
 
 it("shows its value as it changes", () => {

@@ -32,7 +32,7 @@ export class Insertion {
     this.upload = new ModelUpload(shell);
     const { insert, current } = shell.page.tools;
     if (insert === null) return;
-    insert.onPlace = (thing, point) => void this.place(thing, point);
+    insert.onPlace = (thing, point) => this.place(thing, point);
     effect(() => {
       if (current.value === insert && insert.chosen.value === null) shell.layout.open("insert");
     });
@@ -54,7 +54,11 @@ export class Insertion {
     if (layout.isPhone.peek()) layout.sheetHeight.value = "closed";
   }
 
-  private async place(thing: Insertable, point: Vector3, runsCode = false): Promise<void> {
+  private place(thing: Insertable, point: Vector3, runsCode = false): void {
+    void this.shell.page.undo.ask(this.insert(thing, point, runsCode));
+  }
+
+  private async insert(thing: Insertable, point: Vector3, runsCode: boolean): Promise<void> {
     const position = point.toArray();
     const [request, fields]: [string, Fields] =
       thing.kind === "light"
@@ -62,7 +66,7 @@ export class Insertion {
         : ["insert", { model: thing.name, position, is_shape: thing.kind === "shape", runs_code: runsCode }];
     try {
       const { code, name } = await this.shell.page.connection.request(request, fields);
-      if (code !== undefined) this.asked.value = { title: thing.title, files: code, agree: () => void this.place(thing, point, true) };
+      if (code !== undefined) this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, true) };
       else if (name !== undefined) this.record(thing, name);
     } catch (error) {
       this.report(`Insert ${thing.title}`, error);

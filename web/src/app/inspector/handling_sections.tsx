@@ -2,6 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
 
 import type { ModelInfo } from "../../scene/simulated_world";
 import { Button } from "../../theme/button";
@@ -41,11 +42,18 @@ export function WrenchSection({ shell, model, link }: { readonly shell: Shell; r
   const force = useSignal<readonly number[]>(ZERO);
   const torque = useSignal<readonly number[]>(ZERO);
   const duration = useSignal(1);
+  const section = useRef<HTMLElement>(null);
+  const wanted = shell.wrench.value;
+  useEffect(() => {
+    if (wanted?.model !== model || wanted.link !== link) return;
+    section.current?.querySelector("input")?.focus();
+    shell.wrench.value = null;
+  }, [wanted, model, link]);
   const push = (by: { readonly force: readonly number[]; readonly torque: readonly number[] }, seconds: number): void =>
     shell.request(`Force on ${link}`, "wrench", { model, link, ...by, duration: seconds });
   const labels = (name: string): readonly string[] => AXES.map((axis) => `${name} ${axis}`);
   return (
-    <section class="sec">
+    <section class="sec" ref={section}>
       <h3>
         Force and torque <span class="dim">in world</span>
       </h3>
