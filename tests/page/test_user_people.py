@@ -102,3 +102,12 @@ def test_keys_of_who_may_only_look_change_nothing(owner: WorldUser, viewer: Worl
 def _has(user: WorldUser, colour: tuple[int, int, int]) -> bool:
     """Tell if the picture of the ground has an outline of a colour."""
     return bool((np.abs(user.picture().astype(int) - colour) < 25).all(axis=-1).sum() > 20)
+
+
+def test_on_a_phone_the_whole_bar_is_seen(owner: WorldUser, viewer: WorldUser) -> None:
+    ends = "[...document.querySelector('header').children].map(child => child.getBoundingClientRect().right)"
+    for user in (owner, viewer):
+        user.page.set_viewport_size({"width": 390, "height": 844})
+        user.button("2 people").wait_for()
+        assert max(user.page.evaluate(ends)) <= 390
+        user.page.set_viewport_size({"width": 1440, "height": 900})

@@ -67,14 +67,16 @@ function Title({ shell }: { readonly shell: Shell }): JSX.Element {
 function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
   const { commands, layout, page } = shell;
   const paused = page.world.state.value?.paused ?? true;
+  const name = paused ? "Play" : "Pause";
+  const isTight = layout.isPhone.value && page.people.value.people.length > 1; // who is there takes its place
   const run = (id: string): void => commands.all.peek().find((command) => command.id === id)?.run();
   const resets = commands.all.value.filter((command) => command.id.startsWith("reset.") || command.id === "reload");
   const isRecorded = page.session.kind !== "simulation";
   return (
     <>
-      <button type="button" class="b pri" data-tip={`${paused ? "Play" : "Pause"} (Space)`} onClick={() => run("play_pause")}>
+      <button type="button" class={isTight ? "b pri ic" : "b pri"} aria-label={name} data-tip={`${name} (Space)`} onClick={() => run("play_pause")}>
         <PlayShape paused={paused} />
-        {paused ? "Play" : "Pause"}
+        {!isTight && name}
       </button>
       {!layout.isPhone.value && !isRecorded && (
         <>
@@ -113,7 +115,7 @@ function PeopleHere({ shell }: { readonly shell: Shell }): JSX.Element | null {
       run: () => (shell.page.selection.value = person.selection),
     }));
   return (
-    <MenuButton label={label} icon="people" items={items}>
+    <MenuButton class="people" label={label} icon="people" items={items}>
       {shell.layout.isPhone.value ? people.length : label}
     </MenuButton>
   );

@@ -13,13 +13,13 @@ import { VideoNotes } from "./video/video_note";
 import { ViewMenu } from "./views/view_menu";
 
 export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
-  const phone = shell.layout.isPhone.value;
+  const hasTools = !shell.layout.isPhone.value && shell.page.scene.status.value.kind !== "unsupported"; // which act on what is drawn
   return (
     <section class="stage" aria-label="On the scene">
       <div class="top">
-        {!phone && <ToolBar shell={shell} />}
-        {!phone && <ViewMenu shell={shell} />}
-        {!phone && <SplitMenu shell={shell} />}
+        {hasTools && <ToolBar shell={shell} />}
+        {hasTools && <ViewMenu shell={shell} />}
+        {hasTools && <SplitMenu shell={shell} />}
         <NoticeLine shell={shell} />
         <VideoNotes shell={shell} />
       </div>

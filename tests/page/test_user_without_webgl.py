@@ -1,0 +1,92 @@
+"""A person whose browser has no WebGL sees the simulator's own pictures, turns them, drives, and has the panels."""
+
+import io
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from tests.page.built_client import needs_client
+from tests.page.panel_user import PATIENCE_MS, PanelUser
+from tests.system.browser import running_page
+
+pytestmark = [needs_client, pytest.mark.slow]
+WORLD = """<sdf version="1.6"><world name="w">
+<light name="sun" type="directional"><direction>-0.4 0.3 -0.9</direction><diffuse>0.9 0.9 0.9 1</diffuse></light>
+<model name="floor"><static>1</static><link name="l"><visual name="v">
+<geometry><box><size>9 9 0.1</size></box></geometry></visual></link></model>
+<model name="pillar"><static>1</static><pose>-0.5 1.2 0.6 0 0 0</pose><link name="l"><visual name="v">
+<geometry><box><size>0.3 0.3 1.2</size></box></geometry>
+<material><ambient>0 0 0.8 1</ambient><diffuse>0 0 1 1</diffuse></material></visual></link></model>
+<model name="trolley"><pose>0 0 0.3 0 0 0</pose><link name="base"><gravity>0</gravity><visual name="v">
+<geometry><box><size>1.2 0.4 0.4</size></box></geometry>
+<material><ambient>0.8 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link>
+<plugin name="move" filename="libgazebo_ros_planar_move.so"/></model>
+</world></sdf>"""
+NO_WEBGL = """for (const kind of [HTMLCanvasElement, OffscreenCanvas]) {
+    const get = kind.prototype.getContext;
+    kind.prototype.getContext = function (name) { return name === "2d" ? get.apply(this, arguments) : null };
+}"""
+OVER_IT = ".panel, .float, .panes, .stage, header { visibility: hidden } .pictures { visibility: visible }"
+
+
+class Onlooker(PanelUser):
+    """Look at the pictures that come."""
+
+    def __init__(self, browser: Any, url: str, size: tuple[int, int]) -> None:
+        self.page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        self.page.set_default_timeout(PATIENCE_MS)
+        self.faults: list[str] = []
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.add_init_script(NO_WEBGL)
+        self.page.goto(url)
+        self.page.get_by_label("Connected").first.wait_for()
+
+    def picture(self) -> NDArray[np.int64]:
+        """Return what the page shows, without what lies over it."""
+        style = self.page.add_style_tag(content=OVER_IT)
+        png = self.page.screenshot()
+        style.evaluate("style => style.remove()")
+        return np.asarray(Image.open(io.BytesIO(png)).convert("RGB")).astype(np.int64)
+
+    def shows_trolley(self) -> bool:
+        red, green, blue = np.moveaxis(self.picture(), -1, 0)
+        return bool((red - np.maximum(green, blue) > 60).mean() > 0.002)
+
+    def await_other_picture(self, than: NDArray[np.int64], why: str) -> None:
+        self.until(lambda: (np.abs(self.picture() - than).max(axis=-1) > 60).mean() > 0.002, what=f"for it {why}")
+        self.until_still(lambda: self.picture().tobytes())
+
+
+@pytest.fixture(params=[(1440, 900), (390, 844)], ids=["desktop", "phone"])
+def user(request: pytest.FixtureRequest, chromium: Any, tmp_path: Path) -> Iterator[Onlooker]:
+    (tmp_path / "w.world").write_text(WORLD)
+    with running_page("run", "w.world", "--port", "0", environment={"HOME": str(tmp_path)}, folder=tmp_path) as url:
+        user = Onlooker(chromium, url, request.param)
+        yield user
+        user.close()
+
+
+def test_it_is_seen_turned_and_driven(user: Onlooker) -> None:
+    user.page.get_by_text("This browser has no WebGL 2, so there is no 3D view.").wait_for()
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    assert user.page.get_by_role("toolbar", name="Tools").count() == 0, "they act on what is drawn"
+    assert user.page.get_by_role("heading", name="Show").count() == 0, "nothing else can be shown"
+
+    before = user.picture()
+    picture = user.page.locator("img.pictures")
+    picture.focus()
+    for _ in range(4):
+        picture.press("ArrowRight")
+    user.await_other_picture(before, "to be seen from another side")
+
+    before = user.picture()  # which follows the trolley: the pillar goes by
+    user.page.locator(".disc").focus()
+    user.page.keyboard.down("w")
+    user.page.wait_for_timeout(1000)
+    user.page.keyboard.up("w")
+    user.await_other_picture(before, "to have driven")
+    assert user.shows_trolley()
