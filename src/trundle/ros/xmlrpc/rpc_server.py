@@ -19,7 +19,7 @@ _IDLE_S = 120.0
 _REQUEST_S = 15.0
 """Timeout for receiving a request once its first byte arrived."""
 _PART_BYTES = 64 * 1024
-"""Of a body that is decoded at once, which takes some 10 ms."""
+"""Share of a body that is decoded at once, which takes some 10 ms."""
 _BACKLOG = 512
 """Length of the accept queue: a big launch starts a hundred nodes within a second."""
 
