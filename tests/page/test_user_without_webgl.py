@@ -37,6 +37,7 @@ class Onlooker(PanelUser):
     """Look at the pictures that come."""
 
     def __init__(self, browser: Any, url: str, size: tuple[int, int]) -> None:
+        self.size = size
         self.page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         self.page.set_default_timeout(PATIENCE_MS)
         self.faults: list[str] = []
@@ -56,9 +57,17 @@ class Onlooker(PanelUser):
         red, green, blue = np.moveaxis(self.picture(), -1, 0)
         return bool((red - np.maximum(green, blue) > 60).mean() > 0.002)
 
-    def await_other_picture(self, than: NDArray[np.int64], why: str) -> None:
-        self.until(lambda: (np.abs(self.picture() - than).max(axis=-1) > 60).mean() > 0.002, what=f"for it {why}")
+    def newest_picture(self) -> NDArray[np.int64]:
+        """Return one that was asked for from now on."""
+        for _ in range(2):  # the first may have been asked for before
+            with self.page.expect_response(lambda response: "camera.png" in response.url):
+                pass
         self.until_still(lambda: self.picture().tobytes())
+        return self.picture()
+
+    def await_other_picture(self, than: NDArray[np.int64], why: str) -> NDArray[np.int64]:
+        self.until(lambda: (np.abs(self.picture() - than).max(axis=-1) > 60).mean() > 0.002, what=f"for it {why}")
+        return self.newest_picture()
 
 
 @pytest.fixture(params=[(1440, 900), (390, 844)], ids=["desktop", "phone"])
@@ -76,17 +85,36 @@ def test_it_is_seen_turned_and_driven(user: Onlooker) -> None:
     assert user.page.get_by_role("toolbar", name="Tools").count() == 0, "they act on what is drawn"
     assert user.page.get_by_role("heading", name="Show").count() == 0, "nothing else can be shown"
 
-    before = user.picture()
+    before = user.newest_picture()
     picture = user.page.locator("img.pictures")
     picture.focus()
     for _ in range(4):
         picture.press("ArrowRight")
-    user.await_other_picture(before, "to be seen from another side")
+    turned = user.await_other_picture(before, "to be seen from another side")
+    x, y = 0.5 * user.size[0], 0.3 * user.size[1]  # where nothing lies over it
+    user.page.mouse.move(x, y)
+    user.page.mouse.down()
+    user.page.mouse.move(x + 80, y, steps=4)
+    user.page.mouse.up()
+    before = user.await_other_picture(turned, "to be turned by a drag")
 
-    before = user.picture()  # which follows the trolley: the pillar goes by
-    user.page.locator(".disc").focus()
+    user.page.locator(".disc").focus()  # the picture follows the trolley: the pillar goes by
     user.page.keyboard.down("w")
     user.page.wait_for_timeout(1000)
     user.page.keyboard.up("w")
     user.await_other_picture(before, "to have driven")
     assert user.shows_trolley()
+
+
+def test_pictures_come_again_after_one_that_failed_and_panels_are_there(user: Onlooker) -> None:
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    user.page.route("**/camera.png*", lambda route: route.abort())
+    user.until(lambda: not user.shows_trolley(), what="for the picture to go")
+    user.page.unroute("**/camera.png*")
+    user.until(user.shows_trolley, what="for a picture to come again")
+    if user.size[0] > 640:
+        user.open("Topics")
+        user.sees("/cmd_vel")
+    else:
+        user.page.get_by_role("navigation").get_by_role("button", name="World").click()
+        user.page.get_by_role("treeitem").filter(has_text="trolley").first.wait_for()

@@ -7,8 +7,8 @@ import pytest
 
 from trundle.ros.errors import WireError
 from trundle.ros.xmlrpc.xmlrpc import (
-    CallDecoder,
     FaultError,
+    decode_call,
     decode_response,
     encode_call,
     encode_fault,
@@ -31,13 +31,6 @@ VALUES = [
 ]
 
 
-def _decoded_call(body: bytes, part_bytes: int = 7) -> tuple[str, list[object]]:
-    decoder = CallDecoder()
-    for start in range(0, len(body), part_bytes):
-        decoder.feed(body[start : start + part_bytes])
-    return decoder.close()
-
-
 @pytest.mark.parametrize("value", VALUES, ids=repr)
 def test_values_survive_the_round_trip(value: object) -> None:
     assert decode_response(encode_response(value)) == value
@@ -46,13 +39,12 @@ def test_values_survive_the_round_trip(value: object) -> None:
 @pytest.mark.parametrize("value", [v for v in VALUES if not isinstance(v, bytes | datetime)], ids=repr)
 def test_the_standard_library_reads_what_is_written_and_writes_what_is_read(value: object) -> None:
     assert xmlrpc.client.loads(encode_call("m", [value])) == ((value,), "m")
-    assert _decoded_call(xmlrpc.client.dumps((value,), "m").encode()) == ("m", [value])
+    assert decode_call(xmlrpc.client.dumps((value,), "m").encode()) == ("m", [value])
 
 
 def test_a_value_without_a_type_is_a_string_as_roscpp_writes_it() -> None:
     body = b"<?xml version='1.0'?><methodCall><methodName>m</methodName><params><param><value>/node</value></param>"
-    body += b"<param><value><i4>3</i4></value></param></params></methodCall>"
-    assert _decoded_call(body) == ("m", ["/node", 3])
+    assert decode_call(body + b"<param><value><i4>3</i4></value></param></params></methodCall>") == ("m", ["/node", 3])
 
 
 def test_a_fault_is_raised_with_its_text() -> None:
@@ -89,7 +81,7 @@ BOMB = b"""<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b 
 )
 def test_what_is_no_call_is_refused_in_one_way(body: bytes) -> None:
     with pytest.raises(WireError):
-        _decoded_call(body)
+        decode_call(body)
 
 
 @pytest.mark.parametrize("code", ["<array><data/></array>", "abc", "<double>1e999</double>", "<nil/>"])

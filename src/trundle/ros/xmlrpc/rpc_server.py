@@ -11,15 +11,13 @@ from typing import Any
 from ..errors import PortTakenError, RosError, WireError
 from ..transport.closing_loop import close_server
 from .http import MAX_HEAD_BYTES, Head, answer, browser_refusal, parse_head
-from .xmlrpc import CallDecoder, encode_fault, encode_response
+from .xmlrpc import decode_call, encode_fault, encode_response
 
 _log = logging.getLogger(__name__)
 _IDLE_S = 120.0
 """Idle timeout of kept-alive connections; clients reconnect by themselves."""
 _REQUEST_S = 15.0
 """Timeout for receiving a request once its first byte arrived."""
-_PART_BYTES = 64 * 1024
-"""Share of a body that is decoded at once, which takes some 10 ms."""
 _BACKLOG = 512
 """Length of the accept queue: a big launch starts a hundred nodes within a second."""
 
@@ -121,7 +119,7 @@ class RpcServer:
 
     async def _answer(self, body: bytes) -> bytes:
         try:
-            method, arguments = await _decoded(body)
+            method, arguments = decode_call(body)
             result = self._dispatch(method, arguments)
             return encode_response(await result if inspect.isawaitable(result) else result)
         except WireError as error:
@@ -131,16 +129,6 @@ class RpcServer:
         except Exception as error:  # one bad call must not stop the server
             _log.debug("XML-RPC call failed", exc_info=True)
             return encode_fault(1, f"<class '{type(error).__name__}'>:{error}")
-
-
-async def _decoded(body: bytes) -> tuple[str, list[Any]]:
-    """Decode a call; a large one lets the loop go on between its parts."""
-    decoder = CallDecoder()
-    for start in range(0, len(body), _PART_BYTES):
-        if start > 0:
-            await asyncio.sleep(0)
-        decoder.feed(body[start : start + _PART_BYTES])
-    return decoder.close()
 
 
 def _refusal(head: Head) -> str | None:

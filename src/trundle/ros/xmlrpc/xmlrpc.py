@@ -50,6 +50,18 @@ def encode_fault(code: int, text: str) -> bytes:
     return f"<?xml version='1.0'?>\n<methodResponse><fault>{fault}</fault></methodResponse>".encode()
 
 
+def decode_call(body: bytes) -> tuple[str, list[object]]:
+    """Decode a call.
+
+    Raises:
+        WireError: the body is not an XML-RPC call.
+    """
+    reader = _Reader(body)
+    if reader.method is None:
+        raise WireError("not an XML-RPC call: no <methodName>")
+    return reader.method, reader.values
+
+
 def decode_response(body: bytes) -> object:
     """Decode a response.
 
@@ -57,8 +69,7 @@ def decode_response(body: bytes) -> object:
         FaultError: the response is a fault.
         WireError: the body is not an XML-RPC response.
     """
-    reader = _Reader()
-    reader.feed(body, is_last=True)
+    reader = _Reader(body)
     if len(reader.values) != 1:
         raise WireError(f"not an XML-RPC response: {len(reader.values)} values")
     value = reader.values[0]
@@ -157,7 +168,7 @@ _SCALARS: dict[str, Callable[[str], Any]] = {
 class _Reader:
     """Parser of one document; the results are `method`, `values` and `is_fault`."""
 
-    def __init__(self) -> None:
+    def __init__(self, body: bytes) -> None:
         self.method: str | None = None
         self.values: list[Any] = []
         self.is_fault = False
@@ -172,16 +183,8 @@ class _Reader:
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
         parser.CharacterDataHandler = self._texts.append
-        self._parser = parser
-
-    def feed(self, data: bytes, is_last: bool) -> None:
-        """Parse the next part.
-
-        Raises:
-            WireError: it is not XML-RPC.
-        """
         try:
-            self._parser.Parse(data, is_last)
+            parser.Parse(body, True)
         except (expat.ExpatError, ValueError, binascii.Error, IndexError, LookupError) as error:
             raise WireError(f"not XML-RPC: {error}") from None
 
@@ -227,29 +230,3 @@ class _Reader:
             container.append(value)
         else:
             container[self._names.pop()] = value
-
-
-class CallDecoder:
-    """Decoder of a call that is fed part by part."""
-
-    def __init__(self) -> None:
-        self._reader = _Reader()
-
-    def feed(self, part: bytes) -> None:
-        """Decode the next part.
-
-        Raises:
-            WireError: it is not XML-RPC.
-        """
-        self._reader.feed(part, is_last=False)
-
-    def close(self) -> tuple[str, list[Any]]:
-        """Return the name of the method and its arguments.
-
-        Raises:
-            WireError: the parts are not an XML-RPC call.
-        """
-        self._reader.feed(b"", is_last=True)
-        if self._reader.method is None:
-            raise WireError("not an XML-RPC call: no <methodName>")
-        return self._reader.method, self._reader.values
