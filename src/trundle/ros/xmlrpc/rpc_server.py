@@ -24,6 +24,9 @@ _BACKLOG = 512
 _MAX_CLIENTS = 512
 """Limit of open connections; beyond it the longest idle one is closed, as after an idle timeout."""
 
+_LARGE_BYTES = 1 << 20
+"""Size from which a call is decoded in a thread: 64 MB of small values take seconds, and other calls must go on."""
+
 Dispatch = Callable[[str, list[Any]], "Awaitable[object] | object"]
 """Executes one call; an exception becomes a fault."""
 
@@ -119,7 +122,8 @@ class RpcServer:
 
     async def _answer(self, body: bytes) -> bytes:
         try:
-            method, arguments = decode_call(body)
+            is_large = len(body) >= _LARGE_BYTES
+            method, arguments = await asyncio.to_thread(decode_call, body) if is_large else decode_call(body)
             result = self._dispatch(method, arguments)
             return encode_response(await result if inspect.isawaitable(result) else result)
         except WireError as error:
