@@ -117,4 +117,23 @@ def test_pictures_come_again_after_one_that_failed_and_panels_are_there(user: On
         user.sees("/cmd_vel")
     else:
         user.page.get_by_role("navigation").get_by_role("button", name="World").click()
-        user.page.get_by_role("treeitem").filter(has_text="trolley").first.wait_for()
+    trolley = user.page.get_by_role("treeitem").filter(has_text="trolley").first
+    trolley.wait_for()
+    assert trolley.get_by_role("button").count() == 0, "its eye acts on what is drawn"
+    trolley.click(button="right")
+    user.page.get_by_role("menuitem", name="Delete").wait_for()
+    for name in ("Move to", "Follow", "Hide"):
+        assert user.page.get_by_role("menuitem", name=name).count() == 0, "they act on what is drawn"
+
+
+def test_the_next_picture_is_asked_for_once_the_last_came(user: Onlooker) -> None:
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    held: list[Any] = []
+    user.page.route("**/camera.png*", lambda route: held.append(route))
+    user.until(lambda: len(held) == 1, what="for a picture to be asked for")
+    user.page.wait_for_timeout(2000)  # in which four would be asked for
+    assert len(held) == 1
+    held[0].continue_()
+    user.until(lambda: len(held) == 2, what="for the next one")
+    held[1].continue_()
+    user.page.unroute("**/camera.png*")

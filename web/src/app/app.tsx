@@ -40,7 +40,7 @@ function Scene({ shell }: { readonly shell: Shell }): JSX.Element {
     scene.freeArea.value = shell.insets.value;
   });
   const lost = connection.state.value.kind === "lost";
-  const isDrawn = scene.status.value.kind !== "unsupported";
+  const isDrawn = shell.isDrawn.value;
   return (
     <>
       <main ref={host} class={`scene${lost ? " lost" : ""}${isDrawn ? "" : " none"}`} aria-label="3D scene" />

@@ -44,6 +44,8 @@ export class Shell {
   /** The .rviz file that took the place of the session's: opened or saved by the person; null: none did. */
   readonly ownFile = signal<RvizFileInfo | null>(null);
   readonly showsCameras = signal(recall("cameras", true, isBoolean));
+  /** False: the browser has no WebGL, and what acts on the 3D view is not offered. */
+  readonly isDrawn = computed(() => this.page.scene.status.value.kind !== "unsupported");
   /** Name of the robot: the session's, else that of the robot description. */
   readonly robot = computed(() => {
     const { session, connection } = this.page;

@@ -13,7 +13,7 @@ import { VideoNotes } from "./video/video_note";
 import { ViewMenu } from "./views/view_menu";
 
 export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
-  const hasTools = !shell.layout.isPhone.value && shell.page.scene.status.value.kind !== "unsupported"; // which act on what is drawn
+  const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // which act on what is drawn
   return (
     <section class="stage" aria-label="On the scene">
       <div class="top">

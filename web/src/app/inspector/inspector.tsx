@@ -72,7 +72,7 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
     <>
       {link === null ? <ModelSections shell={shell} name={selection.model} model={model} /> : <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />}
       <ModelJoints shell={shell} name={selection.model} model={model} />
-      {page.scene.status.value.kind !== "unsupported" && <ShownSection shell={shell} model={selection.model} />}
+      {shell.isDrawn.value && <ShownSection shell={shell} model={selection.model} />}
     </>
   );
 }

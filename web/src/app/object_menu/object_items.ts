@@ -22,14 +22,14 @@ export function objectItems(shell: Shell, selected: Selection | null, at: Vector
   const inModel = selection?.kind === "model" || selection?.kind === "link" ? selection : null;
   const items = [
     ...(selection === null ? [] : viewItems(shell, selection)),
-    ...(inModel === null ? [] : shownItems(shell, inModel)),
+    ...(inModel === null || !shell.isDrawn.value ? [] : shownItems(shell, inModel)),
     ...(canEdit(shell) ? editItems(shell, selection, inModel, at) : []),
   ];
   return items.some(({ disabled }) => disabled !== true) ? items : [];
 }
 
-function viewItems({ page }: Shell, selection: Selection): MenuItem[] {
-  if (targetOf(page, selection) === null) return [];
+function viewItems({ page, isDrawn }: Shell, selection: Selection): MenuItem[] {
+  if (!isDrawn.value || targetOf(page, selection) === null) return [];
   return [
     { title: "Move to", keys: "F", run: () => frameSelection(page, selection) },
     { title: isFollowing(page) ? "Stop following" : "Follow", keys: "Shift F", run: () => toggleFollowing(page) },

@@ -59,7 +59,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
           onMenu={(key, x, y) => openMenu(shell, byKey.get(key)?.selection ?? null, x, y)}
           onKey={(key, event) => {
             const hides = byKey.get(key)?.hides ?? null;
-            if (event.key !== " " || hides === null) return;
+            if (event.key !== " " || hides === null || !shell.isDrawn.value) return;
             event.preventDefault();
             toggleHidden(shell.page, hides);
           }}
@@ -84,7 +84,7 @@ class WorldRows {
   of(shell: Shell, seen: SeenNode, selected: boolean): TreeRow {
     const { node, depth, isOpen } = seen;
     const hidden = node.hides !== null && shell.page.world.hidden.value.has(node.hides);
-    const shows = `${depth} ${isOpen} ${selected} ${hidden}`;
+    const shows = `${depth} ${isOpen} ${selected} ${hidden} ${shell.isDrawn.value}`;
     const known = this.known.get(node);
     if (known?.shows === shows) return known.row;
     const row = makeRow(shell, seen, selected, hidden);
@@ -104,7 +104,7 @@ function makeRow(shell: Shell, { node, depth, isOpen }: SeenNode, selected: bool
         {node.icon !== null && <Icon name={node.icon} />}
         <span class={`${node.icon === null ? "n g" : "n"}${hidden ? " hid" : ""}`}>{node.label}</span>
         <span class="r">{typeof node.detail === "string" ? node.detail : <JointValue shell={shell} node={node} />}</span>
-        {node.hides !== null && <Eye shell={shell} name={node.hides} hidden={hidden} />}
+        {node.hides !== null && shell.isDrawn.value && <Eye shell={shell} name={node.hides} hidden={hidden} />}
       </>
     ),
   };
