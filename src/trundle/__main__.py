@@ -14,10 +14,10 @@ def main() -> int:
     except KeyboardInterrupt:
         return 130
     from trundle.cli import main as command
-    from trundle.cli.interrupts import keep_interrupts
+    from trundle.interrupts import interrupt, keep_interrupts
 
     keep_interrupts()
-    signal.signal(signal.SIGINT, before)
+    signal.signal(signal.SIGINT, interrupt if before is signal.default_int_handler else before)
     code = command()
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # during Python's shutdown no handler runs
     return code

@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from trundle.bringup.signals import StopFlag, stop_flag
+from trundle.interrupts import PRESS
 
 _HAMMERED = """
 import signal
@@ -45,11 +46,14 @@ def test_a_signal_may_set_it_at_any_moment() -> None:
     assert done.stdout == "3000\n", done.stderr
 
 
-def test_the_first_signal_sets_it_and_the_second_interrupts() -> None:
+def test_the_first_press_sets_it_and_the_second_interrupts() -> None:
     before = signal.getsignal(signal.SIGINT)
+    PRESS.forget()
     with stop_flag() as flag:
         signal.raise_signal(signal.SIGINT)
         assert flag.is_set()
+        signal.raise_signal(signal.SIGINT)  # of the same press
+        PRESS.forget()  # as after a while
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
     assert signal.getsignal(signal.SIGINT) == before

@@ -4,6 +4,7 @@ import json
 import math
 import shutil
 import signal
+import time
 from pathlib import Path
 
 import pytest
@@ -116,12 +117,15 @@ def test_images_carry_their_calibration(start, trundle, master, until) -> None:
     assert 'frame_id: "my_sensor_optical"' in image
 
 
+@pytest.mark.parametrize("times", [1, 2], ids=["once", "twice at once"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_it_stops_cleanly_when_asked_to(start, master, until, number) -> None:
+def test_it_stops_cleanly_when_asked_to(start, master, until, number, times) -> None:
     running = start("run", str(EXAMPLE), "--headless", "--no-sensors")
     until("the run", lambda: "/clock" in dict(master.call("getTopicTypes")))
 
-    running.process.send_signal(number)
+    for _ in range(times):  # `timeout -s INT` signals the process and its group
+        running.process.send_signal(number)
+        time.sleep(0.002)
 
     assert running.process.wait(30) == 130
     assert "Traceback" not in running.output()

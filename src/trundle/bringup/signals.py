@@ -7,9 +7,7 @@ from contextlib import contextmanager
 from queue import Empty, SimpleQueue
 from types import FrameType
 
-_HANG_UP = getattr(signal, "SIGHUP", signal.SIGTERM)
-"""Windows has no SIGHUP."""
-_ENDS = (signal.SIGINT, signal.SIGTERM, _HANG_UP)
+from trundle.interrupts import PRESS, ending_signals
 
 
 class StopFlag:
@@ -42,21 +40,21 @@ class StopFlag:
 
 @contextmanager
 def stop_flag() -> Generator[StopFlag]:
-    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a second SIGINT ends the process as usual."""
+    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a SIGINT of another press interrupts."""
     flag = StopFlag()
     if threading.current_thread() is not threading.main_thread():  # only the main thread may set signal handlers
         yield flag
         return
-    before = {number: signal.getsignal(number) for number in _ENDS}
-    if before.get(_HANG_UP) == signal.SIG_IGN:  # under `nohup`
-        del before[_HANG_UP]
+    was_asked = False
 
-    def ask_to_stop(_number: int, _frame: FrameType | None) -> None:
+    def ask_to_stop(number: int, _frame: FrameType | None) -> None:
+        nonlocal was_asked
+        if PRESS.is_new() and was_asked and number == signal.SIGINT:
+            raise KeyboardInterrupt
+        was_asked = True
         flag.set()
-        signal.signal(signal.SIGINT, before[signal.SIGINT])
 
-    for number in before:
-        signal.signal(number, ask_to_stop)
+    before = {number: signal.signal(number, ask_to_stop) for number in ending_signals()}
     try:
         yield flag
     finally:

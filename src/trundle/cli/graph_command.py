@@ -12,10 +12,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from trundle.diagnostics import TrundleError
+from trundle.interrupts import ending_signals, interrupt, interrupt_main_thread
 from trundle.names import Arguments, anonymous_name, resolve_name
 from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
-
-from .interrupts import interrupt_main_thread
 
 if TYPE_CHECKING:
     from trundle.ros import GraphLoop, Node
@@ -94,21 +93,13 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
         yield loop, node
 
 
-def ending_signals() -> list[signal.Signals]:
-    """Signals that end a program cleanly; without SIGHUP if ignored, as under `nohup`."""
-    ends = [signal.SIGINT, signal.SIGTERM]
-    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # Windows has none
-        ends.append(signal.SIGHUP)
-    return ends
-
-
 @contextmanager
 def interrupted_by_signals() -> Generator[None]:
     """Make SIGTERM, SIGHUP and SIGINT (ignored in a shell's background jobs) raise KeyboardInterrupt."""
     if threading.current_thread() is not threading.main_thread():  # only the main thread handles signals
         yield
         return
-    before = {number: signal.signal(number, signal.default_int_handler) for number in ending_signals()}
+    before = {number: signal.signal(number, interrupt) for number in ending_signals()}
     try:
         yield
     finally:

@@ -10,9 +10,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
+from trundle.interrupts import ending_signals
 from trundle.ros import BagError, Recorder, RecorderOptions, follow_time
 
-from ..graph_command import ending_signals, running_node
+from ..graph_command import running_node
 
 
 def main(args: argparse.Namespace) -> int:
