@@ -124,6 +124,24 @@ def test_pictures_come_again_after_one_that_failed_and_panels_are_there(user: On
     user.page.get_by_role("menuitem", name="Delete").wait_for()
     for name in ("Move to", "Follow", "Hide"):
         assert user.page.get_by_role("menuitem", name=name).count() == 0, "they act on what is drawn"
+    user.page.keyboard.press("Escape")
+
+
+def test_no_command_is_offered_that_acts_on_the_3d_view(user: Onlooker) -> None:
+    user.page.keyboard.press("Control+k")
+    search = user.page.get_by_role("dialog").get_by_role("combobox")
+    found = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
+    for words, there in [
+        ("Play or pause", 1),
+        ("Show or hide the cameras", 1),
+        ("Frame what is selected", 0),
+        ("Look from top", 0),
+        ("Show or hide collisions", 0),
+        ("Two views, stacked", 0),
+        ("Measure", 0),
+    ]:
+        search.fill(words)
+        user.until(lambda there=there: found.count() == there, what=f"for {there} of {words!r} in the palette")
 
 
 def test_the_next_picture_is_asked_for_once_the_last_came(user: Onlooker) -> None:

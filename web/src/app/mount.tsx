@@ -25,7 +25,7 @@ import { insertionCommands } from "./insert/insertion";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedFiles } from "./dialogs/open_files";
 import type { Page } from "../page/page";
-import { pageCommands, panelCommands } from "./page_commands";
+import { pageCommands, panelCommands, viewCommands } from "./page_commands";
 import { splitCommands } from "./panes/split";
 import { Shell } from "./shell";
 import { saveCommands } from "./dialogs/save_world";
@@ -48,11 +48,12 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, commands, sceneHost, frozen);
   shell.layout.listen();
-  commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...splitCommands(shell), ...modelCommands(shell), ...editorCommands(shell));
+  const ofView = shell.isDrawn.peek() ? [...viewCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...splitCommands(shell)] : [];
+  commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...ofView, ...modelCommands(shell), ...editorCommands(shell));
   rememberShown(page);
   let removeCameras = (): void => undefined;
   effect(() => {
-    const cameras = cameraCommands(page);
+    const cameras = shell.isDrawn.peek() ? cameraCommands(page) : [];
     untracked(() => {
       removeCameras();
       removeCameras = commands.add(...cameras);

@@ -22,23 +22,30 @@ export function panelCommands({ dock }: Shell): readonly Command[] {
   return dock.panels.peek().map(({ id, title }) => command(`panel.${id}`, "Panels", `Open ${title}`, () => dock.open(id)));
 }
 
-export function pageCommands(shell: Shell): readonly Command[] {
-  const { page, layout, dialog } = shell;
-  const { undo, views } = page;
-  const toggle = (open: { value: boolean; peek(): boolean }) => () => {
-    open.value = !open.peek();
-  };
+/** Commands of the 3D view. */
+export function viewCommands({ page, dialog, videos }: Shell): readonly Command[] {
+  const { views } = page;
   return [
     command("frame", "View", "Frame what is selected", () => frameSelection(page, page.selection.peek()), "F"),
     command("follow", "View", "Follow what is selected, or stop", () => toggleFollowing(page), "Shift F"),
     command("projection", "View", "Perspective or orthographic", () => views.toggleProjection()),
     command("first_person", "View", "First person from what is selected, or the robot", () => toggleFirstPerson(page)),
+    command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),
+    command("video", "View", "Record a video of the view, or stop", () => videos.toggleView()),
+    ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
+  ];
+}
+
+export function pageCommands(shell: Shell): readonly Command[] {
+  const { page, layout, dialog } = shell;
+  const { undo } = page;
+  const toggle = (open: { value: boolean; peek(): boolean }) => () => {
+    open.value = !open.peek();
+  };
+  return [
     command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
-    command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),
-    command("video", "View", "Record a video of the view, or stop", () => shell.videos.toggleView()),
     command("link", "View", "Link to this view", () => (dialog.value = "link")),
-    ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
     ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
     command("left.toggle", "Panels", "Show or hide the left panel", toggle(layout.left.isOpen), "["),
     command("right.toggle", "Panels", "Show or hide the right panel", toggle(layout.right.isOpen), "]"),

@@ -54,13 +54,13 @@ export function ShownSection({ shell, model }: { readonly shell: Shell; readonly
   );
 }
 
-export function viewMenuCommands({ page, isDrawn }: Shell): readonly Command[] {
+export function viewMenuCommands({ page }: Shell): readonly Command[] {
   const { world } = page;
   const command = (id: string, title: string, run: () => void): Command => ({
     id,
     title,
     group: "View",
-    enabled: () => isDrawn.peek() && world.manifest.peek() !== null,
+    enabled: () => world.manifest.peek() !== null,
     run,
   });
   return [
