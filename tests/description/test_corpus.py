@@ -12,6 +12,7 @@ from tests.description.compare import close, differences, same_pose, shape_of
 from trundle.bringup.check.json_output import description_json
 from trundle.description import expand_xacro, load, load_urdf
 from trundle.diagnostics import Diagnostics, TrundleError
+from trundle.model import Model
 from trundle.packages import Packages
 from trundle.xmlnode import parse_xml
 
@@ -113,6 +114,17 @@ def _urdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> 
     if row["accept_libsdformat12"] and not answers["differences_sdf9_vs_sdf12"]:
         (theirs,) = answers["libsdformat12"]["dump"]["models"]
         yield from differences(ours["models"][0], theirs, TOLERANCE)
+        yield from _shape_name_differences(loaded.world.models[0], theirs)
+
+
+def _shape_name_differences(ours: Model, theirs: dict[str, Any]) -> Iterator[str]:
+    """Names of collisions and visuals, and their order."""
+    links = {link["name"]: link for link in theirs["links"]}
+    for link in ours.links:
+        for kind, shapes in (("collisions", link.collisions), ("visuals", link.visuals)):
+            mine, other = [shape.name for shape in shapes], [shape["name"] for shape in links[link.name][kind]]
+            if mine != other:
+                yield f"{link.name}: {kind} {mine}, theirs {other}"
 
 
 def _tree_differences(ours: dict[str, Any], theirs: dict[str, Any]) -> Iterator[str]:

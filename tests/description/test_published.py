@@ -84,5 +84,5 @@ def test_the_smartcar_becomes_a_model_with_its_head_lumped(smartcar_file: Path) 
     assert (len(loaded.robot.links), len(loaded.robot.joints)) == (6, 5)
     base = model.link("base_link")
     assert base.inertial.mass == pytest.approx(1.1)
-    assert base.visuals[-1].name == "base_link_fixed_joint_lump__head_visual"
+    assert base.visuals[-1].name == "base_link_fixed_joint_lump__head_visual_1"
     assert base.visuals[0].material.diffuse == (0.0, 0.0, 1.0, 1.0)  # <gazebo><material>Gazebo/Blue

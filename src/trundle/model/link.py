@@ -52,6 +52,8 @@ class Collision(Struct, frozen=True, kw_only=True):
     surface: Surface = Surface()
     laser_retro: float = 0.0
     """Intensity of a laser's return."""
+    max_contacts: int = 10
+    """Largest number of ODE's contacts with another collision, as written; MuJoCo creates as many as needed."""
 
 
 class Link(Struct, frozen=True, kw_only=True):

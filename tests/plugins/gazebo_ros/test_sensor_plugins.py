@@ -181,6 +181,34 @@ def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:
     assert "ground_plane" in state.collision2_name
 
 
+def test_a_bumper_on_a_lumped_link_tells_its_own_collision_by_gazebos_name(gazebo: Gazebo) -> None:
+    """Two links are lumped one after the other into the massless root; both stand on the ground."""
+
+    def link(name: str, mass: str, size: str) -> str:
+        inertia = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
+        shape = f'<collision><geometry><box size="{size}"/></geometry></collision>'
+        return f'<link name="{name}"><inertial><mass value="{mass}"/>{inertia}</inertial>{shape}</link>'
+
+    def weld(parent: str, child: str, xyz: str) -> str:
+        ends = f'<parent link="{parent}"/><child link="{child}"/><origin xyz="{xyz}"/>'
+        return f'<joint name="{child}_joint" type="fixed">{ends}</joint>'
+
+    contact = "<contact><collision>root_fixed_joint_lump__bumper_collision_1</collision></contact>"
+    robot = f"""<robot name="plover"><link name="root"/>
+{link("hull", "3", "0.4 0.4 0.2")}{weld("root", "hull", "0 0 0.1")}
+{link("bumper", "0.2", "0.05 0.4 0.1")}{weld("hull", "bumper", "0.25 0 -0.05")}<gazebo reference="bumper">
+{_sensor("contact", contact, "bumper", "<bumperTopicName>bumps</bumperTopicName>")}</gazebo></robot>"""
+    answer = gazebo.spawn(robot, "plover")
+    assert answer.success, answer.status_message
+    gazebo.call("unpause_physics")
+    heard = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
+    until(lambda: any(message.states for message in heard))
+
+    names = {state.collision1_name for message in heard for state in message.states}
+    assert names == {"plover::root::root_fixed_joint_lump__bumper_collision_1"}
+    assert not gazebo.report.warnings
+
+
 def test_a_joint_tells_what_it_carries(gazebo: Gazebo) -> None:
     """The head weighs 2 kg: it pulls the world down with 19.6 N."""
     parameters = "<jointName>fix</jointName><topicName>ft</topicName>"

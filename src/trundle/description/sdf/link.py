@@ -14,7 +14,7 @@ from .inertial import read_inertial
 from .light import read_light
 from .material import read_material
 from .sensor import read_sensor, with_unique_names
-from .surface import read_surface
+from .surface import default_surface, read_surface
 
 
 def read_link(node: XmlNode, name: str, graph: FrameGraph, context: Context) -> Link:
@@ -85,11 +85,22 @@ def _read_collision(node: XmlNode, link: str, graph: FrameGraph, context: Contex
         geometry=read_geometry(node, context),
         at=node.at,
         link_from_collision=graph.pose_in(link, read_pose(node, context), node.at),
-        surface=read_surface(node, context),
-        laser_retro=node.number("laser_retro", default=0.0),
+        surface=default_surface(context),
     )
-    warn_ignored(node, ("max_contacts",), "is for ODE; MuJoCo creates as many contacts as needed", context)
     warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)
     node.find("density")  # read by automatic inertias
+    return with_contact(collision, node, context)
+
+
+def with_contact(collision: Collision, node: XmlNode, context: Context) -> Collision:
+    """Return a collision with the properties of <collision> other than pose and shape."""
+    surface = node.find("surface")
+    collision = replace(
+        collision,
+        surface=collision.surface if surface is None else read_surface(surface, context),
+        laser_retro=node.number("laser_retro", default=collision.laser_retro),
+        max_contacts=node.integer("max_contacts", default=collision.max_contacts),
+    )
+    warn_ignored(node, ("max_contacts",), "is for ODE; MuJoCo creates as many contacts as needed", context)
     node.report_unread(context.report)
     return collision

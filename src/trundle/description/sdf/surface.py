@@ -17,19 +17,15 @@ _TUNING = (
 """Parameters of Gazebo's engines only."""
 
 
-def read_surface(collision: XmlNode, context: Context) -> Surface:
-    """Read friction, contact and restitution as written."""
-    node = collision.find("surface")
-    # Friction defaulted to infinite before SDF 1.4, the bitmask to 1 in 1.4.
-    infinite = context.version < (1, 4)
-    default = Surface(
-        mu=-1.0 if infinite else 1.0,
-        mu2=-1.0 if infinite else 1.0,
-        collide_bitmask=1 if context.version == (1, 4) else 0xFFFF,
-    )
-    if node is None:
-        return default
-    report = context.report
+def default_surface(context: Context) -> Surface:
+    """Return the surface of a collision without one: before SDF 1.4 friction is infinite, in 1.4 the bitmask is 1."""
+    friction = -1.0 if context.version < (1, 4) else 1.0
+    return Surface(mu=friction, mu2=friction, collide_bitmask=1 if context.version == (1, 4) else 0xFFFF)
+
+
+def read_surface(node: XmlNode, context: Context) -> Surface:
+    """Read friction, contact and restitution of a <surface> as written."""
+    default, report = default_surface(context), context.report
     friction, contact, bounce = node.find("friction"), node.find("contact"), node.find("bounce")
     ode, contact_ode = _find(friction, "ode"), _find(contact, "ode")
     torsional = _find(friction, "torsional")

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from trundle.diagnostics import DescriptionError
-from trundle.model import Surface
 from trundle.xmlnode import XmlNode
 
 from ..sdf.context import Context
 from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.required import name_missing_attributes
+from .contact_tags import CONTACT_TAGS, last_value, with_contact_tags
 from .lump import Lump
 
 if TYPE_CHECKING:
-    from trundle.model import Joint, Light, Link, Material, Model, PluginTag, Sensor, Visual
+    from trundle.model import Collision, Joint, Light, Link, Material, Model, PluginTag, Sensor, Visual
 
     from ..sdf.unplaced_model import UnplacedModel
 
@@ -49,11 +49,13 @@ class GazeboTags:
 
     def __init__(self, root: XmlNode, context: Context) -> None:
         self._context = context
+        self._blocks: dict[str, list[XmlNode]] = {}
         self._nodes: dict[tuple[str, str], list[XmlNode]] = {}
         """(reference, tag) → elements."""
         self._read: set[tuple[str, str]] = set()
         for block in root.all("gazebo"):
             reference = block.attribute("reference") or ""
+            self._blocks.setdefault(reference, []).append(block)
             name_missing_attributes(block, context.version, context.report)
             for node in block.children:
                 self._nodes.setdefault((reference, node.tag), []).append(node)
@@ -94,26 +96,13 @@ class GazeboTags:
                 visual = with_appearance(visual, block, self._context)
         return visual
 
-    def surface(self, link: str) -> Surface:
-        """Return mu1, mu2, fdir1, kp, kd, minDepth, maxVel, or instead a <collision> block's <surface>."""
-        default = Surface()
-        blocks = [block for block in self._all(link, "collision") if block.find("surface") is not None]
-        if blocks:
-            from ..sdf.surface import read_surface
-
-            return read_surface(blocks[-1], self._context)
-
-        fdir1 = self._last(link, "fdir1")
-        direction = None if fdir1 is None else fdir1.as_numbers(3)
-        return Surface(
-            mu=self.number(link, "mu1", default.mu),
-            mu2=self.number(link, "mu2", default.mu2),
-            fdir1=default.fdir1 if direction is None else (direction[0], direction[1], direction[2]),
-            kp=self.number(link, "kp", default.kp),
-            kd=self.number(link, "kd", default.kd),
-            min_depth=self.number(link, "minDepth", default.min_depth),
-            max_vel=self.number(link, "maxVel", default.max_vel),
-        )
+    def with_contact(self, collision: "Collision", link: str) -> "Collision":
+        """Return a collision with the contact parameters of its link's blocks, each over those before it."""
+        for tag in CONTACT_TAGS:
+            self._all(link, tag)
+        for block in self._blocks.get(link, []):
+            collision = with_contact_tags(collision, block, self._context)
+        return collision
 
     def number(self, reference: str, tag: str, default: float) -> float:
         """Return a number, or the default if no block has it."""
@@ -263,8 +252,5 @@ class GazeboTags:
         return self._nodes.get((reference, tag), [])
 
     def _last(self, reference: str, tag: str) -> XmlNode | None:
-        """Return the last block's element; old files have `value="…"` instead of text (sdformat's
-        GetKeyValueAsString).
-        """
-        found = self._all(reference, tag)
-        return found[-1].with_text_of("value") if found else None
+        """Return the last block's element."""
+        return last_value(self._all(reference, tag))

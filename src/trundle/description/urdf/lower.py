@@ -52,8 +52,9 @@ from trundle.xmlnode import XmlNode
 from ..sdf.context import Context, RawPose
 from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.version import Version
+from ..shape_names import is_lumped_name, shape_name
 from .gazebo_tags import GazeboTags
-from .lump import WORLD, Lump, follow_lumps, lump_links, lumped_inertial, shape_name
+from .lump import WORLD, Lump, follow_lumps, lump_links, lumped_inertial
 from .massless import massless_lumps
 
 _TYPES = {
@@ -173,8 +174,8 @@ class _Lowering:
         for name, pose in lump.parts:
             part = self.links[name]
             material = self.tags.material(name)
-            visuals += self._visuals(lump.name, part, pose, material)
-            collisions += self._collisions(lump.name, part, pose)
+            visuals += self._visuals(lump.name, part, pose, material, len(visuals))
+            collisions += self._collisions(lump.name, part, pose, len(collisions))
         flag = partial(self.tags.lumped_flag, lump)
         gravity_off, gravity = flag("turnGravityOff"), flag("gravity")
         linear_decay, angular_decay = self.tags.lumped_damping(lump)
@@ -204,11 +205,11 @@ class _Lowering:
         orientation = None if own is None or own.mass <= 0 else own.link_from_com.quaternion
         return lumped_inertial(self._inertials(lump), orientation or IDENTITY_QUATERNION)
 
-    def _visuals(self, lump: str, part: RobotLink, pose: Pose, gazebo: Material | None) -> list[Visual]:
+    def _visuals(self, lump: str, part: RobotLink, pose: Pose, gazebo: Material | None, first: int) -> list[Visual]:
         visuals: list[Visual] = []
-        for i, shape in enumerate(part.visuals):
+        for number, shape in enumerate(part.visuals, first):
             visual = Visual(
-                name=shape_name(lump, part.name, "visual", i, shape),
+                name=shape_name(lump, shape.name or part.name, "visual", number),
                 geometry=self._geometry(shape),
                 at=shape.at,
                 link_from_visual=pose @ shape.link_from_shape,
@@ -221,19 +222,20 @@ class _Lowering:
                 self.report.info(shape.at, f"Gazebo draws URDF {what} grey; Trundle keeps them")
         return visuals
 
-    def _collisions(self, lump: str, part: RobotLink, pose: Pose) -> list[Collision]:
-        surface = self.tags.surface(part.name)
-        return [
-            Collision(
-                name=shape_name(lump, part.name, "collision", i, shape),
+    def _collisions(self, lump: str, part: RobotLink, pose: Pose, first: int) -> list[Collision]:
+        collisions: list[Collision] = []
+        for number, shape in enumerate(part.collisions, first):
+            name = shape_name(lump, shape.name or part.name, "collision", number)
+            collision = Collision(
+                name=name,
                 geometry=self._geometry(shape),
                 at=shape.at,
                 link_from_collision=pose @ shape.link_from_shape,
-                surface=surface,
-                laser_retro=self.tags.number(part.name, "laserRetro", 0.0),
             )
-            for i, shape in enumerate(part.collisions)
-        ]
+            if part.name != lump and not is_lumped_name(name):
+                collision = self.tags.with_contact(collision, lump)
+            collisions.append(self.tags.with_contact(collision, part.name))
+        return collisions
 
     def _geometry(self, shape: RobotShape) -> Geometry:
         match shape.geometry:

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from trundle.model import Inertial
-from trundle.robot import Robot, RobotInertial, RobotShape
+from trundle.robot import Robot, RobotInertial, RobotJoint
 from trundle.spatial import ZERO, Pose, Quaternion, conjugate
 from trundle.xmlnode import XmlNode
 
@@ -25,29 +25,25 @@ class Lump:
 def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
     """Return every lump by the name of its first link.
 
+    The parts of a lump are in sdformat's order, by which their shapes are numbered: each link before those fixed to it,
+    which are sorted by the names of their joints (urdfdom's initTree, sdformat's ReduceFixedJoints).
+
     Args:
         robot: as written.
         kept: fixed joints that stay joints, by their <gazebo> blocks.
     """
-    holder = {j.child: j for j in robot.joints if j.type == "fixed" and j.name not in kept and j.parent != WORLD}
-    lumps: dict[str, Lump] = {}
-    places: dict[str, tuple[str, Pose]] = {}
-    """Link → lump name and lump_from_link."""
-    for link in robot.links:
-        chain, name = list[str](), link.name
-        while name in holder and name not in places:
-            chain.append(name)
-            name = holder[name].parent
-        name, pose = places.setdefault(name, (name, Pose()))
-        for each in reversed(chain):
-            pose = pose @ holder[each].parent_from_joint
-            places[each] = (name, pose)
-        lump = lumps.setdefault(name, Lump(name))
-        part = (link.name, pose)
-        if link.name == name:
-            lump.parts.insert(0, part)
-        else:
-            lump.parts.append(part)
+    holders = [j for j in robot.joints if j.type == "fixed" and j.name not in kept and j.parent != WORLD]
+    held = {joint.child for joint in holders}
+    fixed_to: dict[str, list[RobotJoint]] = {}
+    for joint in sorted(holders, key=lambda joint: joint.name, reverse=True):
+        fixed_to.setdefault(joint.parent, []).append(joint)
+    lumps = {link.name: Lump(link.name) for link in robot.links if link.name not in held}
+    for lump in lumps.values():
+        pending = [(lump.name, Pose())]
+        while pending:
+            name, pose = pending.pop()
+            lump.parts.append((name, pose))
+            pending += [(joint.child, pose @ joint.parent_from_joint) for joint in fixed_to.get(name, [])]
     return lumps
 
 
@@ -69,14 +65,6 @@ def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump]) -> None:
             plugin.write("xyzOffset", " ".join(f"{value:.12g}" for value in moved.position))
             plugin.write("rpyOffset", " ".join(f"{value:.12g}" for value in moved.rpy))
         plugin.write(tag, name)
-
-
-def shape_name(lump: str, link: str, kind: str, number: int, shape: RobotShape) -> str:
-    """Return Gazebo's name of a shape: its own or its link's, prefixed by the lump's if it was lumped."""
-    suffix = f"_{number}" if number else ""
-    if link == lump:
-        return f"{shape.name or link}_{kind}{suffix}"
-    return f"{lump}_fixed_joint_lump__{shape.name or link}_{kind}{suffix}"
 
 
 def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quaternion) -> Inertial:

@@ -20,6 +20,7 @@ from trundle.model import (
     Link,
     MeshFile,
     Model,
+    Sensor,
     Sphere,
     Surface,
     Visual,
@@ -28,6 +29,7 @@ from trundle.model import (
 )
 from trundle.spatial import Pose
 
+from ..shape_names import shape_name
 from .files import UriOf
 from .sdf.environment import add_light
 from .sdf.sensor import add_sensor
@@ -224,11 +226,20 @@ class _Writer:
         if any(set(visual.plugins) != plugins.keys() for visual in link.visuals):
             self.report.warn(link.at, f"link {link.name!r}: in a URDF all its visuals get the plugins of any")
         for sensor in link.sensors:
-            add_sensor(extra, replace(sensor, link_from_sensor=frame_from_link @ sensor.link_from_sensor), self.report)
+            moved = replace(sensor, link_from_sensor=frame_from_link @ sensor.link_from_sensor)
+            add_sensor(extra, self._with_contacts(moved, link), self.report)
         for light in link.lights:
             add_light(extra, replace(light, world_from_light=frame_from_link @ light.world_from_light))
         if extra.children:
             root.children.append(extra)
+
+    def _with_contacts(self, sensor: Sensor, link: Link) -> Sensor:
+        """Return a contact sensor that names its collisions as the conversion of the URDF will."""
+        if not sensor.contact_collisions:
+            return sensor
+        written = [each.name for each in link.collisions if self._geometry(each.geometry) is not None]
+        names = {name: shape_name(link.name, name, "collision", number) for number, name in enumerate(written)}
+        return replace(sensor, contact_collisions=tuple(names.get(name, name) for name in sensor.contact_collisions))
 
 
 def _add_surface(extra: Tag, surface: Surface) -> None:

@@ -51,6 +51,7 @@ def add_collision(link: Tag, collision: Collision, uri_of: UriOf) -> None:
     tag.add_pose(collision.link_from_collision)
     add_geometry(tag, collision.geometry, uri_of)
     tag.add_unless("laser_retro", collision.laser_retro, default=0.0)
+    tag.add_unless("max_contacts", collision.max_contacts, default=10)
     add_surface(tag, collision.surface)
 
 
