@@ -47,6 +47,15 @@ class Attributes:
         """Substitute a text of this element."""
         return self._substitution.resolve(text, self._scope, self.at)
 
+    def read_file(self, name: str) -> bytes:
+        """Read a file that an attribute names.
+
+        Raises:
+            DescriptionError: it may not be read.
+            ValueError: it does not exist or cannot be read.
+        """
+        return self._substitution.files.read(name, self.at)
+
     def required(self, name: str, *, empty: bool = False) -> str:
         """Required attribute after substitution.
 

@@ -1,19 +1,53 @@
-"""Reading of files named in launch files."""
+"""Files that a launch reads: launch files and those that their attributes name."""
 
 import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
 
 from trundle import files
+from trundle.diagnostics import Source
 
 
-def read_file(name: str) -> bytes:
-    """Read a file's bytes.
+class ReadCheck(Protocol):
+    """Refuses files that may not be read."""
 
-    Raises:
-        ValueError: the file does not exist or cannot be read.
-    """
-    if not os.path.exists(name):
-        raise ValueError(f"no file {name!r}")
-    try:
-        return files.read_file(name)
-    except OSError as error:
-        raise ValueError(f"{name!r} cannot be read: {error.strerror}") from None
+    def __call__(self, path: Path, at: Source, /, *, name: str) -> None:
+        """Check a file, which `name` names in messages.
+
+        Raises:
+            DescriptionError: it may not be read.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchFiles:
+    """Files of one launch."""
+
+    check_readable: ReadCheck | None = None
+    """None: every file may be read."""
+
+    def check(self, name: str, at: Source) -> None:
+        """Check a file before anything is known about it.
+
+        Raises:
+            DescriptionError: it may not be read.
+        """
+        if self.check_readable is not None:
+            self.check_readable(Path(name), at, name=repr(name))
+
+    def read(self, name: str, at: Source) -> bytes:
+        """Read a file's bytes.
+
+        Raises:
+            DescriptionError: it may not be read.
+            ValueError: the file does not exist or cannot be read.
+        """
+        self.check(name, at)
+        if not os.path.exists(name):
+            raise ValueError(f"no file {name!r}")
+        try:
+            return files.read_file(name)
+        except OSError as error:
+            raise ValueError(f"{name!r} cannot be read: {error.strerror}") from None

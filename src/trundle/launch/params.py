@@ -7,7 +7,6 @@ from trundle.names import join_names
 from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
-from .files import read_file
 from .plan import ParamCommand, ParamStep, ParamType, ParamValue
 from .plan_builder import PlanBuilder
 from .scope import Scope
@@ -51,9 +50,9 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
             case "value":
                 return name, convert_value(text.strip(), kind)
             case "textfile":
-                return name, convert_value(read_file(text).decode(), kind)
+                return name, convert_value(attributes.read_file(text).decode(), kind)
             case "binfile":
-                return name, read_file(text)
+                return name, attributes.read_file(text)
             case _:
                 return name, ParamCommand(line=text, type=kind, at=at)
     except UnicodeDecodeError:
@@ -100,7 +99,7 @@ def _step(
 def _load(attributes: Attributes, builder: PlanBuilder, name: str, file: str | None, *, needs_mapping: bool) -> None:
     at = attributes.at
     try:
-        text = read_file(file).decode() if file is not None else attributes.node.raw_text
+        text = attributes.read_file(file).decode() if file is not None else attributes.node.raw_text
         data = load_yaml(attributes.resolve(text) if attributes.flag("subst_value") else text)
     except UnicodeDecodeError:
         raise DescriptionError(at, f"rosparam: {file!r} is not a text file") from None

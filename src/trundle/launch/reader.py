@@ -11,6 +11,7 @@ from trundle.xmlnode import XmlNode
 
 from .attributes import Attributes
 from .command_line import CommandLine
+from .files import LaunchFiles, ReadCheck
 from .launch_file import parse_launch_text, read_launch_file
 from .machines import read_machine
 from .missing_packages import MissingPackageError, MissingPackages
@@ -39,6 +40,7 @@ def read_launch(
     env: Mapping[str, str] | None = None,
     texts: Sequence[tuple[str, str]] = (),
     namespace: str = "/",
+    check_readable: ReadCheck | None = None,
 ) -> LaunchPlan:
     """Read launch files as one launch, without starting nodes or running commands.
 
@@ -50,6 +52,7 @@ def read_launch(
         arguments: `name:=value` of the command line.
         env: environment for `$(env …)` and `$(optenv …)`.
         namespace: prefix of all names.
+        check_readable: refuses files that an element names, as for a file that is only looked at; None: all are read.
 
     Raises:
         DescriptionError: the file is invalid, with file and line; roslaunch rejects it, too.
@@ -57,7 +60,14 @@ def read_launch(
     command_line = CommandLine(arguments or {})
 
     def read(report: Diagnostics, missing: MissingPackages | None = None) -> LaunchPlan:
-        reader = _Reader(packages=packages, report=report, env=env or {}, command_line=command_line, missing=missing)
+        reader = _Reader(
+            packages=packages,
+            report=report,
+            env=env or {},
+            command_line=command_line,
+            missing=missing,
+            files=LaunchFiles(check_readable),
+        )
         for file in [files] if isinstance(files, Path) else files:
             reader.read_root(read_launch_file(file, report), file, namespace)
         for name, text in texts:
@@ -125,13 +135,17 @@ class _Reader:
         env: Mapping[str, str],
         command_line: CommandLine,
         missing: MissingPackages | None = None,
+        files: LaunchFiles | None = None,
     ) -> None:
         """`missing`: collect missing packages, skipping elements that cannot be read."""
         self.builder = PlanBuilder(report)
         self._report = report
         self._command_line = command_line
         self._goes_on = missing is not None
-        self._substitution = Substitution(packages=packages, env=env, anonymous=anonymous_name, missing=missing)
+        self._files = files or LaunchFiles()
+        self._substitution = Substitution(
+            packages=packages, env=env, anonymous=anonymous_name, missing=missing, files=self._files
+        )
 
     def read_root(self, root: XmlNode, file: Path, namespace: str) -> None:
         """Read a file given on the command line."""
@@ -263,6 +277,7 @@ class _Reader:
             raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
         given = passed.declared
         passed.declared = set()
+        self._files.check(file, node.at)
         if not os.path.exists(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
         try:

@@ -10,6 +10,7 @@ from typing import Any
 from trundle.diagnostics import DescriptionError, Source, nearest
 from trundle.expressions import MATH_NAMES, PYTHON_NAMES, ExpressionError, Interpreter, wrap_function
 
+from .files import LaunchFiles
 from .missing_packages import MissingPackageError, MissingPackages
 from .packages import PackageFinder
 from .scope import Scope
@@ -36,6 +37,7 @@ class Substitution:
     """Creates a unique name."""
     missing: MissingPackages | None = None
     """Collects missing packages; None: the first one raises."""
+    files: LaunchFiles = field(default_factory=LaunchFiles)
     interpreter: Interpreter = field(default_factory=Interpreter)
     """Evaluates every `$(eval …)`."""
 

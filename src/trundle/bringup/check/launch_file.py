@@ -7,7 +7,7 @@ from pathlib import Path
 
 from trundle.diagnostics import Diagnostics
 from trundle.drawing.tree import TreeNode
-from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
+from trundle.launch import LaunchPlan, ParamCommand, read_launch
 from trundle.packages import Packages
 
 from ..load_input import Piped
@@ -65,10 +65,18 @@ def check_launch(
     """
     if piped is not None:
         text = piped.data.decode(errors="replace")
-        plan = read_launch_text(text, name=piped.name, packages=packages, report=report, env=environment)
+        files, texts = [], [(piped.name, text)]
     else:
         packages = packages.around(Path(file))
-        plan = read_launch(Path(file), packages=packages, report=report, env=environment)
+        files, texts = [Path(file)], []
+    plan = read_launch(
+        files,
+        packages=packages,
+        report=report,
+        env=environment,
+        texts=texts,
+        check_readable=packages.check_readable,
+    )
     report_missing_nodes(plan.nodes, packages, environment, report)
     return LaunchFindings(plan)
 
