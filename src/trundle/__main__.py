@@ -4,7 +4,11 @@ import sys
 
 
 def main() -> int:
-    """Run the command; Ctrl-C before its start or after its end exits silently."""
+    """Run the command; Ctrl-C before its start or after its end exits silently.
+
+    SIGINT is heard even if the starter ignores it, as a script does for `trundle … &`: `kill -INT $!` ends the command,
+    as it ends ROS 1's own, and what the command starts is ended by it too.
+    """
     try:
         import signal
 
@@ -17,7 +21,7 @@ def main() -> int:
     from trundle.interrupts import interrupt, keep_interrupts
 
     keep_interrupts()
-    signal.signal(signal.SIGINT, interrupt if before is signal.default_int_handler else before)
+    signal.signal(signal.SIGINT, interrupt if before in (signal.default_int_handler, signal.SIG_IGN) else before)
     code = command()
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # during Python's shutdown no handler runs
     return code

@@ -103,6 +103,28 @@ def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
     assert (running.returncode, said) == (-signal.SIGINT, "")
 
 
+def test_a_command_in_a_scripts_background_is_ended_by_sigint_as_are_its_children() -> None:
+    """A shell without job control starts `trundle … &` with SIGINT ignored."""
+    waits = """
+        import subprocess, sys, time, trundle.cli, trundle.__main__
+        def command():
+            try:
+                child = subprocess.Popen(["/bin/sh", "-c", "kill -INT $$"], start_new_session=True)
+                print(child.wait(), flush=True)
+                time.sleep(20)
+            except KeyboardInterrupt:
+                return 130
+        trundle.cli.main = command
+        sys.exit(trundle.__main__.main())
+    """
+    words = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", sys.executable, "-c", textwrap.dedent(waits)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline() == f"{-signal.SIGINT}\n"
+        running.send_signal(signal.SIGINT)
+        assert running.wait(50) == 130
+
+
 def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
     link = tmp_path / "a b" / "robot"
     link.parent.mkdir()

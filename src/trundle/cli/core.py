@@ -12,7 +12,7 @@ from queue import Empty, SimpleQueue
 from trundle.bringup.launch.logs import log_folder
 from trundle.bringup.network_warning import warn_of_network
 from trundle.diagnostics import UsageError
-from trundle.interrupts import ending_signals, interrupt
+from trundle.interrupts import ending_signals
 from trundle.ros import DISTROS, NOETIC, Core, GraphLoop, RosError, host_and_port
 
 EXAMPLES = """
@@ -40,7 +40,6 @@ def main(args: argparse.Namespace) -> int:
     if not 0 <= args.port < 65536:
         raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
     reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: safe to use in a signal handler
-    signal.signal(signal.SIGINT, interrupt)  # background jobs of a shell ignore it otherwise
     for number in ending_signals()[1:]:
         signal.signal(number, lambda _number, _frame: reasons.put("terminated"))
     _warn_of_other_master(os.environ.get("ROS_MASTER_URI"), args.port)

@@ -95,7 +95,7 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
 
 @contextmanager
 def interrupted_by_signals() -> Generator[None]:
-    """Make SIGTERM, SIGHUP and SIGINT (ignored in a shell's background jobs) raise KeyboardInterrupt."""
+    """Make SIGTERM and SIGHUP raise KeyboardInterrupt, as SIGINT does."""
     if threading.current_thread() is not threading.main_thread():  # only the main thread handles signals
         yield
         return
