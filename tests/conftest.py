@@ -34,6 +34,7 @@ def pytest_configure() -> None:
     """Make tests repeatable, and reset signals that programs would inherit as ignored from background jobs or nohup."""
     for variable in _VARIABLES:
         os.environ.pop(variable, None)
+    os.environ["XDG_DATA_HOME"] = os.devnull  # packages that the user has fetched are not the tests'
     # Tests are the same on each run and on a slow machine; `--hypothesis-profile default` draws new examples.
     quiet = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
     settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=quiet)

@@ -31,16 +31,27 @@ class Source(NamedTuple):
 class TrundleError(Exception):
     """Base of all errors that a user can fix."""
 
+    missing_packages: tuple[str, ...] = ()
+    """ROS packages that would have to be here."""
+
 
 class UsageError(TrundleError):
     """Request that cannot be fulfilled."""
+
+    def __init__(self, what: str, *, missing_packages: tuple[str, ...] = ()) -> None:
+        """State the error."""
+        self.missing_packages = missing_packages
+        super().__init__(what)
 
 
 class DescriptionError(TrundleError):
     """File, or place in a file, that cannot be interpreted."""
 
-    def __init__(self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = ()) -> None:
+    def __init__(
+        self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = (), missing_packages: tuple[str, ...] = ()
+    ) -> None:
         """State the error, and further ones in `more`."""
+        self.missing_packages = missing_packages
         self.at = at
         self.what = what
         self.more = tuple(more)

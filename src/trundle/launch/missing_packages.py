@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from trundle.diagnostics import DescriptionError, Source
-from trundle.packages import repository_hint
+from trundle.repositories import repository_hint
 
 from .packages import PackageFinder
 from .plan import LaunchNode
@@ -37,4 +37,5 @@ class MissingPackages:
             for name, (at, what_for) in others
             if f"no package {name!r}" not in first.what
         ]
-        return DescriptionError(first.at, first.what, more=more)
+        names = tuple(name for name, _ in others)
+        return DescriptionError(first.at, first.what, more=more, missing_packages=names)

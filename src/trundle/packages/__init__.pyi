@@ -12,8 +12,9 @@ from .model_config import refuse_template as refuse_template
 from .packages import ALLOW_OUTSIDE as ALLOW_OUTSIDE
 from .packages import LENIENT as LENIENT
 from .packages import Packages as Packages
-from .repositories import repository_hint as repository_hint
 from .ros2 import refuse_ros2 as refuse_ros2
 from .ros2 import refuse_ros2_language as refuse_ros2_language
+from .ros_packages import fetched_folder as fetched_folder
 from .rule_exports import exported_rules as exported_rules
+from .stock import STOCK as STOCK
 from .workspace import program_folders as program_folders

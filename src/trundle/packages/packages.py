@@ -8,11 +8,11 @@ from urllib.parse import unquote
 
 from trundle.diagnostics import DescriptionError, Source, UsageError
 from trundle.files import is_stream
+from trundle.repositories import repository_hint
 
 from .confinement import Confinement
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .package_cache import PackageCache
-from .repositories import repository_hint
 from .ros_packages import RosPackages
 from .stock import DESCRIPTIONS, STOCK
 from .workspace import own_confinement

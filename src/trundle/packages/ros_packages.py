@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 from trundle.files import read_text
+from trundle.ownership import home_folder
 
 from .crawl import MANIFESTS, Crawl
 from .package_cache import Folder, PackageCache
@@ -22,6 +23,12 @@ SHIPPED = Path(__file__).parent / "ros"
 _INSTALLED = Path("/usr/share")
 """Folder of Debian's ROS packages, which its rospack searches last, whatever ROS_PACKAGE_PATH is."""
 _CHECKOUT_EXAMPLES = Path(__file__).parents[3] / "examples"
+
+
+def fetched_folder(environment: Mapping[str, str]) -> Path:
+    """Return the folder of repositories that were fetched for the user, below XDG_DATA_HOME or ~/.local/share."""
+    root = environment.get("XDG_DATA_HOME") or home_folder(environment) / ".local/share"
+    return Path(root, "trundle", "packages")
 
 
 class RosPackages:
@@ -44,6 +51,7 @@ class RosPackages:
         """Folders of packages."""
         own = own_package(start, cache.wide)
         self._guessed = [] if own is None or own.parent in map(_real, self.roots) else [own, own.parent]
+        self._fetched = fetched_folder(environment)
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
 
@@ -59,6 +67,7 @@ class RosPackages:
                 self._crawl(root)
             for root in self._guessed:
                 self._crawl(root, most=_MAX_GUESSED)
+            self._crawl(self._fetched)
             self._crawl(SHIPPED)
             if os.path.isdir(_CHECKOUT_EXAMPLES / "smartcar"):
                 self._crawl(_CHECKOUT_EXAMPLES)

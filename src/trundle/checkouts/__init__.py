@@ -1,0 +1,5 @@
+"""Repositories of ROS packages fetched from the network into a folder of the user."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
