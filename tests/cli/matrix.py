@@ -107,6 +107,7 @@ ROWS = [
     Row("pack find geometry_msgs", "/geometry_msgs", original="/usr/bin/rospack find geometry_msgs"),
     Row("pack list", "geometry_msgs /", original="/usr/bin/rospack list"),
     Row("pack depends tf2_msgs", "geometry_msgs", original="/usr/bin/rospack depends tf2_msgs"),
+    Row("pack get std_msgs", "^part of Trundle: std_msgs$", original="-"),
     Row("pack list-names", "geometry_msgs", original="/usr/bin/rospack list-names"),
     Row("pack depends1 tf2_msgs", "geometry_msgs", original="/usr/bin/rospack depends1 tf2_msgs"),
     Row("pack depends-on std_msgs", "tf2_msgs", original="/usr/bin/rospack depends-on std_msgs"),

@@ -60,7 +60,15 @@ REMAPPED = ("bag", "service", "tf", "topic")
 """Commands that take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf in launch files."""
 _OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Commands that exit with 0 on Ctrl-C, as their originals do."""
-_INTERMIXED = ("launch", "test", "sweep", "xacro", "originals.catkin_create_pkg")
+_INTERMIXED = (
+    "launch",
+    "test",
+    "sweep",
+    "xacro",
+    "originals.catkin_create_pkg",
+    "originals.rosdep",
+    "originals.wstool",
+)
 """Commands with options between arguments, as in roslaunch: `trundle launch robot.launch --headless gui:=false`."""
 _DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 """Errors when writing an open file."""
@@ -126,7 +134,8 @@ def _run_original(arguments: Sequence[str]) -> int:
         if code is not None:
             return code
     try:
-        code = _run(name, [*words, *arguments[1:]], program=f"trundle {name}" if words else program)
+        is_own = words and not name.startswith("originals.")
+        code = _run(name, [*words, *arguments[1:]], program=f"trundle {name}" if is_own else program)
     except KeyboardInterrupt:
         return EXIT_OK
     return EXIT_OK if code == EXIT_INTERRUPTED else code
@@ -155,6 +164,11 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
         return int(stop.code or 0)
     except TrundleError as error:
         print(error if _has_location(str(error)) else f"{program}: error: {error}", file=sys.stderr)
+        if error.missing_packages and name != "pack":
+            from .fetching import offer
+
+            if offer(error.missing_packages):
+                return _run(name, arguments, program=program)
         return EXIT_INPUT
     except BrokenPipeError:  # `trundle topic echo … | head`
         _discard_stdout()

@@ -9,6 +9,8 @@ from pathlib import Path
 from trundle.diagnostics import TrundleError, UsageError
 from trundle.packages import Packages, run_dependencies
 
+from .fetching import add_fetch_options, fetch_packages
+
 EXAMPLES = """
   trundle pack find smartcar_description
   trundle pack list
@@ -17,6 +19,8 @@ EXAMPLES = """
   trundle pack depends1 smartcar_description
   trundle pack depends-on geometry_msgs
   trundle pack depends-on1 geometry_msgs
+  trundle pack get turtlebot3_gazebo                 fetch a package, and those that it needs
+  trundle pack get --missing my_robot bringup.launch fetch all that a launch file needs
 """
 
 
@@ -33,6 +37,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         ("depends-on1", [], _depends_on1, "packages that depend on a package directly"),
     ):
         _about_one(commands.add_parser(name, aliases=alias, help=help_), run)
+    get = commands.add_parser("get", help="fetch packages, and those that they need")
+    get.add_argument("names", nargs="*", metavar="NAME", help="packages; with --missing: [PKG] FILE [ARG:=VALUE]")
+    get.add_argument("--missing", action="store_true", help="fetch what a launch file needs and is not here")
+    add_fetch_options(get)
+    get.set_defaults(run=_get)
 
 
 def _about_one(parser: argparse.ArgumentParser, run: Callable[[argparse.Namespace, Packages], int]) -> None:
@@ -66,6 +75,23 @@ def _find(args: argparse.Namespace, packages: Packages) -> int:
     if folder is None:
         raise UsageError(packages.why_not_found(args.package))
     print(folder)
+    return 0
+
+
+def _get(args: argparse.Namespace, _: Packages) -> int:
+    if not args.names:
+        raise UsageError("give packages, or --missing and a launch file")
+    if not args.missing:
+        return fetch_packages(args.names, args)
+    from trundle.bringup.missing_packages import missing_packages
+
+    asked: set[str] = set()
+    while names := [name for name in missing_packages(args.names, os.environ) if name not in asked]:
+        if code := fetch_packages(names, args):
+            return code
+        asked.update(names)
+        args.yes = True  # what the packages need in turn was part of the question
+    print("nothing is missing" if not asked else "all is here that could be fetched")
     return 0
 
 

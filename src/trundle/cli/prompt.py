@@ -22,3 +22,9 @@ def read_number(most: int) -> int:
     while (answer := read_line()) not in numbers:
         print(f"ERROR: please enter a number from 1 to {most} (ctrl-C to cancel)", flush=True)
     return numbers[answer]
+
+
+def confirm(question: str) -> bool:
+    """Ask a question on the terminal; an empty answer is yes."""
+    print(f"{question} [Y/n] ", end="", file=sys.stderr, flush=True)
+    return read_line().lower() in ("", "y", "yes")

@@ -59,7 +59,8 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         raise UsageError(f"no such file: {rest[0]}")
     package = packages.find_package(rest[0])
     if package is None:
-        raise UsageError(f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either")
+        what = f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either"
+        raise UsageError(what, missing_packages=(rest[0],))
     if (workspace := packages.workspace_of(package)) is not None:
         print(f"using the workspace {workspace}", file=sys.stderr)
     found = tuple(_in_package(package, rest[0], word) for word in rest[1:])

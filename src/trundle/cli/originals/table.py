@@ -1,6 +1,8 @@
 """Table of the commands of ROS 1, catkin and Gazebo."""
 
 ORIGINALS: dict[str, tuple[str, ...]] = {
+    "apt": ("originals.apt", "apt"),
+    "apt-get": ("originals.apt", "apt-get"),
     "catkin_create_pkg": ("originals.catkin_create_pkg",),
     "catkin_init_workspace": ("originals.catkin_init_workspace",),
     "catkin_make": ("originals.catkin_make",),
@@ -13,6 +15,8 @@ ORIGINALS: dict[str, tuple[str, ...]] = {
     "roscd": ("originals.roscd",),
     "rosclean": ("originals.rosclean",),
     "roscore": ("core",),
+    "rosdep": ("originals.rosdep",),
+    "rosinstall": ("originals.rosinstall",),
     "roslaunch": ("launch",),
     "rosls": ("originals.rosls",),
     "rosmsg": ("msg",),
@@ -32,10 +36,13 @@ ORIGINALS: dict[str, tuple[str, ...]] = {
     "rqt_image_view": ("exec", "rqt_image_view", "rqt_image_view"),
     "rqt_plot": ("exec", "rqt_plot", "rqt_plot"),
     "rviz": ("originals.rviz",),
+    "sudo": ("originals.apt", "sudo"),
     "tf_echo": ("tf", "echo"),
     "tf_monitor": ("tf", "monitor"),
     "urdf_to_graphiz": ("originals.urdf_to_graphiz",),
+    "vcs": ("originals.vcs",),
     "view_frames": ("tf", "tree", "-o", "frames.svg"),
+    "wstool": ("originals.wstool",),
     "xacro": ("xacro",),
 }
 """Command → module in `trundle.cli` and the arguments before those given."""

@@ -8,6 +8,8 @@ from collections.abc import Iterable
 from trundle.diagnostics import DescriptionError, Source
 from trundle.files import read_text
 
+from .missing_packages import missing_package
+
 _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 """Pattern of an error in $(…): the class and the message twice."""
 _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'\Z", re.DOTALL)
@@ -41,7 +43,8 @@ def description_error(error: Exception, at: Source, files: Iterable[str]) -> Des
     what = what or re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
     what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
     place = None if expression is None else _find_place(f"${{{expression}}}", {at.file, *files})
-    return DescriptionError(place or at, what)
+    missing = missing_package(error)
+    return DescriptionError(place or at, what, missing_packages=() if missing is None else (missing.name,))
 
 
 def _why_unreadable(error: OSError) -> str:

@@ -175,7 +175,7 @@ def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, c
     def find(name: str) -> str:
         folder = packages.find_folder(name)
         if folder is None:
-            raise MissingPackageError(f"$(find {name}): {packages.why_not_found(name)}")
+            raise MissingPackageError(name, f"$(find {name}): {packages.why_not_found(name)}")
         if packages.stand_in_package(folder) is not None and name not in stood_in:
             stood_in.add(name)
             what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"

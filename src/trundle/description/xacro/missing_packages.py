@@ -16,6 +16,11 @@ _DYNAMIC_CALL = "xacro:call"
 class MissingPackageError(LookupError):
     """`$(find …)` of a missing package."""
 
+    def __init__(self, name: str, what: str) -> None:
+        """State the error; `name` is the package's."""
+        self.name = name
+        super().__init__(what)
+
 
 def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics) -> None:
     """Let the xacro package skip includes of missing packages, and then calls of unknown macros.
@@ -40,7 +45,7 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
         try:
             files = list(get_include_files(spec, symbols))
         except Exception as error:
-            missing = _missing_package(error)
+            missing = missing_package(error)
             if missing is None:
                 raise
             left_out.append(spec)
@@ -109,7 +114,7 @@ def _end(joint: Any, role: str) -> str:
     return next((str(end.getAttribute("link")) for end in _children(joint, role)), "")
 
 
-def _missing_package(error: BaseException | None) -> MissingPackageError | None:
+def missing_package(error: BaseException | None) -> MissingPackageError | None:
     """Return the missing package that caused an error; None for another cause."""
     while error is not None and not isinstance(error, MissingPackageError):
         error = getattr(error, "exc", None) or error.__context__

@@ -1,0 +1,173 @@
+"""Packages fetched by the commands that tutorials name, from a git server on this machine."""
+
+import os
+import pty
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.git_server import GitServer, git_server, manifest
+
+from trundle.cli.main import main
+
+LAUNCH = """<launch>
+  <include file="$(find arm_bringup)/arm.launch"/>
+  <param name="robot_description" command="xacro $(find my_robot)/my.urdf.xacro"/>
+</launch>"""
+XACRO = """<robot name="my" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find hand)/hand.xacro"/>
+</robot>"""
+HAND = '<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="palm"/></robot>'
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[GitServer]:
+    with git_server(tmp_path_factory.mktemp("served")) as server:
+        arm = {"arm_bringup/package.xml": manifest("arm_bringup", "arm_msgs"), "arm_bringup/arm.launch": "<launch/>"}
+        server.add("me/arm", {"noetic-devel": arm})
+        server.add("me/arm_msgs", {"main": {"package.xml": manifest("arm_msgs")}})
+        server.add("me/hand", {"main": {"package.xml": manifest("hand"), "hand.xacro": HAND}})
+        yield server
+
+
+@pytest.fixture
+def index(server: GitServer, tmp_path: Path) -> Path:
+    rows = {"arm_bringup": ("arm", "noetic-devel"), "arm_msgs": ("arm_msgs", "main"), "hand": ("hand", "main")}
+    lines = [
+        f"  {package}: {{source: {{type: git, url: '{server.address}/me/{name}', version: {branch}}}}}"
+        for package, (name, branch) in rows.items()
+    ]
+    file = tmp_path / "index.yaml"
+    file.write_text("\n".join(["repositories:", *lines, ""]))
+    return file
+
+
+@pytest.fixture
+def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A workspace with a package that needs three others, the folder of this test's user beside it."""
+    package = tmp_path / "ws/src/my_robot"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text(manifest("my_robot", "arm_bringup", "hand", "rospy", "python3-serial"))
+    (package / "my.launch").write_text(LAUNCH)
+    (package / "my.urdf.xacro").write_text(XACRO)
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    monkeypatch.setenv("ROS_PACKAGE_PATH", "")
+    monkeypatch.chdir(tmp_path / "ws")
+    return tmp_path / "ws"
+
+
+def fetched(tmp_path: Path) -> list[str]:
+    return sorted(str(each.relative_to(tmp_path / "data/trundle/packages")) for each in tmp_path.glob("data/*/*/*/*"))
+
+
+def test_rosdep_fetches_what_a_workspace_needs(
+    workspace: Path, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["rosdep", "install", "--from-paths", "src", "--ignore-src", "-r", "-y", "--rosdistro", "noetic", "--index"]
+
+    assert main(["--as", *words, str(index)]) == 0
+
+    out = capsys.readouterr().out
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
+    assert "part of Trundle: catkin rospy" in out
+    assert "/me/arm (noetic-devel): arm_bringup\n" in out
+    assert out.splitlines()[-1] == f"Python libraries: {sys.executable} -m pip install pyserial"
+    assert sorted(os.listdir(workspace / "src")) == ["my_robot"], "the workspace is as it was"
+
+
+@pytest.mark.usefixtures("workspace")
+def test_nothing_is_fetched_unasked(index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["pack", "get", "hand", "--index", str(index)]) == 1
+    assert capsys.readouterr().err == "trundle pack: error: nothing is fetched without an answer; -y is one\n"
+    assert fetched(tmp_path) == []
+
+
+@pytest.mark.usefixtures("workspace")
+def test_all_that_a_launch_needs_is_fetched(index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Also what only a xacro file names, which is read once the includes are there."""
+    assert main(["pack", "get", "-y", "--index", str(index), "--missing", "my_robot", "my.launch"]) == 0
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
+    assert capsys.readouterr().out.splitlines()[-1] == "all is here that could be fetched"
+
+    assert main(["launch", "my_robot", "my.launch", "--dump-params"]) == 0
+    assert "palm" in capsys.readouterr().out
+
+
+def test_a_launch_offers_to_fetch_on_a_terminal(
+    workspace: Path, server: GitServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Asked for each round: the xacro file is read once the includes are there."""
+    here, there = pty.openpty()
+    code = (
+        "import sys; from trundle import repositories; from trundle.repositories import Entry, Index\n"
+        f"index = Index([Entry('{server.address}/me/' + r, {{}}, (p,)) for r, p in "
+        "(('arm', 'arm_bringup'), ('arm_msgs', 'arm_msgs'), ('hand', 'hand'))])\n"
+        "repositories.shipped_index = lambda: index\n"
+        "from trundle.cli.main import main; sys.exit(main(['launch', 'my_robot', 'my.launch', '--dump-params']))"
+    )
+    os.write(here, b"\ny\n")
+    words = [sys.executable, "-c", code]
+    done = subprocess.run(words, stdin=there, stdout=subprocess.PIPE, stderr=there, cwd=workspace, check=False)
+    os.close(there)
+    said = os.read(here, 100_000).decode()
+    os.close(here)
+
+    assert "fetch 1 repository? [Y/n]" in said
+    assert done.returncode == 0, said
+    assert "palm" in done.stdout.decode()
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
+
+
+@pytest.mark.usefixtures("workspace")
+def test_a_missing_package_names_the_commands_that_help(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    (tmp_path / "a.launch").write_text('<launch><include file="$(find turtlebot3_gazebo)/a.launch"/></launch>')
+
+    assert main(["launch", str(tmp_path / "a.launch")]) == 1
+
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert last == "trundle pack get turtlebot3_gazebo fetches them; --lenient leaves out what needs them"
+
+
+def test_apt_fetches_packages_of_ros(index: Path, workspace: Path, tmp_path: Path) -> None:
+    """Names have - for _; the rest of the line is for the machine's own apt, which `sudo` would start, too."""
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "apt-get").write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/own\n')
+    (programs / "apt-get").chmod(0o755)
+    code = (
+        "import sys; from trundle import repositories; from trundle.repositories import read_index\n"
+        f"index = read_index({str(index)!r}, 'noetic'); repositories.shipped_index = lambda: index\n"
+        "from trundle.cli.main import main; sys.exit(main(sys.argv[1:]))"
+    )
+
+    def apt(*words: str) -> int:
+        environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+        line = [sys.executable, "-c", code, "--as", *words]
+        return subprocess.run(line, cwd=workspace, env=environment, check=False).returncode
+
+    assert apt("apt-get", "install", "-y", "ros-noetic-arm-bringup", "tmux") == 0
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
+    assert (tmp_path / "own").read_text() == "install -y tmux\n"
+    assert apt("apt-get", "update") == 0
+    assert (tmp_path / "own").read_text() == "install -y tmux\nupdate\n"
+    assert apt("sudo", "apt-get", "install", "-y", "ros-kinetic-hand") == 0
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
+
+
+def test_lists_of_repositories_are_fetched_into_the_workspace(workspace: Path, server: GitServer) -> None:
+    lists = workspace / "my.repos"
+    lists.write_text(f"repositories: {{arm: {{type: git, url: '{server.address}/me/arm', version: noetic-devel}}}}\n")
+
+    assert main(["--as", "vcs", "import", "src", "--input", str(lists)]) == 0
+    assert (workspace / "src/arm/arm_bringup/arm.launch").is_file()
+
+    assert main(["--as", "wstool", "init", "src"]) == 0
+    assert main(["--as", "wstool", "set", "-t", "src", "grip/hand", "--git", f"{server.address}/me/hand"]) == 0
+    assert main(["--as", "wstool", "update", "-t", "src"]) == 0
+    assert (workspace / "src/grip/hand/hand.xacro").is_file()
+
+    other = workspace / "other"
+    assert main(["--as", "rosinstall", str(other), str(workspace / "src/.rosinstall")]) == 0
+    assert (other / "grip/hand/package.xml").is_file()
