@@ -124,7 +124,8 @@ class JointHandle(Handle):
         index = self._axis(axis)
         self._simulation.engine.writer.set_axis_velocities(range(index, index + 1), (velocity,))
 
-    # -- motors: the last command holds until the next one
+    # -- motors: the last command holds until the next one; one of a hardware interface, as of ros_control, acts beside
+    # direct ones, as in Gazebo: efforts add up, the later speed counts, a kinematic drive overrides all
 
     def command_position(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Drive an axis to a position [rad or m] within the joint's limits, and hold it.
@@ -140,27 +141,34 @@ class JointHandle(Handle):
         self._simulation.loads.set_effort_expiry(self, axis, until=None)
         self._simulation.engine.motors.command_position(driven, self._within_limits(position, driven), max_effort)
 
-    def command_velocity(self, velocity: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
+    def command_velocity(
+        self, velocity: float, *, max_effort: float = math.inf, axis: int = 0, hardware: bool = False
+    ) -> None:
         """Drive an axis at a velocity [rad/s or m/s] with limited effort [N·m or N], as Gazebo's
         SetVelocity with fmax.
         """
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
-        self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort)
+        if not hardware:
+            self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort, hardware=hardware)
 
-    def command_effort(self, effort: float, *, axis: int = 0, duration_s: float | None = None) -> None:
+    def command_effort(
+        self, effort: float, *, axis: int = 0, duration_s: float | None = None, hardware: bool = False
+    ) -> None:
         """Drive an axis with an effort [N·m or N], within the joint's effort and velocity limits.
 
         Args:
             effort: replaces the previous command.
             axis: axis index.
             duration_s: simulation time; None: until the next command.
+            hardware: the command is a hardware interface's, and lasts until its next one.
         """
-        self._simulation.engine.motors.command_effort(self._axis(axis), effort)
-        self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
+        self._simulation.engine.motors.command_effort(self._axis(axis), effort, hardware=hardware)
+        if not hardware:
+            self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
 
     @property
     def commands(self) -> "tuple[TimedCommand, ...]":
-        """Last command of each axis, and for how much longer it lasts [s]; None: until the next one."""
+        """Last direct command of each axis, and for how much longer it lasts [s]; None: until the next one."""
         simulation = self._simulation
         ends = [simulation.loads.expiries.efforts.get((self, axis)) for axis in range(len(self.axes))]
         commands = map(simulation.engine.motors.command_of, self.axes)
@@ -172,11 +180,12 @@ class JointHandle(Handle):
             self._simulation.engine.motors.repeat(self._axis(axis), command)
             self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(left_s))
 
-    def drive_kinematically(self, velocity: float, *, axis: int = 0) -> None:
+    def drive_kinematically(self, velocity: float, *, axis: int = 0, hardware: bool = False) -> None:
         """Drive an axis at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        if not hardware:
+            self._simulation.loads.set_effort_expiry(self, axis, until=None)
         engine = self._simulation.engine
-        engine.motors.drive_kinematically(self._driven(axis), velocity)
+        engine.motors.drive_kinematically(self._driven(axis), velocity, hardware=hardware)
         engine.reader.invalidate()
 
     def _axis(self, axis: int) -> int:

@@ -253,10 +253,10 @@ class Engine:
             old: the other engine.
             renamed: renamed models, old name → new name.
         """
-        transfer_state((old._model, old._data), (self._model, self._data), renamed or {})
+        actuators = transfer_state((old._model, old._data), (self._model, self._data), renamed or {})
         self._steps = old._steps
         self.writer.was_teleported = True
-        self.motors.invalidate()
+        self.motors.transfer_from(old.motors, actuators)
         self.reader.invalidate()
 
     def save(self) -> EngineState:

@@ -4,7 +4,7 @@ A motor is a velocity constraint with bounded force, as in ODE; see `cpp/velocit
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
@@ -27,14 +27,6 @@ _HUGE = 1e10
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
-class MotorCommands(Struct, frozen=True, eq=False):
-    """Effort limits and rates of a model's motors, whose targets are in the data, and the last commands."""
-
-    max_efforts: NDArray[np.float64]
-    rates: NDArray[np.float64]
-    last: dict[int, tuple[float, ...]]
-
-
 class MotorCommand(Struct, frozen=True):
     """Command of one axis."""
 
@@ -46,6 +38,26 @@ class MotorCommand(Struct, frozen=True):
     """Rate of the approach [1/s]; 0: the target is a speed."""
     effort: float
     """Constant effort beside the motor [N·m or N]."""
+
+    @property
+    def is_drive(self) -> bool:
+        """True if the motor keeps a speed or position; else the command is an effort."""
+        return self.max_effort > 0.0 and self.effort == 0.0
+
+    @property
+    def whole_effort(self) -> float:
+        """Commanded effort [N·m or N], of which a motor may give half; 0 for a drive."""
+        return self.effort + math.copysign(self.max_effort, self.effort) if self.effort else 0.0
+
+
+class MotorCommands(Struct, frozen=True, eq=False):
+    """Effort limits and rates of a model's motors, whose targets are in the data, and the commands."""
+
+    max_efforts: NDArray[np.float64]
+    rates: NDArray[np.float64]
+    last: dict[int, tuple[float, ...]]
+    direct: dict[int, MotorCommand]
+    hardware: dict[int, MotorCommand]
 
 
 def copy_commands(source: mujoco.MjModel, target: mujoco.MjModel) -> None:
@@ -74,6 +86,10 @@ class Motors:
         self._max_efforts: list[float] = compiled.axis_effort.tolist()
         self._max_velocities: list[float] = compiled.axis_velocity.tolist()
         self._commands: dict[int, tuple[float, ...]] = {}
+        self._hardware: dict[int, MotorCommand] = {}
+        """Commands of hardware interfaces, by actuator."""
+        self._direct: dict[int, MotorCommand] = {}
+        """Direct commands of the axes with a hardware interface."""
         self._rates = find_table(compiled.model, "motors")[:, 1]
         self._motor_dofs = find_table(compiled.model, "motors")[:, 3].astype(np.intp)
         self._sleeping_efforts: tuple[bytes, NDArray[np.float64]] = (b"", np.empty(0))
@@ -83,25 +99,26 @@ class Motors:
         self._always_enabled = False
         self._update_active()
 
-    def command_effort(self, axis: int, effort: float) -> None:
+    def command_effort(self, axis: int, effort: float, *, hardware: bool = False) -> None:
         """Apply an effort [N·m or N] to an axis within its limits, and switch its motor off.
 
         As in Gazebo, an axis beyond its velocity limit is not accelerated further: with such a limit the effort comes
         from a motor with that target speed, which acts in one direction only.
+
+        Args:
+            axis: axis index.
+            effort: replaces the last command.
+            hardware: the command is a hardware interface's, which acts beside direct commands, as in Gazebo: efforts
+                add up, also to a motor's; the later of two speeds counts; a kinematic drive overrides all.
         """
-        largest, fastest = self._max_efforts[axis], self._max_velocities[axis]
-        effort = min(max(effort, -largest), largest)
-        if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
-            self._command(axis, command=0.0, most=0.0, effort=effort)
-            return
-        # Half of the effort is constant, half a motor's: together from zero to the full effort.
-        self._command(axis, command=math.copysign(fastest, effort), most=abs(effort) / 2, effort=effort / 2)
+        largest = self._max_efforts[axis]
+        self._command(axis, self._effort_command(axis, min(max(effort, -largest), largest)), hardware=hardware)
 
-    def command_velocity(self, axis: int, velocity: float, max_effort: float) -> None:
+    def command_velocity(self, axis: int, velocity: float, max_effort: float, *, hardware: bool = False) -> None:
         """Drive an axis at a speed [rad/s or m/s] with limited effort."""
-        self._drive(axis, velocity, max_effort, rate=0.0)
+        self._drive(axis, velocity, max_effort, rate=0.0, hardware=hardware)
 
-    def drive_kinematically(self, axis: int, velocity: float) -> None:
+    def drive_kinematically(self, axis: int, velocity: float, *, hardware: bool = False) -> None:
         """Drive an axis at a speed [rad/s or m/s] that it takes at once; only its child links feel a reaction.
 
         Its effort limit applies to obstacles, not to its own weight; no limit or zero is unlimited. An axis held back
@@ -111,13 +128,17 @@ class Motors:
         last = self._commands.get(actuator)
         speed = float(self._data.qvel[dof])
         now = last[0] if last is not None and last[2] == _KINEMATIC else speed
-        self._command(axis, command=velocity, most=min(self._max_efforts[axis] or _HUGE, _HUGE), rate=_KINEMATIC)
+        most = min(self._max_efforts[axis] or _HUGE, _HUGE)
+        self._command(axis, MotorCommand(velocity, most, _KINEMATIC, 0.0), hardware=hardware)
         if velocity != now and abs(speed - now) <= _KEEPS_UP[0] * abs(now) + _KEEPS_UP[1]:
             self._data.qvel[dof] = velocity
 
     def command_of(self, axis: int) -> MotorCommand:
-        """Return the command that an axis follows."""
-        effort, actuator = float(self._data.qfrc_applied[self._dofs[axis]]), self._actuators[axis]
+        """Return the direct command that an axis follows."""
+        actuator = self._actuators[axis]
+        if actuator in self._direct:
+            return self._direct[actuator]
+        effort = float(self._data.qfrc_applied[self._dofs[axis]])
         if actuator < 0:
             return MotorCommand(0.0, 0.0, 0.0, effort)
         most = float(self._model.tendon_frictionloss[actuator])
@@ -125,34 +146,67 @@ class Motors:
 
     def repeat(self, axis: int, command: MotorCommand) -> None:
         """Give an axis a command that it had before."""
-        self._command(axis, command=command.target, most=command.max_effort, rate=command.rate, effort=command.effort)
+        self._command(axis, command)
 
     def command_position(self, axis: int, position: float, max_effort: float) -> None:
         """Drive an axis to a position [rad or m] and hold it."""
         self._drive(axis, position, max_effort, rate=HOLD_RATE)
 
-    def _drive(self, axis: int, command: float, max_effort: float, *, rate: float) -> None:
-        most = min(max_effort, self._max_efforts[axis], _HUGE)
-        self._command(axis, command=command, most=max(most, 0.0), rate=rate)
+    def _drive(self, axis: int, target: float, max_effort: float, *, rate: float, hardware: bool = False) -> None:
+        most = max(min(max_effort, self._max_efforts[axis], _HUGE), 0.0)
+        self._command(axis, MotorCommand(target, most, rate, 0.0), hardware=hardware)
 
-    def _command(self, axis: int, *, command: float, most: float, rate: float = 0.0, effort: float = 0.0) -> None:
-        """Set the motor's target with an effort up to `most`, beside a constant effort."""
+    def _effort_command(self, axis: int, effort: float) -> MotorCommand:
+        fastest = self._max_velocities[axis]
+        if math.isinf(fastest) or effort == 0.0 or not math.isfinite(effort):
+            return MotorCommand(0.0, 0.0, 0.0, effort)
+        # Half of the effort is constant, half a motor's: together from zero to the full effort.
+        return MotorCommand(math.copysign(fastest, effort), abs(effort) / 2, 0.0, effort / 2)
+
+    def _command(self, axis: int, command: MotorCommand, *, hardware: bool = False) -> None:
+        """Set the motor's target with an effort limit, beside a constant effort."""
         dof, actuator = self._dofs[axis], self._actuators[axis]
-        self._data.qfrc_applied[dof] = effort
+        if hardware or actuator in self._hardware:
+            command = self._superpose(axis, command, hardware=hardware)
+        self._data.qfrc_applied[dof] = command.effort
         if actuator < 0:
             return
-        order = (command, most, rate)
+        order = (command.target, command.max_effort, command.rate)
         # A repeated command, as controllers send at every cycle, wakes nothing.
         last = self._commands.get(actuator)
         if last == order:
             return
         self._commands[actuator] = order
-        self._model.tendon_frictionloss[actuator] = most
-        self._rates[actuator] = rate
-        self._data.ctrl[actuator] = command
-        if last is None or (last[1] > 0.0) != (most > 0.0):
+        self._model.tendon_frictionloss[actuator] = command.max_effort
+        self._rates[actuator] = command.rate
+        self._data.ctrl[actuator] = command.target
+        if last is None or (last[1] > 0.0) != (command.max_effort > 0.0):
             self._update_active()
         self._wake(dof)
+
+    def _superpose(self, axis: int, command: MotorCommand, *, hardware: bool) -> MotorCommand:
+        """Store a command; return the sum of the axis' direct command and its hardware interface's."""
+        actuator = self._actuators[axis]
+        if hardware:
+            direct = self._direct[actuator] = self.command_of(axis)
+            self._hardware[actuator] = interface = command
+        else:
+            self._direct[actuator] = direct = command
+            interface = self._hardware[actuator]
+        if interface.rate == _KINEMATIC:
+            return interface
+        if interface.is_drive and direct.is_drive:
+            return command
+        if interface.is_drive or direct.is_drive:
+            drive, effort = (interface, direct) if interface.is_drive else (direct, interface)
+            beside = self._below_velocity_limit(axis, effort.whole_effort)
+            return MotorCommand(drive.target, drive.max_effort, drive.rate, beside)
+        return self._effort_command(axis, direct.whole_effort + interface.whole_effort)
+
+    def _below_velocity_limit(self, axis: int, effort: float) -> float:
+        """Return the effort, or 0 if it would accelerate an axis beyond its velocity limit."""
+        forward = math.copysign(1.0, effort) * float(self._data.qvel[self._dofs[axis]])
+        return 0.0 if forward > self._max_velocities[axis] else effort
 
     def write_efforts(self) -> None:
         """Write the motors' efforts to qfrc_actuator after a step."""
@@ -189,18 +243,38 @@ class Motors:
 
     def invalidate(self) -> None:
         """Forget the last commands after another writer changed the arrays."""
-        self._commands.clear()
+        for commands in (self._commands, self._direct, self._hardware):
+            commands.clear()
         self._update_active()
+
+    def transfer_from(self, old: "Motors", actuators: Iterable[tuple[int, int]]) -> None:
+        """Continue with the commands of another model's motors, whose effort limits and rates were copied.
+
+        Args:
+            old: the other motors.
+            actuators: old and new index of each motor that both have.
+        """
+        self.invalidate()
+        for source, target in actuators:
+            if source in old._hardware:
+                self._direct[target], self._hardware[target] = old._direct[source], old._hardware[source]
 
     def save(self) -> MotorCommands:
         """Save the commands."""
-        return MotorCommands(self._model.tendon_frictionloss.copy(), self._rates.copy(), dict(self._commands))
+        return MotorCommands(
+            self._model.tendon_frictionloss.copy(),
+            self._rates.copy(),
+            dict(self._commands),
+            dict(self._direct),
+            dict(self._hardware),
+        )
 
     def restore(self, saved: MotorCommands) -> None:
         """Restore saved commands."""
         self._model.tendon_frictionloss[:] = saved.max_efforts
         self._rates[:] = saved.rates
         self._commands = dict(saved.last)
+        self._direct, self._hardware = dict(saved.direct), dict(saved.hardware)
         self._update_active()
 
     def switch_off(self) -> None:

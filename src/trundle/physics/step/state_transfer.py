@@ -14,8 +14,10 @@ _SPEEDS = {int(mujoco.mjtJoint.mjJNT_FREE): 6, int(mujoco.mjtJoint.mjJNT_BALL): 
 
 def transfer_state(
     old: tuple[mujoco.MjModel, mujoco.MjData], new: tuple[mujoco.MjModel, mujoco.MjData], renamed: Mapping[str, str]
-) -> None:
+) -> list[tuple[int, int]]:
     """Copy positions, velocities, efforts, motors and wrenches exactly; the time continues.
+
+    Returns the old and new index of each motor that both have.
 
     Args:
         old: source.
@@ -38,12 +40,15 @@ def transfer_state(
             getattr(new_data, name)[q : q + n] = getattr(old_data, name)[p : p + n]
         new_flags[q : q + n] = old_flags[p : p + n]
     old_rates, new_rates = (find_table(model, "motors")[:, 1] for model in (old_model, new_model))
-    for a, b in _matches(_names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)):
+    old_names, new_names = _names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)
+    actuators = list(_matches(old_names, new_names))
+    for a, b in actuators:
         new_data.ctrl[b] = old_data.ctrl[a]
         new_model.tendon_frictionloss[b] = old_model.tendon_frictionloss[a]
         new_rates[b] = old_rates[a]
     for a, b in _matches(_names(old_model.nbody, old_model.body, renamed), _names(new_model.nbody, new_model.body)):
         new_data.xfrc_applied[b] = old_data.xfrc_applied[a]
+    return actuators
 
 
 class _Named(Protocol):

@@ -52,6 +52,11 @@ class JointHardware:
         way = wanted - self.position
         return math.remainder(way, math.tau) if self.is_continuous else way
 
+    @property
+    def resting_command(self) -> float:
+        """Command that holds the position read last, or zero effort or velocity."""
+        return self.position if self.interface == "PositionJointInterface" else 0.0
+
     def stop(self) -> None:
         """Command zero effort, zero velocity, or the last position."""
         self._is_at_rest = True
@@ -63,13 +68,13 @@ class JointHardware:
     def start(self) -> None:
         """Command the current position, or zero, until the controller writes."""
         self._is_at_rest = False
-        self.command = self.position if self.interface == "PositionJointInterface" else 0.0
+        self.command = self.resting_command
 
     def write(self, dt: float) -> None:
         """Apply the command for a control period [s]."""
         match self.interface:
             case "EffortJointInterface":
-                self.handle.command_effort(self._within_effort(self.command))
+                self.handle.command_effort(self.command, hardware=True)
             case "VelocityJointInterface":
                 self._write_velocity(dt)
             case _:
@@ -78,9 +83,9 @@ class JointHardware:
     def _write_velocity(self, dt: float) -> None:
         wanted = min(max(self.command, -self._most_speed), self._most_speed)
         if self._pid is not None:
-            self.handle.command_effort(self._within_effort(self._pid.command(wanted - self.velocity, dt)))
+            self.handle.command_effort(self._pid.command(wanted - self.velocity, dt), hardware=True)
         else:
-            self.handle.command_velocity(wanted, max_effort=self._most_effort)
+            self.handle.command_velocity(wanted, max_effort=self._most_effort, hardware=True)
 
     def _write_position(self, dt: float) -> None:
         if self._is_at_rest and self.velocity == 0.0 and self.error(self.command) != 0.0:
@@ -88,13 +93,10 @@ class JointHardware:
         wanted = min(max(self.command, self.lower), self.upper)
         error = self.error(wanted)
         if self._pid is not None:
-            self.handle.command_effort(self._within_effort(self._pid.command(error, dt)))
+            self.handle.command_effort(self._pid.command(error, dt), hardware=True)
             return
         speed = error / self.lag_s
-        self.handle.drive_kinematically(min(max(speed, -self._most_speed), self._most_speed))
-
-    def _within_effort(self, effort: float) -> float:
-        return min(max(effort, -self._most_effort), self._most_effort)
+        self.handle.drive_kinematically(min(max(speed, -self._most_speed), self._most_speed), hardware=True)
 
 
 Hardware = Mapping[str, JointHardware]

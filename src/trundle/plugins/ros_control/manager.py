@@ -64,9 +64,10 @@ class ControllerManager:
                 loaded.controller.update(time_ns, dt)
 
     def restart(self, time_ns: int) -> None:
-        """Restart the running controllers after a reset."""
+        """Restart the running controllers after a reset or an emergency stop."""
         for loaded in self._loaded.values():
             if loaded.state == "running":
+                loaded.controller.stop()
                 loaded.controller.start(time_ns)
 
     def _types(self, _request: "controller_manager_msgs.ListControllerTypesRequest") -> dict[str, Any]:

@@ -27,7 +27,8 @@ class GazeboRosControl(Plugin):
 
     Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType> (only
     gazebo_ros_control/DefaultRobotHWSim), <controlPeriod> [s] (the step), <eStopTopic>. A joint with gains on
-    `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor.
+    `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor. Efforts are added to
+    what other plugins do to the joint; the later of two speeds counts; a position overrides all.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -42,6 +43,8 @@ class GazeboRosControl(Plugin):
             parameters.warn(f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} takes its place")
         self.period_ns = _period_ns(parameters, sim)
         self._stops = False
+        self._held: list[float] = []
+        """Commands of all joints during an emergency stop."""
         stop_topic = parameters.text("eStopTopic", "")
         if stop_topic:
             node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
@@ -72,10 +75,15 @@ class GazeboRosControl(Plugin):
         joints = self._hardware.values()
         for joint in joints:
             joint.read()
+        if self._held and not self._stops:
+            self._held = []
+            self._manager.restart(sim.time_ns)
         self._manager.update(sim.time_ns, dt)
+        if self._stops:
+            self._held = self._held or [joint.resting_command for joint in joints]
+            for joint, command in zip(joints, self._held, strict=True):
+                joint.command = command
         for joint in joints:
-            if self._stops and joint.interface != "PositionJointInterface":
-                joint.command = 0.0
             joint.write(dt)
 
     def reset(self) -> None:
@@ -84,7 +92,8 @@ class GazeboRosControl(Plugin):
         for joint in self._hardware.values():
             joint.read()
             joint.stop()
-            joint.command = joint.position if joint.interface == "PositionJointInterface" else 0.0
+            joint.command = joint.resting_command
+        self._held = []
         if self._manager is not None:
             self._manager.restart(self._sim.time_ns)
 
@@ -123,7 +132,7 @@ class GazeboRosControl(Plugin):
                 pid = reconfigurable_pid(self._node, own, self._endpoints) if has_gains else None
                 joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
                 joint.read()
-                joint.command = joint.position if driven.interface == "PositionJointInterface" else 0.0
+                joint.command = joint.resting_command
                 self._hardware[driven.name] = joint
         except TrundleError as error:
             self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
