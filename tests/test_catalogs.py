@@ -1,10 +1,12 @@
 """Catalogs: every class that one names by text is there."""
 
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
 from trundle.nodes.catalog import BUILTIN_NODES, NODELETS
+from trundle.packages import Packages
 from trundle.plugins.catalog import BUILTIN, SENSOR_PLUGINS
 from trundle.plugins.ros_control.catalog import CONTROLLERS
 
@@ -17,3 +19,8 @@ def test_every_target_can_be_imported(target: str) -> None:
     module, _, name = target.partition(":")
 
     assert callable(getattr(import_module(module), name))
+
+
+@pytest.mark.parametrize("package", sorted({package for package, _ in BUILTIN_NODES}))
+def test_no_package_with_a_stand_in_is_missing(package: str, tmp_path: Path) -> None:
+    assert Packages({}, start=tmp_path).find_folder(package) is not None

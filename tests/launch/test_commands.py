@@ -16,6 +16,8 @@ class NoPackages:
     def find_folder(self, _name: str, /) -> Path | None:
         return None
 
+    is_lenient = False
+
     def why_not_found(self, name: str, /) -> str:
         return f"no package {name!r}"
 

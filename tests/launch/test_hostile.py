@@ -17,6 +17,8 @@ class OnePackage:
     def find_folder(self, name: str, /) -> Path | None:
         return Path(__file__).parent if name == "p" else None
 
+    is_lenient = False
+
     def why_not_found(self, name: str, /) -> str:
         return f"no package {name!r}"
 

@@ -12,8 +12,9 @@ from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_te
 class Folders:
     """Package finder over a mapping of names to folders."""
 
-    def __init__(self, folders: Mapping[str, Path] | None = None) -> None:
+    def __init__(self, folders: Mapping[str, Path] | None = None, *, is_lenient: bool = False) -> None:
         self._folders = dict(folders or {})
+        self.is_lenient = is_lenient
 
     def find_folder(self, name: str, /) -> Path | None:
         return self._folders.get(name)
@@ -328,9 +329,9 @@ def write(folder: Path, name: str, body: str) -> Path:
     return path
 
 
-def included(folder: Path, body: str) -> LaunchPlan:
+def included(folder: Path, body: str, *, report: Diagnostics | None = None, is_lenient: bool = False) -> LaunchPlan:
     path = write(folder, "top.launch", body)
-    return read_launch(path, packages=Folders(), report=Diagnostics())
+    return read_launch(path, packages=Folders(is_lenient=is_lenient), report=report or Diagnostics())
 
 
 WITH_ARGS = '<arg name="q"/><arg name="r" default="$(arg q)x"/><param name="r" value="$(arg r)"/>'
@@ -371,6 +372,32 @@ def test_missing_packages_are_named_together(tmp_path: Path) -> None:
         f"{top}:3: error: no package 'three'",
     ]
     assert [error.at.line for error in caught.value.more] == [2, 2, 3]
+
+
+def test_what_needs_missing_packages_is_left_out_on_request(tmp_path: Path) -> None:
+    """Each with its line; arguments that no element uses do no harm."""
+    write(tmp_path, "sub.launch", '<node pkg="here" type="t" name="kept"/><include file="$(find two)/c.launch"/>')
+    text = """<arg name="model" default="$(find one)/m.xacro"/>
+<param name="robot_description" command="xacro $(arg model)"/>
+<include file="$(find one)/launch/b.launch"/>
+<include file="$(dirname)/sub.launch"/>
+<node pkg="here" type="t" name="n"><param name="f" value="$(find two)/f"/></node>
+<rosparam file="$(find two)/a.yaml"/>
+<param name="a" value="1"/>"""
+    report = Diagnostics()
+
+    plan = included(tmp_path, text, report=report, is_lenient=True)
+
+    assert [node.name for node in plan.nodes] == ["kept"]
+    assert [param.name for param in plan.params] == ["/a"]
+    top, sub = tmp_path / "top.launch", tmp_path / "sub.launch"
+    assert report.warnings == [
+        f"{top}:2: warning: no package 'one'; <param> robot_description is left out",
+        f"{top}:3: warning: no package 'one'; <include> one/launch/b.launch is left out",
+        f"{sub}:1: warning: no package 'two'; <include> two/c.launch is left out",
+        f"{top}:5: warning: no package 'two'; the node 'n' (here/t) is left out",
+        f"{top}:6: warning: no package 'two'; <rosparam> two/a.yaml is left out",
+    ]
 
 
 def test_all_arguments_are_passed_when_asked_for(tmp_path: Path) -> None:

@@ -44,8 +44,15 @@ class Attributes:
         return None if value is None else self.resolve(value)
 
     def resolve(self, text: str) -> str:
-        """Substitute a text of this element."""
-        return self._substitution.resolve(text, self._scope, self.at)
+        """Substitute a text of this element.
+
+        Raises:
+            MissingPackageError: another element than <arg> needs a missing package.
+        """
+        resolved = self._substitution.resolve(text, self._scope, self.at)
+        if self.node.tag != "arg":
+            self._substitution.refuse_missing(resolved, self.at)
+        return resolved
 
     def read_file(self, name: str) -> bytes:
         """Read a file that an attribute names.

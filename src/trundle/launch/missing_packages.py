@@ -1,9 +1,11 @@
 """Packages that a launch needs but that are not installed."""
 
+import re
 from collections.abc import Iterable
 
 from trundle.diagnostics import DescriptionError, Source
 from trundle.repositories import repository_hint
+from trundle.xmlnode import XmlNode
 
 from .packages import PackageFinder
 from .plan import LaunchNode
@@ -11,6 +13,18 @@ from .plan import LaunchNode
 
 class MissingPackageError(DescriptionError):
     """A `$(find)` of an unknown package."""
+
+
+_PACKAGE = re.compile(r"\$\(find ([\w.-]+)\)")
+
+
+def element_name(node: XmlNode) -> str:
+    """Return the name of an element for a warning that it is left out."""
+    if node.tag in ("node", "test"):
+        return f"the {node.tag} {node.attribute('name')!r} ({node.attribute('pkg')}/{node.attribute('type')})"
+    words = node.attribute("file") or node.attribute("name") or node.attribute("ns") or ""
+    named = _PACKAGE.sub(r"\1", words)
+    return f"<{node.tag}> {named}".strip()
 
 
 class MissingPackages:

@@ -11,6 +11,11 @@ class PackageFinder(Protocol):
         """Folder that `$(find name)` stands for; None if the package is unknown."""
         ...
 
+    @property
+    def is_lenient(self) -> bool:
+        """True if elements that need missing packages are left out."""
+        ...
+
     def why_not_found(self, name: str, /) -> str:
         """Error message for an unknown package, with the folders searched."""
         ...

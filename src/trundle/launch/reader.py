@@ -14,7 +14,7 @@ from .command_line import CommandLine
 from .files import LaunchFiles, ReadCheck
 from .launch_file import parse_launch_text, read_launch_file
 from .machines import read_machine
-from .missing_packages import MissingPackageError, MissingPackages
+from .missing_packages import MissingPackageError, MissingPackages, element_name
 from .nodes import read_node
 from .packages import PackageFinder
 from .params import read_param, read_rosparam
@@ -142,6 +142,7 @@ class _Reader:
         self._report = report
         self._command_line = command_line
         self._goes_on = missing is not None
+        self._is_lenient = packages.is_lenient
         self._files = files or LaunchFiles()
         self._substitution = Substitution(
             packages=packages, env=env, anonymous=anonymous_name, missing=missing, files=self._files
@@ -180,6 +181,11 @@ class _Reader:
         for node in parent.children:
             try:
                 self._child(node, scope, depth=depth)
+            except MissingPackageError as error:
+                if self._is_lenient:
+                    self._report.warn(error.at, f"{error.what}; {element_name(node)} is left out")
+                elif not self._goes_on:
+                    raise
             except DescriptionError:
                 if not self._goes_on:
                     raise

@@ -24,6 +24,9 @@ _BASE_NAMES: Mapping[str, Any] = {"true": True, "false": False, **PYTHON_NAMES, 
 
 Includes Python builtins: roslaunch does not intend them, but its eval provides them and launch files use them.
 """
+_MISSING = "/no-package/"
+"""Folder of missing packages where reading goes on."""
+_IN_MISSING = re.compile(rf"{_MISSING}([\w.-]+)")
 _COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 
 
@@ -56,6 +59,15 @@ class Substitution:
         for commands in (("env", "optenv", "dirname", "anon", "arg"), ("find",)):
             text = self._replace(text, commands, scope, at)
         return text
+
+    def refuse_missing(self, text: str, at: Source) -> None:
+        """Refuse a substituted text that names a file of a missing package.
+
+        Raises:
+            MissingPackageError: it does; an <arg> may have it, as long as no other element uses it.
+        """
+        if self.packages.is_lenient and (match := _IN_MISSING.search(text)):
+            raise MissingPackageError(at, f"no package {match[1]!r}")
 
     def _replace(self, text: str, commands: tuple[str, ...], scope: Scope, at: Source) -> str:
         def value(match: re.Match[str]) -> str:
@@ -120,10 +132,11 @@ class Substitution:
             return "xacro"
         if folder is not None:
             return str(folder)
-        if self.missing is None:
+        if self.missing is not None:
+            self.missing.add(name, at)
+        elif not self.packages.is_lenient:
             raise MissingPackageError(at, self.packages.why_not_found(name))
-        self.missing.add(name, at)
-        return f"/no-package/{name}"
+        return f"{_MISSING}{name}"
 
     def _eval(self, text: str, scope: Scope, at: Source) -> str:
         def arg(name: str) -> Any:
