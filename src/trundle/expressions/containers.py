@@ -41,9 +41,15 @@ def mapping_of(caller: Caller, value: object) -> dict[str, object]:
     """Return the arguments of `**value`."""
     if not isinstance(value, dict):
         raise TypeError(f"argument after ** must be a mapping, not {type(value).__name__}")
+    return copied(caller, value)
+
+
+def copied(caller: Caller, value: dict[Any, Any]) -> dict[Any, Any]:
+    """Copy a dictionary as a plain one."""
+    caller.budget.spend_keys(dict.keys(value))
     caller.budget.spend(len(value))
     caller.budget.allocate(100 * len(value))
-    return {caller.budget.spend_lookup(key, 0): each for key, each in dict.items(value)}
+    return dict(dict.items(value))
 
 
 def item_of(caller: Caller, owner: Any, index: Any) -> Any:

@@ -37,8 +37,8 @@ def percent_text(budget: Budget, text: str, values: object) -> str:
     if "*" in text and re.search(r"%[^a-zA-Z%]*\*", text):
         raise _unsupported(text)
     count = text.count("%") if isinstance(values, dict) else 1
-    values = dict(cast("dict[str, object]", values)) if isinstance(values, dict) else values  # of the plain kind
     bound_length(len(text) + _sum_of_widths(text) + count * budget.spend_traversal(values))
+    values = dict(cast("dict[str, object]", values)) if isinstance(values, dict) else values  # of the plain kind
     return budget.allocate_text(text % values)
 
 

@@ -106,10 +106,12 @@ class Lambda(Callee):
         self._running, self._around = running, around
 
     def call(self, _caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> object:
-        self._running.budget.spend(_STEPS_OF_A_CALL + self._cost + len(values))
-        frame: dict[Any, Any] = {None: self._around, **self._defaults}
         arguments = self._signature
         positional = [each.arg for each in (*arguments.posonlyargs, *arguments.args)]
+        held = len(positional) + len(arguments.kwonlyargs) + len(named)
+        self._running.budget.spend(_STEPS_OF_A_CALL + self._cost + len(values) + held)
+        self._running.budget.allocate(100 * held + 8 * len(values))  # a value may keep the frame
+        frame: dict[Any, Any] = {None: self._around, **self._defaults}
         frame.update(zip(positional, values, strict=False))
         more = tuple(values[len(positional) :])
         if arguments.vararg:

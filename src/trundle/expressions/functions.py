@@ -9,7 +9,7 @@ from typing import Any
 
 from .budget import Budget, bound_bits, bound_length
 from .formatting import repr_of, text_of
-from .operators import BINARY, allocate_integer, spend_product
+from .operators import BINARY, allocate_integer, is_short, spend_product
 from .values import Caller, Guarded
 
 _MAX_DIGITS = 100
@@ -126,13 +126,11 @@ def _is_kind(function: Callable[[Any, Any], bool]) -> Guarded:
     return call
 
 
-def _hash(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
-    (value,) = _only(values, named, "hash", 1)
-    return hash(caller.budget.spend_lookup(value, 0))
-
-
 def _range(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> range:
-    turns = range(*_only(values, named, "range", max(len(values), 1)))
+    limits = _only(values, named, "range", max(len(values), 1))
+    if not all(is_short(each) for each in limits if isinstance(each, int)):
+        bound_length(math.inf)
+    turns = range(*limits)
     bound_length(len(turns))
     return turns
 
@@ -141,6 +139,7 @@ def _map(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Ite
     if len(values) < 2 or named:
         raise TypeError("map() must have at least two arguments.")
     function, *sequences = values
+    _hold_iterators(caller.budget, sequences)
     turns = zip(*map(iter, sequences), strict=False)
     return caller.budget.lazy(
         caller.call(function, items, {}) for items in _turns(caller.budget, turns, len(sequences))
@@ -159,9 +158,15 @@ def _iterating(function: Callable[..., Iterable[Any]]) -> Guarded:
     """Guard a function that yields the items of other iterables."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
+        _hold_iterators(caller.budget, values)
         return caller.budget.lazy(_turns(caller.budget, function(*values, **named), len(values) + 1))
 
     return call
+
+
+def _hold_iterators(budget: Budget, values: Sequence[object]) -> None:
+    budget.spend(len(values))
+    budget.allocate(64 * len(values))
 
 
 def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
@@ -184,9 +189,11 @@ def sort(caller: Caller, values: Sequence[object], named: Mapping[str, object]) 
 
 
 def _spend_comparisons(budget: Budget, keys: list[Any]) -> None:
+    before, _ = budget.spent
     size = budget.spend_traversal(keys)
+    once = budget.spent[0] - before
     budget.allocate(size)
-    budget.spend((size >> 4) * len(keys).bit_length())
+    budget.spend(((once >> 1) + (size >> 4)) * len(keys).bit_length())
 
 
 def _key_and_rest(named: Mapping[str, Any], known: Sequence[str]) -> tuple[Any, dict[str, Any]]:
@@ -288,7 +295,6 @@ GUARDED: Mapping[Callable[..., object], Guarded] = {
     repr: _repr,
     dict: dictionary,
     type: _kind,
-    hash: _hash,
     range: _range,
     map: _map,
     filter: _filter,

@@ -63,6 +63,7 @@ class Interpreter:
             ExpressionError: a forbidden name or attribute, or a value or loop that is too large.
             Exception: what Python raises for the same: SyntaxError, NameError, TypeError, ZeroDivisionError, …
         """
+        self.budget.start_clock()
         try:
             compiled = self._compiled.get(text) or self._compile(text)
             self.budget.spend(compiled.cost)
@@ -70,12 +71,15 @@ class Interpreter:
             if value.__class__ not in _SHORT:
                 self.budget.spend_traversal(value)
             elif value.__class__ is str and not value.isascii():
+                self.budget.spend(len(value) >> 6)
                 value.encode()
             return value
         except UnicodeEncodeError:
             raise ExpressionError("a text with half of a surrogate pair, which no file can hold") from None
         except (RecursionError, MemoryError):
             raise ExpressionError("an expression or a value nested too deeply") from None
+        finally:
+            self.budget.stop_clock()
 
     def evaluate_number(self, text: str, names: Names) -> float:
         """Evaluate an expression whose value is a number, or a text with one.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .budget import bound_length
-from .containers import known_keys
+from .containers import copied, known_keys
 from .formatting import format_text
 from .functions import sort
 from .values import Callee, Caller, Function
@@ -36,13 +36,13 @@ def attribute(owner: object, name: str) -> object:
         AttributeError: it does not exist or is not allowed.
     """
     if isinstance(owner, type):
-        if name in _METHODS_OF.get(owner, ()):
+        if name in METHODS_OF.get(owner, ()):
             return Function(name, _of_first(owner, name))
         what = f"type object {owner.__name__!r}"
     else:
-        kind = next((kind for kind in type(owner).__mro__ if kind in _METHODS_OF), object)
-        if name in _METHODS_OF.get(kind, ()):
-            return Method(name, owner, _METHODS_OF[kind][name])
+        kind = next((kind for kind in type(owner).__mro__ if kind in METHODS_OF), object)
+        if name in METHODS_OF.get(kind, ()):
+            return Method(name, owner, METHODS_OF[kind][name])
         if name in _DATA_OF.get(kind, ()):
             return getattr(owner, name)
         what = f"{type(owner).__name__!r} object"
@@ -64,14 +64,14 @@ def _of_first(kind: type, name: str) -> Callable[..., Any]:
     def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         if not values or not isinstance(values[0], kind):
             raise TypeError(f"{kind.__name__}.{name}() needs a {kind.__name__} first")
-        return _METHODS_OF[kind][name](caller, values[0], values[1:], named)
+        return METHODS_OF[kind][name](caller, values[0], values[1:], named)
 
     return body
 
 
 def is_method(kind: type, name: str) -> bool:
     """True if a type has this method and expressions may use it."""
-    return name in _METHODS_OF.get(kind, ())
+    return name in METHODS_OF.get(kind, ())
 
 
 def _linear_size(name: str, *, product: bool = False, cost_of_keys: bool = False, deep: bool = False) -> _Guarded:
@@ -87,10 +87,12 @@ def _linear_size(name: str, *, product: bool = False, cost_of_keys: bool = False
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         budget = caller.budget
         if isinstance(owner, str):
-            lengths = [len(each) for each in values if isinstance(each, str | tuple)]
-            budget.spend(1 + (len(owner) + sum(lengths) >> 4))
+            length = budget.spend_traversal(values)
+            budget.spend(1 + (len(owner) + length >> 4))
             if product:
-                budget.spend(len(owner) * max(lengths, default=0) >> 8)
+                budget.spend(len(owner) * length >> 8)
+        elif isinstance(owner, dict | set | frozenset) and name == "copy":
+            budget.spend_keys(owner)
         elif hasattr(type(owner), "__len__"):
             budget.spend(1 + (len(owner) >> 5))
         if cost_of_keys and values:
@@ -139,8 +141,9 @@ def _translate(caller: Caller, owner: str, values: Sequence[Any], named: Mapping
     table = values[0] if len(values) == 1 and isinstance(values[0], dict) else None
     if table is None or named:
         raise TypeError("str.translate() takes one argument, a dictionary")
-    plain: dict[Any, Any] = dict(table)
-    caller.budget.spend(len(owner) + len(plain))
+    plain = copied(caller, table)
+    chosen = sum(key.__class__ is not str for key in plain)
+    caller.budget.spend(len(owner) + (len(owner) * chosen >> 5))
     bound_length(len(owner) * max((len(each) for each in plain.values() if isinstance(each, str)), default=1))
     return caller.budget.allocate_text(owner.translate(plain))
 
@@ -165,10 +168,9 @@ def _growing(name: str) -> _Guarded:
         length = sum(map(len, given)) + len(named) if many else 1
         if not isinstance(owner, list):
             keys = [key for each in given for key in each] if many else given[:1]
-            for key in keys:
-                budget.spend_lookup(
-                    key[0] if many and isinstance(key, list | tuple) and isinstance(owner, dict) else key, len(owner)
-                )
+            pairs = many and isinstance(owner, dict)
+            for count, key in enumerate(keys, len(owner)):
+                budget.spend_lookup(key[0] if pairs and isinstance(key, list | tuple) and key else key, count)
         bound_length(len(owner) + length)
         budget.spend(len(owner) >> 8)
         budget.allocate(100 * length)
@@ -178,7 +180,7 @@ def _growing(name: str) -> _Guarded:
 
 
 def _copied(caller: Caller, items: Any) -> Any:
-    return dict(items) if isinstance(items, dict) else caller.budget.collect(items)
+    return copied(caller, items) if isinstance(items, dict) else caller.budget.collect(items)
 
 
 def _sort(caller: Caller, owner: list[Any], values: Sequence[Any], named: Mapping[str, Any]) -> None:
@@ -190,6 +192,7 @@ def _combined(name: str) -> _Guarded:
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         given: list[set[Any]] = [_set_of(caller, each) for each in values]
+        caller.budget.spend_keys(owner, *given)
         caller.budget.spend(len(owner))
         caller.budget.allocate(60 * len(owner))
         return getattr(owner, name)(*given, **named)
@@ -216,7 +219,7 @@ _SET = {
     **_named("difference intersection isdisjoint issubset issuperset symmetric_difference union", _combined),
     "copy": _linear_size("copy"),
 }
-_METHODS_OF: dict[type, dict[str, _Guarded]] = {
+METHODS_OF: dict[type, dict[str, _Guarded]] = {
     str: {
         **_LENGTH,
         **_named(

@@ -5,14 +5,15 @@ import operator
 from collections.abc import Callable
 from typing import Any, cast
 
-from .budget import Budget, bound_bits, bound_length
+from .budget import VIEWS, Budget, bound_bits, bound_length
 from .formatting import percent_text
 
 Operation = Callable[[Budget, object, object], Any]
 
 _MACHINE_WORD = 1 << 62
 _SEQUENCES: Any = (str, list, tuple)
-_CONTAINERS: Any = (list, tuple, dict, set, frozenset)
+_KEYED: Any = (dict, set, frozenset, *VIEWS)
+_CONTAINERS: Any = (list, tuple, *_KEYED)
 
 
 def is_short(number: int) -> bool:
@@ -97,12 +98,19 @@ def _division(function: Callable[[Any, Any], Any]) -> Operation:
     return divide
 
 
+def _spend_merge(budget: Budget, left: Any, right: Any) -> None:
+    """Use the steps and memory of combining dictionaries, sets and views."""
+    for each in (left, right):
+        if not isinstance(each, _CONTAINERS):
+            raise TypeError(f"a set or dictionary cannot be combined with a {type(each).__name__!r} object")
+        budget.allocate(100 * len(each))
+    budget.spend_keys(left, right)
+
+
 def _merging(function: Callable[[Any, Any], Any]) -> Operation:
     def merge(budget: Budget, left: Any, right: Any) -> Any:
-        for each in (left, right):
-            if isinstance(each, dict | set | frozenset):
-                budget.spend(len(each))
-                budget.allocate(100 * len(each))
+        if isinstance(left, _KEYED) or isinstance(right, _KEYED):
+            _spend_merge(budget, left, right)
         value = function(left, right)
         if isinstance(value, dict | set | frozenset):
             bound_length(len(value))

@@ -200,7 +200,9 @@ class _Compiler(ast.NodeVisitor):
                 if single:
                     found[running.budget.spend_lookup(key(running, frame), len(found))] = value(running, frame)
                 else:
-                    found.update(mapping_of(running, value(running, frame)))
+                    more = mapping_of(running, value(running, frame))
+                    running.budget.spend_keys(found, more)
+                    found.update(more)
                     bound_length(len(found))
             return found
 
