@@ -82,6 +82,31 @@ def test_modules_of_a_workspace_that_debian_lacks_are_found_by_this_one(
         assert interpreter(script, {**env, "PYTHONPATH": str(tmp_path / "devel")}) == []
 
 
+@pytest.mark.parametrize("text", ["from talking.words import WORD", "import near"])
+def test_a_script_of_a_package_gets_rospy_whatever_its_own_lines_import(
+    tmp_path: Path, venv: Path, monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    """Catkin's layout: a thin script, and rospy in its package's module or a file beside it."""
+    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "nothing"))
+    package = tmp_path / "src" / "talking"
+    script = _program(package / "scripts" / "node.py", f"#!/usr/bin/env python3\n{text}\n")
+    (package / "package.xml").write_text("<package><name>talking</name></package>")
+
+    assert interpreter(script, {"PATH": str(venv)}) == [sys.executable]
+
+
+def test_modules_that_only_a_file_beside_the_script_imports_count(tmp_path: Path, debian: Path) -> None:
+    package = tmp_path / "src" / "talking"
+    script = _program(package / "scripts" / "node.py", "#!/usr/bin/env python3\nimport near\n")
+    (package / "scripts" / "near.py").write_text("import rospy\nfrom talking.words import WORD\n")
+    (package / "package.xml").write_text("<package><name>talking</name></package>")
+    (package / "src" / "talking").mkdir(parents=True)
+    (package / "src" / "talking" / "__init__.py").write_text("")
+
+    env = {"PATH": str(debian), "ROS_PACKAGE_PATH": str(tmp_path / "src")}
+    assert interpreter(script, env) == [sys.executable]
+
+
 def test_a_rospy_of_the_environments_own_is_used(tmp_path: Path, debian: Path, venv: Path) -> None:
     (venv.parent / "lib" / "python3.11" / "site-packages" / "rospy").mkdir(parents=True)
 

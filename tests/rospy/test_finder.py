@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.rospy.environment import SITE, with_finder
+from trundle.rospy.environment import LIBRARIES, SITE, with_finder
 from trundle.rospy.setup_file import read_setup
 
 _PTH = Path(__file__).parents[2] / "packaging/trundle-rospy/trundle_rospy.pth"
@@ -36,6 +36,21 @@ def test_the_pythonpath_of_the_user_stays_in_effect(tmp_path: Path) -> None:
     assert env["ROS_PACKAGE_PATH"] == str(tmp_path)
     assert with_finder({"ROS_PACKAGE_PATH": "/a"}, [tmp_path])["ROS_PACKAGE_PATH"] == "/a"
     assert _printed("import rospy; print(mark, rospy.mine)", **env) == "5 True"
+
+
+def test_another_python_of_the_same_version_keeps_its_libraries(tmp_path: Path) -> None:
+    """A script whose first line names its virtual environment; ROS' packages come from this Python's libraries."""
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
+    site = next((tmp_path / "venv").glob("**/site-packages"))
+    python = next(path for path in (tmp_path / "venv").glob("*/python*") if path.stem == "python")
+    (site / "gripper.py").write_text("own = True\n")
+    code = "import gripper, std_msgs.msg; print(gripper.own, std_msgs.msg.String('a'))"
+
+    assert _printed(code, python=python, **with_finder({})) == 'True data: "a"'
+
+    other = {**with_finder({}), LIBRARIES: f"cpython-27:{sysconfig.get_path('purelib')}"}
+    with pytest.raises(AssertionError, match="No module named 'std_msgs'"):
+        _printed(code, python=python, **other)
 
 
 def test_the_pth_of_trundle_rospy_makes_them_importable(tmp_path: Path) -> None:

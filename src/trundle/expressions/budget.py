@@ -1,8 +1,8 @@
 """Budget of time and memory for the expressions of one document.
 
 Every operation is charged for its worst case before it is done, so that no single one is long; a clock bounds their
-sum. Text hashes differently in every process. A file can choose all other keys so that their hashes collide, so a lookup
-of such a key is charged a part of a comparison with every key of the dictionary.
+sum. Text hashes differently in every process. A file can choose all other keys so that their hashes collide, so a
+lookup of such a key is charged a part of a comparison with every key of the dictionary.
 """
 
 import math

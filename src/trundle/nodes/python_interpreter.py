@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from trundle.files import open_file
-from trundle.packages import Packages
+from trundle.packages import MANIFESTS, Packages
 from trundle.rospy.environment import RUN_PYTHON2
 from trundle.rospy.package_folders import package_modules
 from trundle.rospy.python2.cache import is_python2_file
@@ -80,10 +80,10 @@ def missing_rospy_advice(module: str) -> str:
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     """Return the interpreter command for a program; [] if its shebang suffices.
 
-    A script with a generic Python shebang gets Debian's if it imports rospy and only that one has it, as in Trundle's
-    virtual environment. Without an installed rospy, for modules and messages of a workspace that is not built, and
-    where there is no `python`, it gets this process's Python, as does a program that imports trundle. A Python 2
-    program is translated, and run by this process's Python, unless a ROS of its own is on PYTHONPATH.
+    A script with a generic Python shebang, in a ROS package or with imports of ROS, gets a Python with rospy: its own,
+    else Debian's. Without an installed rospy, for modules and messages of a workspace that is not built, and where
+    there is no `python`, it gets this process's Python, as does a program that imports trundle. A Python 2 program is
+    translated, and run by this process's Python, unless a ROS of its own is on PYTHONPATH.
     """
     beginning = _beginning(program)
     asked = _ASKS.match(beginning)
@@ -95,7 +95,7 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     if not has_rospy and not asked[1].endswith(b"3") and is_python2_file(program):
         return [sys.executable, str(RUN_PYTHON2)]
     found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
-    if _IMPORTS_ROS.search(beginning) and not has_rospy:
+    if not has_rospy and (_IMPORTS_ROS.search(beginning) or _is_in_package(program)):
         is_debians = found is None or _is_debians(Path(found))
         if found is not None and not is_debians and _brings_rospy(Path(found)):
             return []
@@ -117,13 +117,23 @@ def _needs_workspace(program: Path, env: Mapping[str, str]) -> bool:
     """True if a program imports what Debian's Python lacks, and Trundle's finds in the packages around it."""
     if not can_run(program, env):
         return True
-    names = {os.fsdecode(name) for name in _IMPORTED.findall(_beginning(program))} - sys.stdlib_module_names
+    names = _imported(program) - sys.stdlib_module_names
     folders = [_DEBIAN_MODULES, *_python_path(env), str(program.parent)]
     lacking = {name for name in names if not any(map(os.path.exists, _module_files(name, folders)))}
     if not lacking:
         return False
     packages = Packages(env, start=program).ros_packages().items()
     return any(module in lacking for name, folder in packages for module, _ in package_modules(name, folder))
+
+
+def _imported(program: Path) -> set[str]:
+    """Return the modules that a program imports, or the files beside it."""
+    beside = [each for each in program.parent.glob("*.py") if each != program]
+    return {os.fsdecode(name) for file in (program, *beside) for name in _IMPORTED.findall(_beginning(file))}
+
+
+def _is_in_package(program: Path) -> bool:
+    return any(os.path.isfile(folder / name) for folder in program.parents for name in MANIFESTS)
 
 
 def _module_files(name: str, folders: Iterable[str]) -> Iterator[str]:

@@ -4,6 +4,7 @@ from .cmake import cmake_programs as cmake_programs
 from .cmake import cmake_requirements as cmake_requirements
 from .container import package_in_container as package_in_container
 from .container import source_in_container as source_in_container
+from .crawl import MANIFESTS as MANIFESTS
 from .dependencies import build_dependencies as build_dependencies
 from .dependencies import run_dependencies as run_dependencies
 from .gazebo_paths import is_stand_in as is_stand_in

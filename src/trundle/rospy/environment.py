@@ -1,13 +1,16 @@
 """Environment of child processes in which ROS' Python packages can be imported."""
 
 import os
+import sys
+import sysconfig
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 SITE = Path(__file__).parent / "site"
 """Folder whose `sitecustomize.py` appends the finder."""
 
-
+LIBRARIES = "TRUNDLE_LIBRARIES"
+"""Environment variable: version tag and folder of this Python's libraries, for others of the same version."""
 RUN_PYTHON2 = Path(__file__).parent / "python2/run.py"
 """Script that translates and runs a Python 2 script."""
 
@@ -20,7 +23,8 @@ def with_finder(env: Mapping[str, str], package_folders: Iterable[Path] = ()) ->
         package_folders: folders of ROS packages, for ROS_PACKAGE_PATH where it is not set.
     """
     path = [folder for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder and folder != str(SITE)]
-    made = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path])}
+    libraries = f"{sys.implementation.cache_tag}:{sysconfig.get_path('purelib')}"
+    made = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path]), LIBRARIES: libraries}
     folders = os.pathsep.join(map(str, package_folders))
     if folders and not env.get("ROS_PACKAGE_PATH"):
         made["ROS_PACKAGE_PATH"] = folders
