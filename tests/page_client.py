@@ -21,6 +21,13 @@ def socket_url(url: str) -> str:
     return f"ws://{parts.netloc}/" + (f"?{parts.query}" if parts.query else "")
 
 
+def page_url(url: str, path: str) -> str:
+    """Address of a path of a page, with the token of its link."""
+    parts = urlsplit(url)
+    joint = "" if not parts.query else "&" if "?" in path else "?"
+    return f"{parts.scheme}://{parts.netloc}/{path.lstrip('/')}{joint}{parts.query}"
+
+
 class ProtocolClient:
     """Blocking client that keeps what it was told."""
 

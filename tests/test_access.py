@@ -4,7 +4,7 @@ import socket
 
 import pytest
 
-from trundle.access import Access, PageRequest
+from trundle.access import Access, PageRequest, without_tokens
 from trundle.diagnostics import UsageError
 from trundle.page_address import AllowedNames, is_loopback
 
@@ -12,6 +12,8 @@ HERE = "localhost:8080"
 EVIL = "http://evil.example"
 TOKEN = "abcdefgh"
 CLOSED = {"host": "0.0.0.0"}
+PAGE = {"needs_token": True}
+KEPT = f"trundle-8080={TOKEN}"
 PROXIED = {"allowed": AllowedNames(hosts=("robot.example",), origins=("https://studio.example",))}
 
 
@@ -38,7 +40,13 @@ SERVED = {
     "an origin that is allowed": (PROXIED, _asked(HERE, "https://studio.example")),
     "the token": (CLOSED, _asked("10.0.0.3:8080", query=f"?token={TOKEN}")),
     "the token among others": (CLOSED, _asked("10.0.0.3:8080", query=f"?a=b&token={TOKEN}")),
-    "the token from another page": ({}, _asked("pc.example:8080", EVIL, query=f"?token={TOKEN}")),
+    "the token from another page": (PAGE, _asked(HERE, EVIL, query=f"?token={TOKEN}")),
+    "the token at a name that is allowed": (PAGE | PROXIED, _asked("robot.example", query=f"?token={TOKEN}")),
+    "the cookie at localhost": (PAGE, _asked(HERE, "http://localhost:8080", cookie=KEPT)),
+    "the cookie, by a page whose origin is allowed": (
+        PAGE | PROXIED,
+        _asked(HERE, "https://studio.example", cookie=KEPT),
+    ),
     "the cookie": (CLOSED, _asked("10.0.0.3:8080", "http://10.0.0.3:8080", cookie=f"a=b; trundle-8080={TOKEN}")),
 }
 REFUSED = {
@@ -48,7 +56,7 @@ REFUSED = {
     "such an image, with the cookie": (
         CLOSED,
         _asked("10.0.0.3:8080", cookie=f"trundle-8080={TOKEN}", is_embedded=True),
-        "?token=",
+        "trundle page link",
     ),
     "a sandbox": ({}, _asked(HERE, "null"), "--allow-origin"),
     "an origin that begins like ours": ({}, _asked(HERE, "http://localhost:8080.evil.example"), "--allow-origin"),
@@ -59,17 +67,30 @@ REFUSED = {
     "a host that is none": ({}, _asked("localhost@evil.example"), "--allow-host"),
     "like an address": ({}, _asked("127.0.0.1.evil.example"), "--allow-host"),
     "a name that is allowed, of another page": (PROXIED, _asked("robot.example", EVIL), "--allow-origin"),
-    "no token": (CLOSED, _asked("10.0.0.3:8080", "http://10.0.0.3:8080"), "?token="),
-    "no token at localhost": (CLOSED, _asked(HERE), "?token="),
-    "a wrong token": (CLOSED, _asked(HERE, query="?token=abcdefgi"), "?token="),
-    "a token that is no ASCII": (CLOSED, _asked(HERE, query="?token=%C3%A9"), "?token="),
-    "a cookie of bytes that are no text": (CLOSED, _asked(HERE, cookie="trundle-8080=\udcff"), "?token="),
-    "allowed, without a token": ({**PROXIED, **CLOSED}, _asked(HERE, "https://studio.example"), "?token="),
-    "a cookie of another port": (CLOSED, _asked(HERE, cookie=f"trundle-8081={TOKEN}"), "?token="),
+    "no token": (CLOSED, _asked("10.0.0.3:8080", "http://10.0.0.3:8080"), "trundle page link"),
+    "no token at localhost": (PAGE, _asked(HERE), "trundle page link"),
+    "no token, by its own page": (PAGE, _asked(HERE, "http://localhost:8080"), "trundle page link"),
+    "no token, by a page whose origin is allowed": (PAGE | PROXIED, _asked(HERE, "https://studio.example"), "link"),
+    "no token off loopback, at localhost": (CLOSED, _asked(HERE), "trundle page link"),
+    "the token at a name that leads here": (
+        PAGE,
+        _asked("evil.example:8080", EVIL, query=f"?token={TOKEN}"),
+        "--allow-host",
+    ),
+    "the cookie of another user's page at this machine": (
+        PAGE | {"serves_local_pages": True},
+        _asked(HERE, "http://localhost:9999", cookie=KEPT),
+        "link",
+    ),
+    "a wrong token": (CLOSED, _asked(HERE, query="?token=abcdefgi"), "trundle page link"),
+    "a token that is no ASCII": (CLOSED, _asked(HERE, query="?token=%C3%A9"), "trundle page link"),
+    "a cookie of bytes that are no text": (CLOSED, _asked(HERE, cookie="trundle-8080=\udcff"), "trundle page link"),
+    "allowed, without a token": ({**PROXIED, **CLOSED}, _asked(HERE, "https://studio.example"), "trundle page link"),
+    "a cookie of another port": (CLOSED, _asked(HERE, cookie=f"trundle-8081={TOKEN}"), "trundle page link"),
     "a cookie that a page of another port has the browser send": (
         CLOSED,
         _asked("10.0.0.3:8080", "http://10.0.0.3:9999", cookie=f"trundle-8080={TOKEN}"),
-        "?token=",
+        "trundle page link",
     ),
 }
 
@@ -83,7 +104,29 @@ def test_these_are_served(access: dict[str, object], request_: PageRequest) -> N
 def test_these_are_refused_with_the_way_out(access: dict[str, object], request_: PageRequest, way_out: str) -> None:
     why = _access(**access).refusal(request_)
     assert why is not None
-    assert way_out in why
+    assert way_out in why.text
+
+
+@pytest.mark.parametrize(
+    ("request_", "is_guess"),
+    [
+        (_asked(HERE), False),
+        (_asked(HERE, query="?token="), False),
+        (_asked(HERE, cookie="trundle-8081=guess"), False),
+        (_asked(HERE, query="?token=guess"), True),
+        (_asked(HERE, cookie="trundle-8080=guess"), True),
+        (_asked(HERE, EVIL, cookie=KEPT), True),
+    ],
+)
+def test_a_request_with_a_wrong_token_is_known_as_a_guess(request_: PageRequest, is_guess: bool) -> None:
+    refusal = _access(**PAGE).refusal(request_)
+    assert refusal is not None
+    assert (refusal.asks_token, refusal.is_guess) == (True, is_guess)
+
+
+def test_a_log_gets_no_tokens() -> None:
+    text = f"see it at http://h:1/?token={TOKEN} and ws://h:1/?a=b&token={TOKEN}, page"
+    assert without_tokens(text) == "see it at http://h:1/?token=… and ws://h:1/?a=b&token=…, page"
 
 
 def test_the_token_comes_back_as_a_cookie_that_scripts_and_other_sites_do_not_have() -> None:
@@ -108,7 +151,8 @@ def test_an_origin_that_is_allowed_may_frame_it() -> None:
     )
 
 
-def test_the_address_carries_the_token_off_loopback() -> None:
+def test_the_address_carries_the_token_where_that_is_asked_for() -> None:
+    assert _access(**PAGE).url("127.0.0.1", 8080) == f"http://127.0.0.1:8080/?token={TOKEN}"
     assert _access().url("127.0.0.1", 8080) == "http://127.0.0.1:8080"
     assert _access(**CLOSED).url("::1", 8081) == f"http://[::1]:8081/?token={TOKEN}"
 
@@ -140,15 +184,20 @@ def test_a_host_that_is_none_is_named(host: str) -> None:
 
 
 LOOK = "lookonly"
-VIEW: dict[str, object] = {"view_token": LOOK}
+VIEW: dict[str, object] = {"view_token": LOOK, "needs_token": True}
+LOOK_KEPT = f"trundle-8080-view={LOOK}"
+OWN = "http://localhost:8080"
 RIGHTS = {
-    "loopback": (VIEW, _asked(HERE), False),
+    "loopback": (VIEW, _asked(HERE), None),
     "loopback, by a link for looking": (VIEW, _asked(HERE, query=f"?token={LOOK}"), True),
-    "loopback, beside a page for looking": (
+    "a page for looking, beside one that controls": (
         VIEW,
-        _asked(HERE, "http://localhost:8080", cookie=f"trundle-8080-view={LOOK}"),
-        False,
+        _asked(HERE, OWN, query="?view_only", cookie=f"{LOOK_KEPT}; {KEPT}"),
+        True,
     ),
+    "one that controls, and looks": (VIEW, _asked(HERE, OWN, query="?view_only", cookie=KEPT), True),
+    "the token, to look": (VIEW, _asked(HERE, query=f"?view_only=&token={TOKEN}"), True),
+    "looking, without a token": (VIEW, _asked(HERE, query="?view_only"), None),
     "the token": (CLOSED | VIEW, _asked(HERE, query=f"?token={TOKEN}"), False),
     "the other token": (CLOSED | VIEW, _asked(HERE, query=f"?token={LOOK}"), True),
     "its cookie": (CLOSED | VIEW, _asked(HERE, "http://localhost:8080", cookie=f"trundle-8080-view={LOOK}"), True),
@@ -159,7 +208,7 @@ RIGHTS = {
     ),
     "its cookie under the other name": (CLOSED | VIEW, _asked(HERE, cookie=f"trundle-8080={LOOK}"), None),
     "its cookie, by another page": (CLOSED | VIEW, _asked(HERE, EVIL, cookie=f"trundle-8080-view={LOOK}"), None),
-    "a name of ours, with its cookie": (VIEW, _asked("pc.example:8080", cookie=f"trundle-8080-view={LOOK}"), True),
+    "a name of ours off loopback, with its cookie": (CLOSED | VIEW, _asked("pc.example:8080", cookie=LOOK_KEPT), True),
     "no such token": (CLOSED, _asked(HERE, query=f"?token={LOOK}"), None),
     "an empty token": (CLOSED, _asked(HERE, query="?token="), None),
 }

@@ -1,6 +1,8 @@
 """Ownership of folders on machines with several users."""
 
+import contextlib
 import os
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -32,3 +34,37 @@ def home_folder(environment: Mapping[str, str]) -> Path:
     """Return this user's home folder, from HOME or the system; never a world-writable folder."""
     home = environment.get("HOME") or os.path.expanduser("~")
     return Path(home if os.path.isabs(home) else os.devnull)
+
+
+def write_private_file(name: str, content: bytes, environment: Mapping[str, str]) -> Path | None:
+    """Write a file that only this user may read, in place of one of its name; None: it cannot be written."""
+    for folder in runtime_folders(environment):
+        file = folder / name
+        with contextlib.suppress(OSError):
+            file.unlink(missing_ok=True)
+            descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+            with os.fdopen(descriptor, "wb") as stream:
+                stream.write(content)
+            return file
+    return None
+
+
+def runtime_folders(environment: Mapping[str, str]) -> list[Path]:
+    """Return the folders for files of running programs that only this user may enter, best first.
+
+    They are below XDG_RUNTIME_DIR, and below the folder of temporary files; one that is missing is made.
+    """
+    user = str(os.geteuid()) if hasattr(os, "geteuid") else "user"
+    folders = [Path(tempfile.gettempdir()) / f"trundle-{user}"]
+    if os.path.isabs(root := environment.get("XDG_RUNTIME_DIR", "")):
+        folders.insert(0, Path(root) / "trundle")
+    return [folder for folder in folders if _is_private(folder)]
+
+
+def _is_private(folder: Path) -> bool:
+    """Make a folder if it is missing; True if only this user may enter it."""
+    with contextlib.suppress(OSError):
+        folder.mkdir(mode=0o700, exist_ok=True)
+        mode = folder.lstat().st_mode
+        return is_owned_by_user(folder) and (os.name != "posix" or not mode & 0o077)
+    return False

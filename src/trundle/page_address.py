@@ -47,8 +47,8 @@ class PageAddress:
     reserved_ports: tuple[int, ...] = ()
     """Ports that are left to others, unless `port` is one."""
     allowed: AllowedNames = NONE_ALLOWED
-    needs_token: bool = False
-    """True if the page asks for its token on loopback, too."""
+    view_only: bool = False
+    """True if the link that only allows looking is printed, too."""
 
 
 def is_loopback(host: str) -> bool:

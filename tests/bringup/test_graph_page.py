@@ -12,6 +12,7 @@ from typing import Any
 
 import aiohttp
 import pytest
+from tests.page_client import page_url
 
 from trundle.bringup.graph_page import GraphPage
 from trundle.bringup.shared_page import SharedPage
@@ -38,7 +39,7 @@ class Shown:
         _wait(lambda: self.page.url is not None)
 
     def session(self) -> dict[str, Any]:
-        with urllib.request.urlopen(f"{self.page.url}/session.json") as answer:
+        with urllib.request.urlopen(page_url(str(self.page.url), "/session.json")) as answer:
             return json.load(answer)
 
     def request(self, **request: object) -> dict[str, Any]:
@@ -97,7 +98,7 @@ def test_the_session_says_what_the_nodes_asked_for(shown: Shown) -> None:
 
     address = str(page.url).replace("http", "ws")
     assert shown.said[0] == f"see it at {page.url}"
-    assert shown.said[1].startswith(f"Foxglove connects to {address}/?token=")
+    assert shown.said[1].startswith(f"Foxglove connects to {address}")
     _wait(lambda: "rqt_console" in shown.session()["panels"])
     session = shown.session()
     assert session["kind"] == "graph"

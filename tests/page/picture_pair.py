@@ -20,6 +20,7 @@ from tests.page.picture_case import FRAMES, Case, Display, Message
 from tests.page.picture_cases import CASES, REMAPPINGS, VIEW
 from tests.page.picture_cases_scene import TEXTURED_URDF, URDF
 from tests.page.real_rviz import BACKGROUND, Picture, RealRviz, rviz_file
+from tests.page_client import page_url
 
 from trundle.page import PageServer, Session
 from trundle.page.session import RvizFile
@@ -123,7 +124,7 @@ class ClientPage:
         pytest.fail(f"the page drew nothing that stood still within {PATIENCE_S:g} s")
 
     def _served_file(self) -> str | None:
-        with urllib.request.urlopen(f"{self._server.url}/session.json", timeout=PATIENCE_S) as answer:
+        with urllib.request.urlopen(page_url(self._server.url, "/session.json"), timeout=PATIENCE_S) as answer:
             file = json.load(answer)["rviz"]
         return None if file is None else file["text"]
 

@@ -16,14 +16,14 @@ from trundle.page_address import PageAddress
 
 CONNECTIONS = 300
 REQUEST = (
-    b"GET / HTTP/1.1\r\nHost: %b\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+    b"GET /?%b HTTP/1.1\r\nHost: %b\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
     b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
     b"Sec-WebSocket-Protocol: trundle.v1\r\n\r\n"
 )
 
 
-def _broken(source: random.Random, host: bytes) -> bytes:
-    request = REQUEST % host
+def _broken(source: random.Random, query: bytes, host: bytes) -> bytes:
+    request = REQUEST % (query, host)
     match source.randrange(5):
         case 0:
             return source.randbytes(source.randrange(1, 2000))
@@ -55,7 +55,7 @@ def _break_connections(page: PageServer) -> None:
         before = len(os.listdir(descriptors))
         for _ in range(CONNECTIONS):
             with socket.create_connection((address.hostname, address.port)) as sock:
-                sock.sendall(_broken(source, address.netloc.encode()))
+                sock.sendall(_broken(source, address.query.encode(), address.netloc.encode()))
                 if source.random() < 0.5:
                     sock.settimeout(0.02)
                     with contextlib.suppress(TimeoutError, ConnectionError):

@@ -7,6 +7,7 @@ import urllib.request
 from collections.abc import Callable
 
 import pytest
+from tests.page_client import page_url
 
 from trundle.page import PageServer, RenderView, Request
 
@@ -26,7 +27,7 @@ def _fetch(url: str) -> tuple[int, bytes]:
 def _answered(page: PageServer, query: str, answer: Callable[[Request], None]) -> tuple[int, bytes]:
     """Fetch a picture while the owner answers."""
     results: list[tuple[int, bytes]] = []
-    thread = threading.Thread(target=lambda: results.append(_fetch(f"{page.url}/camera.png?{query}")))
+    thread = threading.Thread(target=lambda: results.append(_fetch(page_url(page.url, f"/camera.png?{query}"))))
     thread.start()
     while thread.is_alive():
         for request in page.requests():
@@ -65,7 +66,7 @@ def test_an_owner_that_cannot_draw_says_why(page: PageServer) -> None:
     ],
 )
 def test_a_view_that_is_none_is_refused(page: PageServer, query: str) -> None:
-    status, reason = _fetch(f"{page.url}/camera.png?{query}")
+    status, reason = _fetch(page_url(page.url, f"/camera.png?{query}"))
 
     assert status == 400
     assert reason.startswith(b"not a view")
@@ -73,7 +74,9 @@ def test_a_view_that_is_none_is_refused(page: PageServer, query: str) -> None:
 
 
 def test_few_pictures_are_drawn_at_a_time(page: PageServer) -> None:
-    threads = [threading.Thread(target=_fetch, args=(f"{page.url}/camera.png?width=64&height=48",)) for _ in range(4)]
+    threads = [
+        threading.Thread(target=_fetch, args=(page_url(page.url, "/camera.png?width=64&height=48"),)) for _ in range(4)
+    ]
     for thread in threads:
         thread.start()
     waiting: list[Request] = []
@@ -81,7 +84,10 @@ def test_few_pictures_are_drawn_at_a_time(page: PageServer) -> None:
         waiting += page.requests()
         time.sleep(0.005)
 
-    assert _fetch(f"{page.url}/camera.png?width=64&height=48") == (503, b"4 pictures are being drawn already\n")
+    assert _fetch(page_url(page.url, "/camera.png?width=64&height=48")) == (
+        503,
+        b"4 pictures are being drawn already\n",
+    )
     for request in waiting:
         page.respond_picture(request.id, PNG)
     for thread in threads:

@@ -8,9 +8,10 @@ import subprocess
 import sys
 import time
 import urllib.request
+from urllib.parse import urlsplit
 
 import pytest
-from tests.page_client import ProtocolClient
+from tests.page_client import ProtocolClient, page_url
 
 from trundle.diagnostics import UsageError
 from trundle.page import PageServer, Session
@@ -28,7 +29,7 @@ def test_a_port_that_is_taken_is_named() -> None:
 
 def test_the_next_free_port_from_8080_is_taken() -> None:
     with PageServer.start(SESSION) as one, PageServer.start(SESSION) as two:
-        ports = [int(page.url.rpartition(":")[2]) for page in (one, two)]
+        ports = [urlsplit(page.url).port or 0 for page in (one, two)]
 
     assert 8080 <= ports[0] < ports[1] < 8280
 
@@ -40,7 +41,7 @@ def test_a_host_that_does_not_exist_is_named() -> None:
 
 def test_closing_frees_the_port_and_may_be_done_twice() -> None:
     page = PageServer.start(SESSION, at=PageAddress(port=0))
-    port = int(page.url.rpartition(":")[2])
+    port = urlsplit(page.url).port
     with ProtocolClient(page.url):
         page.close()
         page.close()
@@ -85,7 +86,7 @@ def test_clients_follow_the_session() -> None:
         client.until(lambda: len(client.payloads("trundle/session")) == 1)
         page.set_session(Session(title="another", kind="graph", panels=("rqt_graph",)))
         client.until(lambda: len(client.payloads("trundle/session")) == 2)
-        with urllib.request.urlopen(f"{page.url}/session.json") as answer:
+        with urllib.request.urlopen(page_url(page.url, "/session.json")) as answer:
             fetched = json.load(answer)
 
     first, second = map(json.loads, client.payloads("trundle/session"))

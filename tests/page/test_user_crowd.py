@@ -36,18 +36,18 @@ def _people(client: ProtocolClient) -> list[dict[str, Any]]:
     return json.loads(payloads[-1])["people"] if payloads else []
 
 
-def _view_link(user: WorldUser) -> str:
+def _link(user: WorldUser, kind: str) -> str:
     user.button("Search commands, Ctrl K").click()
     user.page.get_by_role("combobox", name="Search commands").fill("link to this view")
     user.page.keyboard.press("Enter")
-    user.button("Look only").click()
+    user.button(kind).click()
     link = user.field("Link").input_value()
     user.page.keyboard.press("Escape")
     return str(link).partition("#")[0]
 
 
 def test_ten_people_see_what_each_selected_and_a_looker_changes_nothing(user: WorldUser) -> None:
-    control, look = user.page.url, _view_link(user)
+    control, look = _link(user, "Look and control"), _link(user, "Look only")
     with ExitStack() as stack:
         others = [stack.enter_context(ProtocolClient(url)) for url in (*[control] * 8, look)]
         for other, model in zip(others, MODELS, strict=True):

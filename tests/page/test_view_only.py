@@ -67,13 +67,10 @@ def graph() -> Iterator[Graph]:
 
 @pytest.fixture(
     scope="module",
-    params=["loopback", *(pytest.param(name, marks=pytest.mark.slow) for name in ("with a token", "every interface"))],
+    params=["loopback", pytest.param("every interface", marks=pytest.mark.slow)],
 )
 def page(request: pytest.FixtureRequest, graph: Graph) -> Iterator[PageServer]:
-    at = PageAddress(
-        host="0.0.0.0" if request.param == "every interface" else "127.0.0.1", port=0,
-        needs_token=request.param == "with a token",
-    )  # fmt: skip
+    at = PageAddress(host="0.0.0.0" if request.param == "every interface" else "127.0.0.1", port=0)
     address = GraphAddress(master_uri=graph.core.uri)
     with PageServer.start(Session(title="t", kind="simulation"), at=at, graph=address) as page:
         yield page
@@ -149,6 +146,7 @@ def test_it_is_told_so_and_gets_no_address_that_allows_more(page: PageServer, vi
 
     assert session["view_only"]
     assert page.view_url.endswith(session["view_token"])
+    assert session["token"] is None
     assert session["foxglove"] == page.view_url.replace("http", "ws", 1)
     assert not any(control in json.dumps(message) for message in viewer.jsons)
     assert control not in json.dumps(session)

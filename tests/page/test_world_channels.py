@@ -6,7 +6,7 @@ import urllib.request
 
 import numpy as np
 import pytest
-from tests.page_client import ProtocolClient
+from tests.page_client import ProtocolClient, page_url
 
 from trundle.page import ClockState, Line, PageServer, Recording
 from trundle.ros import Messages
@@ -77,10 +77,10 @@ def test_files_of_the_world_are_served_until_the_manifest_forgets_them(page: Pag
         page.set_world({"generation": 11, "files": files[1:]}, {})
         client.until(lambda: any(json.loads(p)["generation"] == 11 for p in client.payloads("trundle/world")))
 
-    with urllib.request.urlopen(f"{page.url}/world/b.glb") as answer:
+    with urllib.request.urlopen(page_url(page.url, "/world/b.glb")) as answer:
         assert (answer.read(), answer.headers["Content-Type"]) == (b"glTF b", "model/gltf-binary")
     with pytest.raises(urllib.error.HTTPError, match="404"):
-        urllib.request.urlopen(f"{page.url}/world/a.glb")
+        urllib.request.urlopen(page_url(page.url, "/world/a.glb"))
 
 
 def test_resources_of_the_world_s_files_are_served_by_their_type(page: PageServer) -> None:
@@ -91,7 +91,7 @@ def test_resources_of_the_world_s_files_are_served_by_their_type(page: PageServe
         client.until(lambda: any(json.loads(p)["generation"] == 15 for p in client.payloads("trundle/world")))
 
     for url, kind in kinds.items():
-        with urllib.request.urlopen(f"{page.url}{url}") as answer:
+        with urllib.request.urlopen(page_url(page.url, url)) as answer:
             assert (answer.read(), answer.headers["Content-Type"]) == (b"content", kind)
             assert "immutable" in answer.headers["Cache-Control"]
 

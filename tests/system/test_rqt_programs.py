@@ -1,7 +1,5 @@
 """Each of rqt's programs opens its panel on the launch's one page."""
 
-import json
-import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -64,8 +62,8 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pa
 
 def test_each_program_s_panel_is_on_the_launch_s_one_page(user: PanelUser) -> None:
     def panels() -> set[str]:
-        with urllib.request.urlopen(f"{user.page.url}session.json") as answer:
-            return set(json.load(answer)["panels"])
+        answer = user.page.request.get(f"{user.page.url}session.json")
+        return set(answer.json()["panels"])
 
     user.until(lambda: panels() == {program for program, _ in SHOWN.values()}, what=f"for all programs: {panels()}")
     for panel in SHOWN:  # one that comes later would be in front

@@ -3,7 +3,7 @@
 import "./theme/tokens.css";
 import "./theme/base.css";
 
-import { fetchSession } from "./app/fetch_session";
+import { cleanAddress, fetchSession } from "./app/fetch_session";
 import { beginDrawing } from "./scene/drawing_canvas";
 
 async function start(root: HTMLElement): Promise<void> {
@@ -11,6 +11,7 @@ async function start(root: HTMLElement): Promise<void> {
     const coming = Promise.all([fetchSession(location.href), import("./app/boot")]);
     beginDrawing();
     const [session, { boot }] = await coming;
+    history.replaceState(history.state, "", cleanAddress(location.href, session.view_only));
     boot(root, session, location.href);
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);

@@ -37,8 +37,8 @@ export const SESSION: Session = {
   joystick: false,
   foxglove: "ws://localhost:8080/",
   view_only: false,
+  token: "control",
   view_token: "look",
-  asks_token: false,
   node: "/trundle_page_1",
 };
 

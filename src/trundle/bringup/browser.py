@@ -1,12 +1,16 @@
 """The user's browser, opened on a page."""
 
+import atexit
 import os
 import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Mapping
+from html import escape
+from pathlib import Path
 from typing import Protocol
 
+from trundle.ownership import write_private_file
 from trundle.page_address import PageAddress
 
 
@@ -20,24 +24,38 @@ class ServedPage(Protocol):
 
 
 def announce_page(page: ServedPage, at: PageAddress, say: Callable[[str], None], *, opens_browser: bool = True) -> None:
-    """Print the URL of a page, and open it in the browser of a person who sees this terminal.
+    """Print the link to a page, and open it in the browser of a person who sees this terminal.
 
     Args:
         page: the page.
-        at: address that was asked for; where that needs a token, the link that only allows looking is printed, too.
+        at: address that was asked for.
         say: prints a line.
         opens_browser: False: print only.
     """
     say(f"see it at {page.url}")
-    if at.needs_token:
+    if at.view_only:
         say(f"look only at {page.view_url}")
     if opens_browser and sys.stdout.isatty() and sys.stderr.isatty():
         threading.Thread(target=_open, args=(page.url,), daemon=True).start()  # finding and starting it takes seconds
 
 
 def _open(url: str) -> None:
-    if has_browser(os.environ):
-        webbrowser.open(url)
+    """Open a link by a file that leads there: all users may read the arguments of a browser's process."""
+    if has_browser(os.environ) and (file := write_redirect(url)) is not None:
+        atexit.register(file.unlink, missing_ok=True)
+        webbrowser.open(file.as_uri())
+
+
+def write_redirect(url: str) -> Path | None:
+    """Write a document that only this user may read, and that leads to a link."""
+    text = f'''<!doctype html>
+<meta charset="utf-8">
+<meta name="referrer" content="no-referrer">
+<meta http-equiv="refresh" content="0; url={escape(url)}">
+<title>Trundle</title>
+<p><a href="{escape(url)}">Open the page</a></p>
+'''
+    return write_private_file(f"open-{os.getpid()}.html", text.encode(), os.environ)
 
 
 def has_browser(env: Mapping[str, str]) -> bool:

@@ -5,6 +5,7 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from trundle.access import without_query
 from trundle.atomic_write import write_atomically
 from trundle.diagnostics import DescriptionError, Diagnostics, Source, TrundleError, UsageError
 from trundle.files import read_file
@@ -116,7 +117,8 @@ class GraphPage:
         if fixed_frame is not None:
             self._page.change(fixed_frame=fixed_frame)
         if self._owner is not None:
-            node.log.info(f"the page is {self._owner.name}'s, at {self.url or 'an address that it will print'}")
+            where = without_query(self.url or "") or "an address that it will print"
+            node.log.info(f"the page is {self._owner.name}'s, at {where}")
         else:
             self._owner = node
         server = await asyncio.to_thread(self._page.acquire, node)

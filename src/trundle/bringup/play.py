@@ -43,7 +43,7 @@ class PlayOptions:
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking, and ask for the token of the first."""
+    """True: print a second link, which only allows looking."""
     opens_browser: bool = True
     """Open the page where there is a display; False: print its URL only."""
     speed: float = 1.0
@@ -53,7 +53,7 @@ class PlayOptions:
     @property
     def address(self) -> PageAddress:
         """Address of the page."""
-        return PageAddress(host=self.host, port=self.port, allowed=self.allowed, needs_token=self.view_only)
+        return PageAddress(host=self.host, port=self.port, allowed=self.allowed, view_only=self.view_only)
 
 
 def play(file: Path, options: PlayOptions) -> int:

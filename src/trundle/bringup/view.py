@@ -33,7 +33,7 @@ class ViewOptions:
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking, and ask for the token of the first."""
+    """True: print a second link, which only allows looking."""
     opens_browser: bool = True
     """Open the page where there is a display; False: print its URL only."""
 
@@ -60,7 +60,7 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
         # Anonymous, as rviz is: a second node of the name rviz would shut that of a launch down.
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
-        at = PageAddress(host=options.host, port=options.port, allowed=options.allowed, needs_token=options.view_only)
+        at = PageAddress(host=options.host, port=options.port, allowed=options.allowed, view_only=options.view_only)
         graph = GraphAddress(master_uri=uri, host=options.host)
         page = GraphPage(SharedPage(say=show.line, at=at, graph=graph, opens_browser=options.opens_browser))
         open_things.callback(page.close)

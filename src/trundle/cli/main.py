@@ -29,6 +29,7 @@ COMMANDS: dict[str, str] = {
     "test": "run the tests of launch files, as rostest does, or every run of a sweep's plan",
     "play": "show a recorded run or a bag in the browser",
     "view": "show a running ROS graph in the browser, as rviz does",
+    "page": "print the links of the pages that run",
     "check": "list what is wrong or not supported in a file",
     "convert": "convert a robot or world to SDF, URDF, MJCF or GLB, a recorded run to HTML",
     "render": "render an image or a video of a robot or a world",

@@ -23,10 +23,10 @@ def add_page_access(parser: argparse.ArgumentParser) -> None:
     """Declare the options of commands that serve a page."""
     for option, metavar, what in (
         ("--allow-host", "NAME", "also accept this host name, as behind a proxy; repeatable"),
-        ("--allow-origin", "ORIGIN", "accept web pages of this origin, such as https://robot.example:8443; repeatable"),
+        ("--allow-origin", "ORIGIN", "also accept the page by this origin, such as https://robot.example; repeatable"),
     ):
         parser.add_argument(option, action="append", default=[], metavar=metavar, help=what)
-    what = "print a second link, which only allows looking; all else then needs the first one, with its token"
+    what = "print a second link, which only allows looking"
     parser.add_argument("--view-only", action="store_true", help=what)
     what = "print the page's URL only; else it is opened where a terminal has a display"
     parser.add_argument("--no-browser", action="store_true", help=what)

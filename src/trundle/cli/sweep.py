@@ -60,7 +60,7 @@ def main(args: argparse.Namespace) -> int:
         from trundle.bringup.sweep.replay import replay
         from trundle.page_address import PageAddress
 
-        at = PageAddress(port=args.port, allowed=page_access(args), needs_token=args.view_only)
+        at = PageAddress(port=args.port, allowed=page_access(args), view_only=args.view_only)
         return replay(plan, args.row, None if args.headless else at)
     from trundle.bringup.sweep.sweep import sweep
 

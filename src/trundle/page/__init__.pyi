@@ -6,6 +6,7 @@ from .http.web_server import Reply as Reply
 from .http.web_server import SocketClient as SocketClient
 from .http.web_server import SocketOptions as SocketOptions
 from .http.web_server import WebServer as WebServer
+from .link_file import read_link_files as read_link_files
 from .page_server import PageServer as PageServer
 from .playback import Playback as Playback
 from .requests.draft import AddPart as AddPart

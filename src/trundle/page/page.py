@@ -176,8 +176,8 @@ class Page:
             "foxglove": at.view_url.replace("http:", "ws:", 1) if is_view_only else at.foxglove_url,
             "node": None if self._graph is None else self._graph.node_name,
             "view_only": is_view_only,
+            "token": None if is_view_only else at.url.partition("?token=")[2],
             "view_token": at.view_url.partition("?token=")[2],
-            "asks_token": "?token=" in at.url,
         }
         return msgspec.json.encode(fields | more)
 

@@ -21,6 +21,7 @@ from trundle.page_address import PageAddress
 
 from .driving.stop import DriveStop
 from .errors import PageError
+from .link_file import write_link_file
 from .mailbox import Mailbox, Piece
 from .requests.request import GraphAction, Request
 from .session import Session
@@ -91,6 +92,7 @@ class PageServer:
         self._uploads: Path | None = None
         self._generation = 0
         self._addresses = Served(url="", foxglove_url="", view_url="")
+        self._link_file: Path | None = None
         self._threads = [
             threading.Thread(target=run, name="trundle-page", daemon=True) for run in (self._receive, self._send_all)
         ]
@@ -138,7 +140,6 @@ class PageServer:
             reserved_ports=at.reserved_ports,
             hosts=at.allowed.hosts,
             origins=at.allowed.origins,
-            needs_token=at.needs_token,
             session=session,
             graph=graph,
             bag=bag,
@@ -147,6 +148,7 @@ class PageServer:
         server._outgoing.put(start)
         try:
             server._addresses = server._await_served()
+            server._link_file = write_link_file(server._addresses, os.environ)
         except BaseException:
             server.close()
             raise
@@ -154,7 +156,7 @@ class PageServer:
 
     @property
     def url(self) -> str:
-        """Address of the page: `http://127.0.0.1:8080`; off loopback with the token that opens it."""
+        """Link to the page, with the token that opens it: `http://127.0.0.1:8080/?token=…`."""
         return self._addresses.url
 
     @property
@@ -164,7 +166,7 @@ class PageServer:
 
     @property
     def view_url(self) -> str:
-        """Address of a page that may look and change nothing: `http://127.0.0.1:8080/?token=…`."""
+        """Link to a page that may look and change nothing: `http://127.0.0.1:8080/?token=…`."""
         return self._addresses.view_url
 
     @property
@@ -309,6 +311,9 @@ class PageServer:
         boxes, self._boxes = self._boxes, {}  # first: two threads may close
         for box in boxes.values():
             box.unlink()
+        if self._link_file is not None:
+            with contextlib.suppress(OSError):
+                self._link_file.unlink(missing_ok=True)
         if self._uploads is not None:  # the server removes it, unless it was killed
             shutil.rmtree(self._uploads.parent, ignore_errors=True)
 

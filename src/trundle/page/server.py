@@ -56,7 +56,6 @@ def main() -> None:
             port=start.port,
             reserved_ports=start.reserved_ports,
             allowed=AllowedNames(hosts=start.hosts, origins=start.origins),
-            needs_token=start.needs_token,
         )
         listening = listen(address)
     except EOFError:
@@ -76,9 +75,7 @@ def main() -> None:
 async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: PageAddress, pipe: OwnerPipe) -> Page:
     """Serve the page and say where it is."""
     port = int(listening.getsockname()[1])
-    access = Access(
-        host=at.host, port=port, allowed=at.allowed, needs_token=at.needs_token, view_token=secrets.token_urlsafe(16)
-    )
+    access = Access(host=at.host, port=port, allowed=at.allowed, needs_token=True, view_token=secrets.token_urlsafe(16))
     page = Page(start, loop=loop, assets=Assets(os.environ, Path(os.fsdecode(start.source))), send=pipe.send)
     reachable = "127.0.0.1" if at.host in ("0.0.0.0", "") else at.host
     authority = f"[{reachable}]:{port}" if ":" in reachable else f"{reachable}:{port}"

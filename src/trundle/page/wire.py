@@ -8,6 +8,7 @@ import os
 import struct
 from pathlib import Path
 from typing import IO, Any, TypeAlias
+from urllib.parse import urlsplit
 
 import msgspec
 
@@ -52,7 +53,6 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     reserved_ports: tuple[int, ...] = ()
     hosts: tuple[str, ...]
     origins: tuple[str, ...]
-    needs_token: bool = False
     session: Session
     graph: GraphAddress | None
     """None: no graph."""
@@ -110,12 +110,17 @@ class Respond(msgspec.Struct, frozen=True, tag=True):
 
 
 class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):
-    """The server answers at these addresses."""
+    """The server answers at these links, each with a token."""
 
     url: str
     foxglove_url: str
     view_url: str
-    """URL of a page that may look and change nothing."""
+    """Link to a page that may look and change nothing."""
+
+    @property
+    def port(self) -> int | None:
+        """Port of the server."""
+        return urlsplit(self.url).port
 
 
 class Refused(msgspec.Struct, frozen=True, tag=True):

@@ -15,7 +15,7 @@ from PIL import Image
 from tests.bringup.simulation_page.fake_server import shared_page
 from tests.bringup.simulation_page.worlds import BOX, CAMERA, lidar, loaded, model
 from tests.gltf.glb import Glb
-from tests.page_client import ProtocolClient
+from tests.page_client import ProtocolClient, page_url
 from tests.skinned import bending_column
 
 from trundle.bringup.realtime_pacer import RealtimePacer
@@ -436,7 +436,7 @@ def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -
 
         manifest = json.loads(client.payloads("trundle/world")[-1])
         for url in (*(file["url"] for file in manifest["files"]), *manifest["resources"]):
-            with urlopen(f"{shared.url}/{url}") as answer:
+            with urlopen(page_url(str(shared.url), url)) as answer:
                 content = answer.read()
             assert Glb(content).tree if url.endswith(".glb") else content
 

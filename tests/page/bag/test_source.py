@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.page_client import ProtocolClient
+from tests.page_client import ProtocolClient, page_url
 
 from trundle.bringup.play import PlayOptions, play
 from trundle.diagnostics import DescriptionError
@@ -91,7 +91,7 @@ def test_a_browser_without_webgl_is_told_that_no_pictures_come(bag: Path) -> Non
         PageServer.start(Session(title="b", kind="bag"), at=PageAddress(port=0), bag=playing) as page,
         pytest.raises(urllib.error.HTTPError, match="503") as refusal,
     ):
-        urllib.request.urlopen(f"{page.url}/camera.png?width=64&height=48")
+        urllib.request.urlopen(page_url(page.url, "/camera.png?width=64&height=48"))
     with refusal.value as answer:
         assert answer.read() == b"a bag is drawn by browsers with WebGL alone\n"
 

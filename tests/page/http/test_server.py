@@ -7,13 +7,14 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
 from tests.page.built_client import needs_client
-from tests.page_client import PATIENCE_S, ProtocolClient
+from tests.page_client import PATIENCE_S, ProtocolClient, page_url
 from websockets.exceptions import InvalidStatus
 from websockets.typing import Origin
 
@@ -38,33 +39,37 @@ def _get(url: str, **fields: str) -> tuple[int, str, http.client.HTTPMessage]:
 
 
 def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
-    session = json.loads(_get(f"{page.url}/session.json")[1])
+    session = json.loads(_get(page_url(page.url, "/session.json"))[1])
 
     assert session == {
         "title": "test", "kind": "simulation", "version": trundle.__version__, "robot": "cart", "rviz": None,
         "fixed_frame": None, "panels": [], "plots": [], "images": [], "drive_topic": None, "sliders": [],
         "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
-        "view_only": False, "view_token": page.view_url.partition("?token=")[2], "asks_token": False,
+        "view_only": False, "token": page.url.partition("?token=")[2],
+        "view_token": page.view_url.partition("?token=")[2],
     }  # fmt: skip
     page.set_session(Session(title="other", kind="graph"))
     with ProtocolClient(page.url) as client:
-        client.until(lambda: json.loads(_get(f"{page.url}/session.json")[1])["title"] == "other")
+        client.until(lambda: json.loads(_get(page_url(page.url, "/session.json"))[1])["title"] == "other")
 
 
-def test_a_foreign_page_is_refused_and_the_token_lets_it_in(page: PageServer) -> None:
-    here = page.url
-    for origin in (EVIL, "null", here.replace("127.0.0.1", "localhost"), f"{here}.evil.example"):
+def _bare(page: PageServer) -> str:
+    """Address of a page without its token."""
+    return page.url.partition("/?")[0]
+
+
+def test_a_page_gets_in_by_the_token_from_wherever_it_is(page: PageServer) -> None:
+    """Foxglove's, on the web and on the desktop, have other origins."""
+    here = _bare(page)
+    for origin in (EVIL, "null", here.replace("127.0.0.1", "localhost"), f"{here}.evil.example", here):
         assert _get(f"{here}/session.json", origin=origin)[0] == 403
         with pytest.raises(InvalidStatus) as refused:
             ProtocolClient(here, origin=Origin(origin))
         assert refused.value.response.status_code == 403
-        assert b"does not answer pages of" in (refused.value.response.body or b"")
-    for origin in (EVIL, "https://app.foxglove.dev"):
-        token = page.foxglove_url.partition("?")[2]
-        with ProtocolClient(f"{here}/?{token}", origin=Origin(origin), protocol="foxglove.sdk.v1") as client:
+        assert b"asks for its token" in (refused.value.response.body or b"")
+    for origin in (EVIL, "https://app.foxglove.dev", here):
+        with ProtocolClient(page.url, origin=Origin(origin), protocol="foxglove.sdk.v1") as client:
             client.until(lambda client=client: client.jsons)
-    with ProtocolClient(here, origin=Origin(here)) as client:
-        client.until(lambda: client.jsons)
 
 
 @pytest.mark.parametrize(
@@ -75,22 +80,46 @@ def test_a_foreign_page_is_refused_and_the_token_lets_it_in(page: PageServer) ->
         ("/world/model.glb", 200),
         ("/world/none.glb", 404),
         ("/camera.png?width=1&height=1", 400),
+        ("/model.png?model=", 400),
+        ("/model.glb?model=", 400),
+        ("/icon.svg", 200),
         ("/none.js", 404),
     ],
 )
-def test_no_address_answers_a_foreign_page_or_name_without_the_token(page: PageServer, path: str, status: int) -> None:
+def test_no_address_answers_without_the_token(page: PageServer, path: str, status: int) -> None:
     page.set_world({"generation": 1, "files": [{"id": "m", "url": "world/model.glb"}]}, {"world/model.glb": b"glTF"})
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/world")
         client.until(lambda: client.payloads("trundle/world"))
-    token = page.foxglove_url.partition("?")[2]
-    foreign: list[dict[str, str]] = [{"origin": EVIL}, {"origin": "null"}, {"host": "evil.example"}]
     image = {"sec-fetch-mode": "no-cors"}
+    foreign: list[dict[str, str]] = [{}, {"origin": _bare(page)}, {"origin": EVIL}, {"origin": "null"}]
     foreign += [{**image, "sec-fetch-site": site} for site in ("cross-site", "same-site")]
 
     for fields in foreign:
-        assert _get(f"{page.url}{path}", **fields)[0] == 403
-        assert _get(f"{page.url}{path}{'&' if '?' in path else '?'}{token}", **fields)[0] == status
+        assert _get(f"{_bare(page)}{path}", **fields)[0] == 403
+        assert _get(page_url(page.url, path), **fields)[0] == status
+
+
+def test_a_browser_without_the_token_is_asked_for_the_link(page: PageServer) -> None:
+    status, body, fields = _get(_bare(page), accept="text/html,*/*")
+
+    assert status == 403
+    assert "trundle page link" in body
+    assert page.url.partition("token=")[2] not in body
+    assert "default-src 'none'" in fields["Content-Security-Policy"]
+    assert fields["Referrer-Policy"] == "no-referrer"
+    assert _get(f"{_bare(page)}/session.json", accept="text/html,*/*")[1].startswith("refused: this page asks for its")
+
+
+def test_wrong_tokens_are_answered_late_and_the_right_one_at_once(page: PageServer) -> None:
+    """Guesses wait for each other's end as well: too many at once are turned away."""
+    with ThreadPoolExecutor(80) as pool:
+        guesses = [pool.submit(_get, f"{_bare(page)}/session.json?token={number}") for number in range(80)]
+        assert _get(page_url(page.url, "/session.json"))[0] == 200
+        assert not any(guess.done() and guess.result()[0] == 403 for guess in guesses)
+        statuses = [guess.result()[0] for guess in guesses]
+    assert set(statuses) <= {403, 429}
+    assert _get(f"{_bare(page)}/session.json?token=guess")[0] == 403
 
 
 def test_a_name_that_leads_here_but_is_not_ours_is_refused(page: PageServer) -> None:
@@ -110,7 +139,7 @@ def test_an_image_of_this_page_and_a_link_of_another_are_served(page: PageServer
         {"sec-fetch-mode": "navigate", "sec-fetch-site": "cross-site"},
     ]
     for fields in asked:
-        assert _get(f"{page.url}/session.json", **fields)[0] == 200
+        assert _get(page_url(page.url, "/session.json"), **fields)[0] == 200
 
 
 @pytest.fixture
@@ -121,7 +150,7 @@ def open_page() -> Iterator[PageServer]:
         yield page
 
 
-def test_off_loopback_the_token_opens_and_the_cookie_keeps_open(open_page: PageServer) -> None:
+def test_the_token_opens_and_the_cookie_keeps_open(open_page: PageServer) -> None:
     bare = f"http://{urlsplit(open_page.url).netloc}"
     assert _get(bare)[0] == 403
     for origin in (bare, "https://studio.example"):
@@ -149,8 +178,8 @@ def test_a_socket_without_a_known_protocol_is_refused(page: PageServer) -> None:
 
 def test_a_field_that_stands_twice_is_refused(page: PageServer) -> None:
     connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=30)
-    connection.putrequest("GET", "/", skip_host=True)
-    for name, value in (("Host", "localhost"), ("Origin", page.url), ("Origin", EVIL)):
+    connection.putrequest("GET", f"/?{urlsplit(page.url).query}", skip_host=True)
+    for name, value in (("Host", "localhost"), ("Origin", EVIL), ("Origin", EVIL)):
         connection.putheader(name, value)
     connection.endheaders()
 
@@ -163,7 +192,7 @@ def test_a_field_that_stands_twice_is_refused(page: PageServer) -> None:
 )
 def test_only_files_of_the_client_are_served(page: PageServer, path: str) -> None:
     connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=30)
-    connection.request("GET", path)
+    connection.request("GET", f"{path}?{urlsplit(page.url).query}")
 
     assert connection.getresponse().status == 404
     connection.close()
@@ -193,7 +222,9 @@ def test_a_workers_policy_lets_it_connect_to_nothing() -> None:
 def test_scripts_are_sent_compressed_to_who_takes_that(page: PageServer, encoding: str) -> None:
     """They may be kept for ever, since their names change with them."""
     script = max((CLIENT / "assets").glob("*.js"), key=lambda file: file.stat().st_size)
-    request = urllib.request.Request(f"{page.url}/assets/{script.name}", headers={"Accept-Encoding": encoding})
+    request = urllib.request.Request(
+        page_url(page.url, f"/assets/{script.name}"), headers={"Accept-Encoding": encoding}
+    )
     with urllib.request.urlopen(request, timeout=30) as answer:
         body, fields = answer.read(), answer.headers
 

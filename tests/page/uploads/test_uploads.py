@@ -61,7 +61,10 @@ def _uploads(page: PageServer) -> Path:
 
 
 def test_an_archive_becomes_a_model_and_another_of_its_name_takes_its_place(page: PageServer) -> None:
-    assert _post(page.url, {"cart.zip": CART}, origin=page.url) == (200, json.dumps({"models": ["cart"]}))
+    assert _post(page.url, {"cart.zip": CART}, origin=page.url.partition("/?")[0]) == (
+        200,
+        json.dumps({"models": ["cart"]}),
+    )
     folder = _uploads(page)
     assert sorted(each.name for each in (folder / "cart").iterdir()) == ["model.config", "model.sdf"]
     files = {"cart/model.config": CONFIG.encode(), "cart/model.sdf": b"<sdf></sdf>", "cart/meshes/w.stl": b"solid"}
@@ -101,17 +104,21 @@ def test_a_body_that_is_no_form_is_refused(page: PageServer) -> None:
     assert _post(page.url, {"cart.zip": CART}, kind="text/plain")[0] == 400
     for broken in ("multipart/form-data", "multipart/form-data; boundary=other"):
         connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=60)
-        connection.request("POST", "/models", b"nonsense\r\n" * 1000, {"Content-Type": broken})
+        target = f"/models?{urlsplit(page.url).query}"
+        connection.request("POST", target, b"nonsense\r\n" * 1000, {"Content-Type": broken})
         assert connection.getresponse().status == 400
         connection.close()
     assert _post(page.url, {"cart.zip": CART}, content_encoding="gzip")[0] == 400
 
 
-def test_who_only_looks_and_foreign_pages_upload_nothing(page: PageServer) -> None:
+def test_who_only_looks_and_who_has_no_token_uploads_nothing(page: PageServer) -> None:
     files = {"intruder.zip": zipped({"intruder/model.config": "", "intruder/model.sdf": ""})}
     assert _post(page.view_url, files) == (403, "this link only allows looking")
-    for origin in ("http://evil.example", "null"):
-        assert _post(page.url, files, origin=origin)[0] == 403
+    bare = page.url.partition("?")[0]
+    foreign: list[dict[str, str]] = [{}, {"origin": bare.rstrip("/")}, {"origin": "http://evil.example"}]
+    for fields in (*foreign, {"origin": "null"}):
+        assert _post(bare, files, **fields)[0] == 403
+    assert _post(f"{bare}?view_only&{urlsplit(page.url).query}", files) == (403, "this link only allows looking")
     assert _post(page.url, files, host="evil.example")[0] == 403
     assert _post(page.url, {"cart.zip": CART})[0] == 200
     assert not (_uploads(page) / "intruder").exists()
@@ -119,7 +126,7 @@ def test_who_only_looks_and_foreign_pages_upload_nothing(page: PageServer) -> No
 
 @pytest.fixture
 def graph_page() -> Iterator[PageServer]:
-    with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0, needs_token=True)) as page:
+    with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0)) as page:
         yield page
 
 

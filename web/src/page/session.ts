@@ -25,10 +25,10 @@ export interface Session {
   readonly foxglove: string;
   /** True: the server does nothing for this page that changes anything. */
   readonly view_only: boolean;
+  /** Token of links that allow everything; null: this page only looks. */
+  readonly token: string | null;
   /** Token of links that only allow looking. */
   readonly view_token: string;
-  /** True: without a token nobody is served. */
-  readonly asks_token: boolean;
   /** The page's node on the graph. */
   readonly node: string | null;
 }

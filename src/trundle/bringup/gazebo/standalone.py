@@ -1,14 +1,16 @@
 """`gazebo` and `gzserver`: one world, with /gazebo's services, on a graph that is joined or started."""
 
 import asyncio
+import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from trundle.access import without_query
 from trundle.diagnostics import Diagnostics
 from trundle.nodes import BuiltinReplacement, NodeHost, run_builtin_node
-from trundle.page import GraphAddress
+from trundle.page import GraphAddress, read_link_files
 from trundle.ros import GraphLoop, Message, Node
 
 from ..console import Console
@@ -17,7 +19,10 @@ from ..shared_page import SharedPage
 from .world import GazeboWorld
 
 OPEN_WINDOW = "/gazebo/open_window"
-"""Service, a std_srvs/Trigger, that opens the page and returns its URL, as a gzclient started later needs it."""
+"""Service, a std_srvs/Trigger, that opens the page and returns its URL, as a gzclient started later needs it.
+
+Every user of the machine may call it, so the URL has no token.
+"""
 _LOOPBACK = "127.0.0.1"
 _POLL_S = 0.5
 
@@ -59,17 +64,24 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
 
 
 def open_window(loop: GraphLoop, node: Node) -> str | None:
-    """Ask a running gazebo for its page, once its world is open; return the URL, or None if it cannot be served."""
+    """Ask a running gazebo for its page, once its world is open; return the link, or None if it cannot be served.
+
+    The link has the token where the page is this user's.
+    """
     while True:
         response: Message = loop.run(node.call_service(OPEN_WINDOW, "std_srvs/Trigger", {}, timeout_s=None), None)
         if response.success:
-            return str(response.message) or None
+            url = str(response.message)
+            links = (page.url for page in read_link_files(os.environ))
+            return next((link for link in links if link.startswith(f"{url}/")), url) or None
         time.sleep(_POLL_S)
 
 
 def _open_window(world: GazeboWorld, node: Node) -> dict[str, object]:
     """Answer with the URL, empty if the page cannot be served; no success before the world is open."""
-    return {"success": True, "message": world.open_window(node) or ""} if world.is_ready else {"success": False}
+    if not world.is_ready:
+        return {"success": False}
+    return {"success": True, "message": without_query(world.open_window(node) or "")}
 
 
 async def _print_findings(console: Console) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from tempfile import mkdtemp
 
+from trundle.access import without_tokens
 from trundle.diagnostics import UsageError
 from trundle.ownership import home_folder, is_owned_by_user
 from trundle.ros import PYTHON_LOG_BACKUPS, PYTHON_LOG_BYTES, LogFile, python_log_line
@@ -49,5 +50,5 @@ class LaunchLog(LogFile):
         super().__init__(path, most_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
 
     def write(self, text: str) -> None:
-        """Write a message with its time."""
-        super().write(python_log_line("roslaunch", text))
+        """Write a message with its time; links in it lose their tokens."""
+        super().write(python_log_line("roslaunch", without_tokens(text)))

@@ -154,7 +154,7 @@ class LaunchSession:
                 port=options.view_port,
                 reserved_ports=reserved_ports(read.plan),
                 allowed=options.allowed,
-                needs_token=options.view_only,
+                view_only=options.view_only,
             ),
             graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
             source=next(iter(read.plan.files), None),

@@ -88,9 +88,7 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
     page = SimulationPage(
         SharedPage(
             say=say,
-            at=PageAddress(
-                host=options.host, port=options.port, allowed=options.allowed, needs_token=options.view_only
-            ),
+            at=PageAddress(host=options.host, port=options.port, allowed=options.allowed, view_only=options.view_only),
             graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
             opens_browser=options.opens_browser,
         ),

@@ -22,7 +22,7 @@ class RunOptions:
     allowed: AllowedNames = AllowedNames()
     """Hosts and origins that the page serves beside its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking, and ask for the token of the first."""
+    """True: print a second link, which only allows looking."""
     opens_browser: bool = True
     """Open the page where there is a display; False: print its URL only."""
     duration_s: float | None = None

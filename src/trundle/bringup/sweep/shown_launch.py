@@ -33,7 +33,7 @@ def show_launch(plan: Plan, row: Row, runner: LaunchTrialRunner, at: PageAddress
         host=at.host,
         view_port=at.port,
         allowed=at.allowed,
-        view_only=at.needs_token,
+        view_only=at.view_only,
     )
     end_ns, is_begun, is_reported = round(plan.duration_s * NS_PER_S), False, False
     with stop_flag() as stop, runner.session(row, options) as (session, setup):

@@ -11,7 +11,7 @@ from aiohttp import MultipartReader, WSMessage, WSMsgType, web
 from aiohttp.http_exceptions import HttpProcessingError
 from multidict import CIMultiDictProxy
 
-from trundle.access import Access, PageRequest
+from trundle.access import Access, PageRequest, Refusal
 from trundle.diagnostics import UsageError
 
 from ..clients.connection import Connection
@@ -23,6 +23,7 @@ from ..requests.world import RenderModel
 from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
 from .content_policy import response_fields
+from .refusals import Refusals
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
 """Longest message of a client."""
@@ -81,6 +82,7 @@ class HttpServer:
         self._access = access
         self._files = files
         self._clients = 0
+        self._refusals = Refusals(has_link=True)
 
     async def start(self, listening: socket.socket) -> None:
         """Serve connections of a listening socket."""
@@ -104,7 +106,7 @@ class HttpServer:
         """Refuse what `Access` refuses, and add the header fields of the others."""
         refusal = _repeated(request.headers) or self._access.refusal(_page_request(request))
         if refusal is not None:
-            return web.Response(status=403, text=f"refused: {refusal}\n", content_type=_TEXT)
+            return await self._refusals.answer(request, refusal)
         try:
             response = await handler(request)
         except web.HTTPException as error:
@@ -240,10 +242,10 @@ def _page_request(request: web.Request) -> PageRequest:
     )
 
 
-def _repeated(headers: CIMultiDictProxy[str]) -> str | None:
+def _repeated(headers: CIMultiDictProxy[str]) -> Refusal | None:
     """Return the refusal of a request in which a field that decides stands twice."""
     repeated = [name for name in _ONCE if len(headers.getall(name, [])) > 1]
-    return f"the field {repeated[0]} stands twice" if repeated else None
+    return Refusal(f"the field {repeated[0]} stands twice") if repeated else None
 
 
 def _fresh(response: web.Response) -> web.Response:

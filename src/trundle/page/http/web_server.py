@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 
 from aiohttp import ClientConnectionError, WSMsgType, web
 
-from trundle.access import Access, PageRequest
+from trundle.access import Access, PageRequest, Refusal
 
+from .refusals import Refusals
 from .send_buffer import SendBuffer
 
 _MAX_MESSAGE_BYTES = 64 * 1024 * 1024
@@ -98,6 +99,7 @@ class WebServer:
         self._clients = 0
         self._streams = 0
         self._max_streams = max_streams
+        self._refusals = Refusals()
         self._runner: web.AppRunner | None = None
 
     async def start(self, listening: socket.socket, certificate: ssl.SSLContext | None = None) -> None:
@@ -124,9 +126,9 @@ class WebServer:
             cookie="; ".join(request.headers.getall("Cookie", [])),
         )
         repeated = [name for name in _ONCE if len(request.headers.getall(name, [])) > 1]
-        refusal = f"the field {repeated[0]} stands twice" if repeated else self._access.refusal(asked)
+        refusal = Refusal(f"the field {repeated[0]} stands twice") if repeated else self._access.refusal(asked)
         if refusal is not None:
-            return _text(403, f"refused: {refusal}\n")
+            return await self._refusals.answer(request, refusal)
         if request.headers.get("Upgrade", "").lower() == "websocket":
             return await self._serve_socket(request)
         page = self._pages.get(request.path)

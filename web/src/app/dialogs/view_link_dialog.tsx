@@ -6,22 +6,20 @@ import { useMemo, useRef } from "preact/hooks";
 
 import { Button } from "../../theme/button";
 import { Dialog } from "./dialog";
-import type { Session } from "../../page/session";
 import type { Shell } from "../shell";
 import { linkTo } from "../views/view_link";
 
-function linkText({ asks_token, view_only }: Session, looks: boolean): string {
-  if (!looks) return "Whoever can open this page sees it from here.";
-  const text = "Whoever has this link sees the page from here, and can drive and change nothing.";
-  return asks_token || view_only ? text : `${text} On this machine the page opens without a link, too; --view-only makes it ask for one.`;
-}
+const TEXTS = {
+  control: "Whoever has this link sees the page from here, and can drive and change everything.",
+  look: "Whoever has this link sees the page from here, and can drive and change nothing.",
+};
 
 export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const field = useRef<HTMLInputElement>(null);
   const copied = useSignal(false);
   const { session, views } = shell.page;
   const looks = useSignal(session.view_only);
-  const link = useMemo(() => linkTo(views, location.href, looks.value ? session.view_token : null), [views, session, looks.value]);
+  const link = useMemo(() => linkTo(views, location.href, (looks.value ? null : session.token) ?? session.view_token), [views, session, looks.value]);
   const copy = (): void => {
     field.current?.select();
     if (!window.isSecureContext) return; // Ctrl C copies what is selected
@@ -40,7 +38,7 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
             </Button>
           </div>
         )}
-        <p class="t2">{linkText(session, looks.value)}</p>
+        <p class="t2">{looks.value ? TEXTS.look : TEXTS.control}</p>
         <label class="field">
           <input ref={field} aria-label="Link" readOnly value={link} autoFocus onFocus={(event) => event.currentTarget.select()} />
         </label>

@@ -11,12 +11,13 @@ const KEY = "#view=";
 /** Longest text of a view [characters]. */
 const LONGEST = 8000;
 
-/** The page's address with the current view, or those of all panes; with a token, another address of the page. */
-export function linkTo(views: Pick<Views, "current" | "layout" | "panes" | "active">, address: string, token: string | null = null): string {
+/** The link to the page with the current view, or the views of all panes. */
+export function linkTo(views: Pick<Views, "current" | "layout" | "panes" | "active">, address: string, token: string): string {
   const short = (_: string, value: unknown): unknown => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
   const url = new URL(address);
   url.hash = "";
-  if (token !== null) url.searchParams.set("token", token);
+  url.searchParams.delete("view_only");
+  url.searchParams.set("token", token);
   return `${url.href}${KEY}${encodeURIComponent(JSON.stringify(shownViews(views), short))}`;
 }
 

@@ -9,7 +9,7 @@ import { fakePane, FakeViews } from "../../fake_page";
 test("a link shows the view from which it was made", () => {
   const view = new Orbit();
   view.load({ Distance: 3.25, "Focal Point": { X: 1, Y: -2, Z: 0.5 }, Yaw: 1.2345678, Pitch: 0.4, "Target Frame": "cart::chassis" });
-  const link = linkTo(Object.assign(new FakeViews(), { current: signal(view) }), "http://127.0.0.1:8080/?token=abc#view=old");
+  const link = linkTo(Object.assign(new FakeViews(), { current: signal(view) }), "http://127.0.0.1:8080/?view_only#view=old", "abc");
   const found = linkedView(new URL(link).hash);
 
   expect(link).toMatch(/^http:\/\/127\.0\.0\.1:8080\/\?token=abc#view=[^#]*$/);
@@ -34,7 +34,7 @@ test("a link of several panes shows each one's view again", () => {
   from.panes.value = [fakePane(signal(first)), fakePane(signal(second))];
   const [, pane] = from.panes.value;
   if (pane !== undefined) from.activate(pane);
-  const linked = linkedView(new URL(linkTo(from, "http://127.0.0.1/")).hash);
+  const linked = linkedView(new URL(linkTo(from, "http://127.0.0.1/", "abc")).hash);
 
   const shown = [new Orbit(), new Orbit()];
   const split = signal<PaneLayout>("one");

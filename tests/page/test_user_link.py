@@ -1,0 +1,103 @@
+"""The link in a browser: the cookie takes over, the address loses the token, and without it the page asks for it."""
+
+from collections.abc import Iterator
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+from tests.page.built_client import needs_client
+
+from trundle.bringup.browser import write_redirect
+from trundle.page import PageServer, Session
+from trundle.page_address import PageAddress
+
+pytestmark = needs_client
+PATIENCE_MS = 60_000
+
+
+@pytest.fixture(scope="module")
+def page() -> Iterator[PageServer]:
+    with PageServer.start(Session(title="cart", kind="simulation"), at=PageAddress(port=0)) as page:
+        yield page
+
+
+@pytest.fixture
+def browser(chromium: Any) -> Iterator[Any]:
+    context = chromium.new_context()
+    context.set_default_timeout(PATIENCE_MS)
+    yield context
+    context.close()
+
+
+def _bare(page: PageServer) -> str:
+    return page.url.partition("?")[0]
+
+
+def test_the_token_goes_from_the_address_into_a_cookie(page: PageServer, browser: Any) -> None:
+    """By the file that Trundle opens; the page goes on after it is loaded again."""
+    token = page.url.partition("token=")[2]
+    tab = browser.new_page()
+    asked: list[Any] = []
+    tab.on("request", lambda request: asked.append(request))
+    file = write_redirect(page.url)
+    assert file is not None
+    tab.goto(file.as_uri())
+    tab.get_by_label("Connected").first.wait_for()
+
+    assert tab.url == _bare(page)
+    assert token not in tab.title()
+    (cookie,) = browser.cookies()
+    assert (cookie["name"], cookie["value"]) == (f"trundle-{urlsplit(page.url).port}", token)
+    assert (cookie["httpOnly"], cookie["sameSite"]) == (True, "Strict")
+    assert [request.headers["referer"] for request in asked if token in request.headers.get("referer", "")] == []
+    with_token = [request.url for request in asked if token in request.url]
+    assert {urlsplit(url).path for url in with_token} == {"/", "/session.json"}
+    tab.reload()
+    tab.get_by_label("Connected").first.wait_for()
+    file.unlink()
+
+
+def test_a_link_that_only_allows_looking_does_so_beside_one_that_allows_more(page: PageServer, browser: Any) -> None:
+    owner, viewer = browser.new_page(), browser.new_page()
+    owner.goto(page.url)
+    owner.get_by_label("Connected").first.wait_for()
+    viewer.goto(page.view_url)
+    viewer.get_by_text("Looking only").first.wait_for()
+    assert viewer.url == f"{_bare(page)}?view_only"
+    viewer.reload()
+    viewer.get_by_text("Looking only").first.wait_for()
+    owner.reload()
+    owner.get_by_label("Connected").first.wait_for()
+    assert owner.get_by_text("Looking only").count() == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_without_the_token_the_page_asks_for_the_link(page: PageServer, chromium: Any, scheme: str) -> None:
+    """The document stands in a phone's width, too, and reads no file but itself."""
+    context = chromium.new_context(color_scheme=scheme, viewport={"width": 390, "height": 700})
+    tab = context.new_page()
+    asked: list[str] = []
+    tab.on("request", lambda request: asked.append(request.url))
+    answer = tab.goto(_bare(page))
+
+    assert answer.status == 403
+    assert tab.get_by_text("trundle page link").is_visible()
+    assert tab.evaluate("document.documentElement.scrollWidth") == 390
+    colour = tab.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert colour == {"light": "rgb(246, 247, 248)", "dark": "rgb(22, 25, 28)"}[scheme]
+    assert set(asked) <= {_bare(page), f"{_bare(page)}favicon.ico"}
+    context.close()
+
+
+def test_a_link_on_another_site_asks_and_opens_it_again(page: PageServer, browser: Any) -> None:
+    """SameSite=Strict keeps the cookie from other sites' links."""
+    owner = browser.new_page()
+    owner.goto(page.url)
+    owner.get_by_label("Connected").first.wait_for()
+    tab = browser.new_page()
+    tab.route("http://wiki.example/", lambda route: route.fulfill(body=f'<a href="{_bare(page)}">robot</a>'))
+    tab.goto("http://wiki.example/")
+    tab.set_content(f'<a href="{_bare(page)}">robot</a>')
+    tab.get_by_text("robot").click()
+    tab.get_by_text("Open it again").click()
+    tab.get_by_label("Connected").first.wait_for()
