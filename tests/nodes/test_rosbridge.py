@@ -239,6 +239,39 @@ def test_only_pages_of_this_machine_are_served(stage, origin: str, params: dict[
         assert b"~allowed_origins" in refused.value.response.body
 
 
+@pytest.mark.parametrize("server", ["rosbridge_websocket", "rosbridge_tcp"])
+def test_it_says_that_ros_has_no_guard(stage, server: str) -> None:
+    heard = stage.listen("/rosout", "rosgraph_msgs/Log")
+    stage.start(f"rosbridge_server/{server}", port=0)
+    said = "ROS has no access control: every user of this machine may connect here; set ~token to ask for one"
+    stage.until(lambda: [log.msg for log in heard if log.level == 4] == [said])
+
+
+def test_a_token_that_is_set_is_asked_for_on_loopback_too(stage) -> None:
+    heard = stage.listen("/rosout", "rosgraph_msgs/Log")
+    stage.start("rosbridge_server/rosbridge_websocket", port=0, token="sesame")
+    port = port_of(stage, "rosbridge_websocket")
+    with pytest.raises(InvalidStatus), connected(port):
+        pass
+    with connected(port, path="/?token=sesame") as client:
+        client.send("nonsense")
+        assert client.receive()["op"] == "status"
+    stage.until(lambda: any("started" in log.msg for log in heard))
+    assert not any("sesame" in log.msg for log in heard)
+
+
+def test_over_tcp_the_token_comes_first(stage) -> None:
+    stage.start("rosbridge_server/rosbridge_tcp", port=0, token="sesame")
+    address = ("127.0.0.1", port_of(stage, "rosbridge_tcp"))
+    for first in ({"op": "nonsense"}, {"op": "auth", "mac": "guess"}, {"op": "auth"}):
+        with socket.create_connection(address, 60.0) as client:
+            client.sendall(json.dumps(first).encode() + b'{"op": "nonsense"}')
+            assert client.recv(100) == b""
+    with socket.create_connection(address, 60.0) as client:
+        client.sendall(b'{"op": "auth", "mac": "sesame"}{"op": "nonsense"}')
+        assert b"Unknown operation: nonsense" in client.recv(65536)
+
+
 def test_other_machines_need_the_token(stage) -> None:
     stage.start("rosbridge_server/rosbridge_websocket", port=0, address="0.0.0.0", token="sesame")
     port = port_of(stage, "rosbridge_websocket")

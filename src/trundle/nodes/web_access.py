@@ -27,6 +27,9 @@ class WebAddress:
     is_open: bool
     """True: `allowed_origins` is "*"; every request is served, as by the original."""
     token: str
+    """As the parameter sets it, else a random one."""
+    has_own_token: bool = False
+    """True if the parameter sets the token; it is then required on loopback, too."""
     serves_null_origin: bool = False
 
     @property
@@ -41,6 +44,7 @@ class WebAddress:
             port=port,
             allowed=self.allowed,
             token=self.token,
+            needs_token=self.has_own_token,
             serves_local_pages=True,
             serves_null_origin=self.serves_null_origin,
             is_open=self.is_open,
@@ -52,10 +56,19 @@ class WebAddress:
             ),
         )
 
+    @property
+    def warning(self) -> str | None:
+        """Sentence for the log of a server that serves without a token; None: it does not."""
+        if not self.is_open and (self.has_own_token or self.is_public):
+            return None
+        who = "every machine that reaches it" if self.is_public else "every user of this machine"
+        return f"ROS has no access control: {who} may connect here; set ~token to ask for one"
+
     def url(self, scheme: str, port: int) -> str:
-        """URL of the server; with the token if that is required."""
+        """URL of the server for the log; with the token if it is required, and nobody has set it."""
         host = f"[{self.host}]" if ":" in self.host else self.host
-        query = f"/?token={self.token}" if self.is_public and not self.is_open else ""
+        asks_token = not self.is_open and (self.has_own_token or self.is_public)
+        query = f"/?token={'…' if self.has_own_token else self.token}" if asks_token else ""
         return f"{scheme}://{host}:{port}{query}"
 
     def listen(self) -> socket.socket:
@@ -85,6 +98,7 @@ def read_web_address(settings: RosParameters, *, port: int, address: str = "", n
     if asked > _MAX_PORT:
         raise ParamError(f"parameter {settings.where}/port must be ≤ {_MAX_PORT}, got {asked}")
     origins = _names(settings, "allowed_origins")
+    token = settings.text("token", "")
     return WebAddress(
         host=address or settings.text("address", "") or _LOOPBACK,
         port=asked,
@@ -92,7 +106,8 @@ def read_web_address(settings: RosParameters, *, port: int, address: str = "", n
             hosts=_names(settings, "allowed_hosts"), origins=tuple(name for name in origins if name != _EVERYBODY)
         ),
         is_open=_EVERYBODY in origins,
-        token=settings.text("token", "") or secrets.token_urlsafe(16),
+        token=token or secrets.token_urlsafe(16),
+        has_own_token=bool(token),
         serves_null_origin=bool(null_origin) and settings.flag(null_origin, default=False),
     )
 

@@ -3,6 +3,8 @@
 import asyncio
 import contextlib
 import itertools
+import json
+from secrets import compare_digest
 
 from trundle.diagnostics import UsageError
 from trundle.page import SendBuffer
@@ -21,12 +23,15 @@ from .shared import Shared
 _PORT = 9090
 _MAX_CLIENTS = 100
 _CHUNK = 1024 * 1024
+_GUESS_S = 1.0
+"""Delay before a connection without the token ends."""
 
 
 class RosbridgeTcp:
     """Server of the rosbridge protocol, version 2, over TCP.
 
-    Parameters as in rosbridge_server; other machines are served only with allowed_origins: "*".
+    Parameters as in rosbridge_server, and token: a client then begins with `{"op": "auth", "mac": TOKEN}`. Other
+    machines are served only with a token, or with allowed_origins: "*".
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -48,6 +53,7 @@ class RosbridgeTcp:
         except UsageError as error:
             node.log.fatal(str(error))
             return 1
+        self._token = address.token.encode() if address.has_own_token and not address.is_open else None
         self._shared = Shared(node, options)
         self._clients = ClientList(node)
         try:
@@ -58,6 +64,8 @@ class RosbridgeTcp:
         server = await asyncio.start_server(self._accept, sock=listening)
         try:
             node.log.info(f"Rosbridge TCP server started on port {listening.getsockname()[1]}")
+            if address.warning is not None:
+                node.log.warn(address.warning)
             await node.params.set("~actual_port", int(listening.getsockname()[1]))
             await node.closed.wait()
         finally:
@@ -94,7 +102,7 @@ class RosbridgeTcp:
 
     async def _receive_all(self, reader: asyncio.StreamReader, session: Session) -> None:
         """Handle objects until the client leaves, or sends what is none: a browser's requests begin otherwise."""
-        splitter = ObjectSplitter()
+        splitter, has_token = ObjectSplitter(), self._token is None
         while data := await reader.read(_CHUNK):
             try:
                 texts = splitter.feed(data)
@@ -102,14 +110,31 @@ class RosbridgeTcp:
                 self._node.log.warn(f"a client is disconnected: {error}")
                 return
             for text in texts:
-                await session.receive(text)
+                if has_token:
+                    await session.receive(text)
+                elif compare_digest(_given_token(text), self._token or b""):
+                    has_token = True
+                else:
+                    self._node.log.warn("a client is disconnected: it has not begun with the token")
+                    await asyncio.sleep(_GUESS_S)
+                    return
+
+
+def _given_token(text: str) -> bytes:
+    """Return the token of a message that begins a connection; empty: it has none."""
+    try:
+        message = json.loads(text)
+    except (ValueError, RecursionError):
+        return b""
+    is_auth = isinstance(message, dict) and message.get("op") == "auth"
+    return str(message.get("mac", "")).encode("utf-8", "surrogatepass") if is_auth else b""
 
 
 def _check_public(address: WebAddress, name: str) -> None:
-    if address.is_public and not address.is_open:
+    if address.is_public and not address.is_open and not address.has_own_token:
         raise ParamError(
-            f"parameter {name}/host: the protocol over TCP has no token; at {address.host} every machine could "
-            "drive the robot. Set ~allowed_origins to '*' if that is wanted, or use rosbridge_websocket"
+            f"parameter {name}/host: without a token, every machine could drive the robot at {address.host}. "
+            "Set ~token, or ~allowed_origins to '*' if that is wanted"
         )
 
 

@@ -60,6 +60,8 @@ class RosbridgeWebsocket:
             await node.params.set("~actual_port", port)
             scheme = "ws" if certificate is None else "wss"
             node.log.info(f"Rosbridge WebSocket server started at {address.url(scheme, port)}")
+            if address.warning is not None:
+                node.log.warn(address.warning)
             await node.closed.wait()
         finally:
             await server.close()

@@ -72,6 +72,8 @@ class WebVideoServer:
         try:
             await node.params.set("~actual_port", port)
             node.log.info(f"Waiting For connections on {address.url('http', port)}")
+            if address.warning is not None:
+                node.log.warn(address.warning)
             await node.closed.wait()
         finally:
             await server.close()
