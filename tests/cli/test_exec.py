@@ -105,10 +105,35 @@ def test_a_script_imports_rospy_without_an_installed_ros(programs: list[Path]) -
 
 
 def test_a_script_whose_python_has_no_rospy_is_told_the_way_out(programs: list[Path], tmp_path: Path) -> None:
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "other"], check=True)
+    """Such as a Python of another version."""
+    other = tmp_path / "other/python3"
+    other.parent.mkdir()
+    other.write_text(f'#!/bin/sh\nexec {sys.executable} -I -S "$@"\n')
+    other.chmod(0o755)
     programs[1].unlink()
-    programs[0].write_text(f"#!{tmp_path / 'other/bin/python3'}\nimport rospy\n")
+    programs[0].write_text(f"#!{other}\nimport rospy\n")
     done = subprocess.run(COMMAND, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
     assert done.returncode == 1
     first, *_ = done.stderr.splitlines()
     assert first.startswith(f"trundle exec: {programs[0]}: its Python has no rospy; ")
+
+
+@pytest.mark.parametrize(
+    ("text", "mode", "warning"),
+    [
+        ("#!/usr/bin/env python\nimport rospy\nprint(rospy.__name__)\n", 0o644, "is not executable"),
+        ("#!/usr/bin/env python3\r\nimport rospy\r\nprint(rospy.__name__)\r\n", 0o755, "has the line ends of Windows"),
+    ],
+)
+def test_scripts_that_the_system_would_refuse_run_with_a_warning(
+    programs: list[Path], text: str, mode: int, warning: str
+) -> None:
+    """As git on Windows, and zip files, leave them."""
+    programs[1].unlink()
+    programs[0].write_bytes(text.encode())
+    programs[0].chmod(mode)
+
+    done = subprocess.run(COMMAND, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+
+    assert (done.returncode, done.stdout) == (0, "rospy\n")
+    assert f"trundle exec: warning: {programs[0]} {warning}; it is run nevertheless" in done.stderr

@@ -83,6 +83,8 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
         "static_transform_publisher, tf_echo, tf_monitor, view_frames"
     )
     path = program(tmp_path / "x.py", 0o644)
+    assert find_node("p", "x.py", lambda _: tmp_path, env={}) == Executable(path), "a script needs no such bit"
+    path.write_text("data")
     assert find_node("p", "x.py", lambda _: tmp_path, env={}) == MissingNode(
         f"{path} is not executable; run chmod +x on it"
     )

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import interpreter, lacks_rospy, missing_ros_module
+from trundle.nodes import lacks_rospy, missing_ros_module, start_words
+from trundle.nodes.python_interpreter import interpreter
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's first line")
 
@@ -132,6 +133,24 @@ def test_what_needs_no_rospy_or_says_where_it_is_goes_by_its_first_line(
 @pytest.mark.parametrize("first", ["#!/usr/bin/env python", "#!/nowhere/bin/python"])
 def test_where_there_is_no_python_this_one_runs_it(tmp_path: Path, first: str) -> None:
     assert _asked(tmp_path, first, tmp_path, imports="math") == [sys.executable]
+
+
+@pytest.mark.parametrize(
+    ("first", "words"),
+    [
+        ("#!/bin/bash -e", ["/bin/bash", "-e"]),
+        ("#!/usr/bin/env bash", ["bash"]),
+        ("#!/opt/venv/bin/python3\r", ["/opt/venv/bin/python3"]),
+        ("no script", []),
+    ],
+)
+def test_a_script_that_is_not_executable_is_started_by_its_first_line(
+    tmp_path: Path, first: str, words: list[str]
+) -> None:
+    script = _program(tmp_path / "run", f"{first}\n")
+    script.chmod(0o644)
+
+    assert start_words(script, {"PATH": os.defpath}) == words
 
 
 @pytest.mark.parametrize(

@@ -53,10 +53,11 @@ def main(args: argparse.Namespace) -> int:
         Executable,
         MissingNode,
         find_node,
-        interpreter,
         lacks_rospy,
         missing_rospy_advice,
         same_named_programs,
+        script_fault,
+        start_words,
     )
     from trundle.packages import Packages
     from trundle.rospy.environment import with_finder
@@ -77,7 +78,9 @@ def main(args: argparse.Namespace) -> int:
                 path = _chosen(path, same_named_programs(folder, path))
             if args.show_translation:
                 return _show_translation(path)
-            command = [*shlex.split(args.prefix), *interpreter(path, os.environ), str(path), *args.arguments]
+            command = [*shlex.split(args.prefix), *start_words(path, os.environ), str(path), *args.arguments]
+            if fault := script_fault(path):
+                print(f"trundle exec: warning: {path} {fault}", file=sys.stderr)
             if args.debug:
                 print(f"[rosrun] Running {args.prefix} {path}")
             sys.stdout.flush()

@@ -15,8 +15,9 @@ from .host import NodeHost as NodeHost
 from .host import Simulator as Simulator
 from .host import Slider as Slider
 from .node_names import default_name as default_name
-from .python_interpreter import interpreter as interpreter
 from .python_interpreter import lacks_rospy as lacks_rospy
 from .python_interpreter import missing_ros_module as missing_ros_module
 from .python_interpreter import missing_rospy_advice as missing_rospy_advice
+from .python_interpreter import script_fault as script_fault
+from .python_interpreter import start_words as start_words
 from .run import run_builtin_node as run_builtin_node

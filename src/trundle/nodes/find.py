@@ -13,7 +13,7 @@ from trundle.ros import Node
 
 from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
 from .host import BuiltinNode, NodeHost
-from .python_interpreter import can_run
+from .python_interpreter import can_run, is_script
 from .unsupported_nodes import ALTERNATIVES, OVER_THE_WIRE
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
@@ -87,7 +87,7 @@ def find_node(
     if built is not None:
         return Executable(built)
     if plain is not None:
-        return MissingNode(f"{plain} is not executable; run chmod +x on it")
+        return Executable(plain) if is_script(plain) else MissingNode(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
     if way_out.endswith(OVER_THE_WIRE):
         way_out = f"{way_out}: {package_in_container(package, f'rosrun {package} {type_name}', env)}"

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -103,6 +104,33 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
             return [sys.executable]
         return [] if found is not None and is_debians else [_DEBIAN_PYTHON]
     return [] if found is not None else [sys.executable]
+
+
+def is_script(program: Path) -> bool:
+    """True if a file begins with a line that names its interpreter."""
+    return _FIRST_LINE.match(_beginning(program)) is not None
+
+
+def script_fault(program: Path) -> str | None:
+    """Return why the system would not run a script, and what mends it; None: it runs it."""
+    if not os.access(program, os.X_OK):
+        return f"is not executable; it is run nevertheless, as after: chmod +x {shlex.quote(str(program))}"
+    if _has_crlf(program):
+        return f"has the line ends of Windows; it is run nevertheless, as after: dos2unix {shlex.quote(str(program))}"
+    return None
+
+
+def start_words(program: Path, env: Mapping[str, str]) -> list[str]:
+    """Return the words before a program's name on its command line; [] if the system runs it as it is."""
+    words = interpreter(program, env)
+    if words or not is_script(program) or (os.access(program, os.X_OK) and not _has_crlf(program)):
+        return words
+    first, *more = _beginning(program).partition(b"\n")[0].strip()[2:].decode(errors="replace").split()
+    return more if Path(first).name == "env" and more else [first, *more]
+
+
+def _has_crlf(program: Path) -> bool:
+    return _beginning(program).partition(b"\n")[0].endswith(b"\r")
 
 
 def _beginning(program: Path) -> bytes:

@@ -19,8 +19,9 @@ from trundle.nodes import (
     MissingNode,
     NodeHost,
     find_node,
-    interpreter,
     run_builtin_node,
+    script_fault,
+    start_words,
 )
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
@@ -90,6 +91,8 @@ class NodeStarter:
         name = label.replace("/", "-")
         match find_node(node.package, node.type, self.packages.find_package, env=env, arguments=node.arguments):
             case Executable(path):
+                if fault := script_fault(path):
+                    self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")
                 job = ProcessJob(self._command(node, label, path, env, more), show, tree=self.tree)
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
@@ -140,7 +143,7 @@ class NodeStarter:
             name=label,
             argv=(
                 *_split(node.launch_prefix, node),
-                *interpreter(program, env),
+                *start_words(program, env),
                 str(program),
                 *_split(node.arguments, node),
                 *more,
