@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.control import JointPoint, JointSpline, ToolboxPid
+from trundle.control import JointSegment, JointState, ToolboxPid
 
 number = st.floats(-10.0, 10.0)
 
@@ -33,26 +33,41 @@ def test_a_slope_is_that_of_the_error() -> None:
     assert pid.command(1.0, 0.0) == 0.0
 
 
+def _segment(a: JointState, b: JointState, span_s: float, *, start_s: float = 1.0) -> JointSegment:
+    start_ns = round(start_s * 1e9)
+    return JointSegment.between(start_ns, a, start_ns + round(span_s * 1e9), b)
+
+
 @given(st.tuples(number, number, number), st.tuples(number, number, number), st.floats(0.1, 10.0))
 def test_a_quintic_meets_both_ends(a: tuple[float, float, float], b: tuple[float, float, float], span: float) -> None:
-    spline = JointSpline([JointPoint(1.0, *a), JointPoint(1.0 + span, *b)])
-    assert spline.sample(1.0) == pytest.approx(a)
-    end = spline.sample(1.0 + span * (1.0 - 1e-9))
-    assert end == pytest.approx(b, rel=1e-4, abs=1e-3)
+    segment = _segment(JointState(*a), JointState(*b), span)
+    assert segment.sample(segment.start_ns) == pytest.approx(a)
+    assert segment.sample(segment.end_ns) == pytest.approx(b, rel=1e-4, abs=1e-3)
 
 
 @given(number, number, number, number, st.floats(0.0, 1.0))
 def test_speeds_are_the_slope_of_positions(p0: float, p1: float, v0: float, v1: float, at: float) -> None:
-    spline = JointSpline([JointPoint(0.0, p0, v0), JointPoint(2.0, p1, v1)])
-    t, h = 0.1 + 1.8 * at, 1e-5
-    slope = (spline.sample(t + h)[0] - spline.sample(t - h)[0]) / (2 * h)
-    assert spline.sample(t)[1] == pytest.approx(slope, rel=1e-5, abs=1e-5)
+    segment = _segment(JointState(p0, v0), JointState(p1, v1), 2.0, start_s=0.0)
+    t, h = round((0.1 + 1.8 * at) * 1e9), 10_000
+    slope = (segment.sample(t + h)[0] - segment.sample(t - h)[0]) / (2e-9 * h)
+    assert segment.sample(t)[1] == pytest.approx(slope, rel=1e-5, abs=1e-5)
 
 
-def test_without_speeds_it_goes_straight_and_outside_it_stays() -> None:
-    spline = JointSpline([JointPoint(0.0, 1.0), JointPoint(2.0, 3.0), JointPoint(3.0, 0.0)])
-    assert spline.sample(0.5) == (1.5, 1.0, 0.0)
-    assert spline.sample(2.5) == (1.5, -3.0, 0.0)
-    assert spline.sample(-1.0) == (1.0, 0.0, 0.0)
-    assert spline.sample(9.0) == (0.0, 0.0, 0.0)
-    assert spline.end_s == 3.0
+@pytest.mark.parametrize("end", [JointState(3.0), JointState(3.0, None, 5.0)])
+def test_an_end_without_speed_makes_a_straight_line_and_outside_it_stays(end: JointState) -> None:
+    segment = _segment(JointState(1.0, 4.0, 5.0), end, 2.0)
+    assert segment.sample(1_500_000_000) == (1.5, 1.0, 0.0)
+    assert segment.sample(0) == (1.0, 0.0, 0.0)
+    assert segment.sample(9_000_000_000) == (3.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("state", [JointState(1.0), JointState(1.0, 2.0), JointState(1.0, 2.0, 3.0)])
+def test_a_segment_without_length_stays_at_its_start(state: JointState) -> None:
+    segment = _segment(state, JointState(7.0, 0.0, 0.0), 0.0)
+    assert segment.sample(segment.start_ns) == (1.0, state.velocity or 0.0, state.acceleration or 0.0)
+    assert segment.sample(segment.start_ns + 1) == (1.0, 0.0, 0.0)
+
+
+def test_a_segment_does_not_end_before_its_start() -> None:
+    with pytest.raises(ValueError, match="end_time < start_time"):
+        _segment(JointState(1.0), JointState(2.0), -0.1)

@@ -6,6 +6,6 @@ from .four_wheel import Wheels as Wheels
 from .four_wheel import axle_angle as axle_angle
 from .pid import Pid as Pid
 from .speed_limit import SpeedLimit as SpeedLimit
-from .spline import JointPoint as JointPoint
-from .spline import JointSpline as JointSpline
+from .spline import JointSegment as JointSegment
+from .spline import JointState as JointState
 from .toolbox_pid import ToolboxPid as ToolboxPid

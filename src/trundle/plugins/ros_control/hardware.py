@@ -9,6 +9,8 @@ from trundle.simulation import JointHandle
 
 from .transmissions import Interface
 
+_SETTLING_NS = 200_000_000
+
 
 class JointHardware:
     """One joint behind its transmission."""
@@ -51,6 +53,18 @@ class JointHardware:
         """Difference of a position to the joint's [rad or m]; the shorter way round if continuous."""
         way = wanted - self.position
         return math.remainder(way, math.tau) if self.is_continuous else way
+
+    def shortest_error(self, wanted: float) -> float:
+        """Difference of a position to the joint's [rad or m]; the shorter way round unless prismatic, as of
+        joint_trajectory_controller.
+        """
+        way = wanted - self.position
+        return way if self.handle.joint.type is JointType.PRISMATIC else math.remainder(way, math.tau)
+
+    @property
+    def settling_ns(self) -> int:
+        """Time that a driven position has to settle [ns]: gazebo_ros_control sets it at once."""
+        return _SETTLING_NS if self.interface == "PositionJointInterface" and self._pid is None else 0
 
     @property
     def resting_command(self) -> float:

@@ -1,23 +1,20 @@
 """JointTrajectoryController of position_, velocity_ and effort_controllers."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from trundle.control import ToolboxPid
-from trundle.ros import ActionOutcome, ActionServer, to_nsec
+from trundle.ros import ActionOutcome, ActionServer, ServiceError, to_nsec
 
 from .controller import ControllerContext, Endpoints, PublishTimer
 from .gains import reconfigurable_pid
-from .hardware import JointHardware
-from .trajectory_goal import GoalError, SampledTrajectory, Tolerances, read_tolerances, read_trajectory
+from .tolerances import JointTolerances, goal_tolerances, read_tolerances
+from .trajectory_goal import NO_GOAL, GoalError, JointPath, PathReader, PathSegment, holding_path, stopping_path
 from .transmissions import Interface
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs, trajectory_msgs
-
-_GRACE_S = 0.2
-"""Added to `goal_time` [s]: joints here lag by a few steps, while gazebo_ros_control sets positions at once."""
 
 
 class TrajectoryController:
@@ -26,7 +23,7 @@ class TrajectoryController:
 
     Parameters: joints (required), gains/<joint> (p, i, d, i_clamp; not of position_controllers), velocity_ff/<joint>,
     constraints (goal_time, stopped_velocity_tolerance, <joint>/trajectory, <joint>/goal), state_publish_rate 50,
-    action_monitor_rate 20, allow_partial_joints_goal false.
+    action_monitor_rate 20, allow_partial_joints_goal false, stop_trajectory_duration 0.
     """
 
     interface: ClassVar[Interface]
@@ -35,7 +32,7 @@ class TrajectoryController:
         settings, node = context.settings, context.node
         self._node = node
         self._joints = [context.joint(name, self.interface) for name in context.joint_setting()]
-        names = [joint.name for joint in self._joints]
+        self._names = names = [joint.name for joint in self._joints]
         self.claims: dict[Interface | str, list[str]] = {self.interface: names}
         self._endpoints = Endpoints()
         self._pids: list[ToolboxPid] = []
@@ -44,15 +41,31 @@ class TrajectoryController:
             self._pids = [reconfigurable_pid(node, gains.section(name), self._endpoints) for name in names]
         forward = settings.section("velocity_ff")
         self._forward = [forward.number(name, 0.0) for name in names]
-        self._default_tolerances = read_tolerances(settings.section("constraints"), names)
-        self._partial = settings.flag("allow_partial_joints_goal", default=False)
+        self._tolerances = read_tolerances(settings.section("constraints"), names)
+        self._reader = PathReader(
+            names,
+            [joint.is_continuous for joint in self._joints],
+            partial=settings.flag("allow_partial_joints_goal", default=False),
+            warn=node.log.warn,
+        )
+        self._stop_ns = round(settings.number("stop_trajectory_duration", 0.0, minimum=0.0) * 1e9)
         self._states = PublishTimer(settings.number("state_publish_rate", 50.0, above=0.0))
         self._monitors = PublishTimer(settings.number("action_monitor_rate", 20.0, above=0.0))
-        self._trajectory: SampledTrajectory | None = None
-        self._time_ns = 0
+        self._paths: list[JointPath] = []
+        self._desired: list[tuple[float, float, float]] = []
+        """Position, velocity and acceleration of each joint at the last update."""
+        self._time_ns = self._period_ns = 0
+        self._goal = NO_GOAL
+        """Number of the last goal of the action."""
         self._settled: Callable[[ActionOutcome], None] | None = None
         """Called once with the outcome of the action's goal."""
+        self._arrived: set[int] = set()
+        """Joints that have reached the goal."""
         self._is_running = False
+        self._advertise(context)
+
+    def _advertise(self, context: ControllerContext) -> None:
+        node = context.node
         self._state = node.advertise(
             f"{context.name}/state", "control_msgs/JointTrajectoryControllerState", queue_size=1
         )
@@ -73,35 +86,35 @@ class TrajectoryController:
         return cls(context)
 
     def start(self, time_ns: int) -> None:
-        """Hold the current positions."""
-        self._time_ns = time_ns
+        """Hold the current positions, or slow down to rest."""
+        self._time_ns, self._period_ns = time_ns, 0
         for joint in self._joints:
             joint.start()
         for pid in self._pids:
             pid.reset()
-        self._settle("aborted", 0, "the controller was restarted")
+        self._desired = [(joint.position, joint.velocity, 0.0) for joint in self._joints]
         self._hold()
         self._states.restart(time_ns)
         self._is_running = True
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Command the trajectory's current state."""
-        self._time_ns = time_ns
-        sampled = self._trajectory
-        if sampled is None:
-            return
-        desired = sampled.sample(time_ns)
-        for number, (joint, (position, velocity, _)) in enumerate(zip(self._joints, desired, strict=True)):
+        """Command the paths' current state."""
+        self._time_ns, self._period_ns = time_ns, round(dt * 1e9)
+        segments = [path.at(time_ns) for path in self._paths]
+        self._desired = [each.segment.sample(time_ns) for each in segments]
+        if self._settled is not None:
+            self._check_tolerances(segments)
+        for number, (joint, (position, velocity, _)) in enumerate(zip(self._joints, self._desired, strict=True)):
             if not self._pids:
                 joint.command = position
                 continue
             slope = velocity - joint.velocity
-            command = self._pids[number].command(joint.error(position), dt, slope=slope)
+            command = self._pids[number].command(joint.shortest_error(position), dt, slope=slope)
             joint.command = command + self._forward[number] * velocity
-        if self._settled is not None:
-            self._check_tolerances(sampled, desired)
+        if self._settled is not None and self._monitors.due(time_ns):
+            self._server.publish_feedback(self._state_fields(segments[0]))
         if self._states.due(time_ns) and self._state.has_subscribers:
-            self._state.publish({"header": {"stamp": time_ns}, **self._desired_fields(desired)})
+            self._state.publish(self._state_fields(segments[0]))
 
     def stop(self) -> None:
         """Stop commanding."""
@@ -112,7 +125,6 @@ class TrajectoryController:
 
     def close(self) -> None:
         """Unregister its action, topics and service."""
-        self._settle("aborted", 0, "the controller was unloaded")
         self._server.close()
         self._endpoints.close()
 
@@ -124,41 +136,47 @@ class TrajectoryController:
             self._node.log.error("Can't accept new commands. Controller is not running.")
             return
         try:
-            self._begin(trajectory, self._default_tolerances)
+            self._begin(trajectory, None, NO_GOAL)
         except GoalError as error:
             self._node.log.error(str(error))
             return
         self._settle("preempted", 0, "a trajectory came on the topic")
 
-    def _begin(self, trajectory: "trajectory_msgs.JointTrajectory", tolerances: Tolerances) -> None:
+    def _begin(
+        self,
+        trajectory: "trajectory_msgs.JointTrajectory",
+        tolerances: Sequence[JointTolerances] | None,
+        goal: int,
+    ) -> None:
         if not trajectory.points:
-            self._hold()
+            self._hold(goal)
             return
-        assert self._trajectory is not None, "start() comes first"
-        now = self._trajectory.sample(self._time_ns)
-        names = [joint.name for joint in self._joints]
-        sampled = read_trajectory(trajectory, names, now, self._time_ns, tolerances, partial=self._partial)
-        for number, joint in enumerate(self._joints):
-            if joint.is_continuous:  # take the shorter way round to the first point
-                sampled.unwind(number)
-        self._trajectory = sampled
+        next_ns = self._time_ns + self._period_ns
+        self._paths = self._reader.read(trajectory, self._paths, next_ns, tolerances, goal)
 
-    def _hold(self) -> None:
-        self._trajectory = SampledTrajectory.hold_position(
-            [joint.position for joint in self._joints], self._time_ns, self._default_tolerances
-        )
+    def _hold(self, goal: int = NO_GOAL) -> None:
+        """Hold the current positions; with a stop_trajectory_duration, slow down to rest."""
+        if not self._stop_ns:
+            self._paths = [holding_path(joint.position, self._time_ns, goal=goal) for joint in self._joints]
+            return
+        self._paths = [
+            stopping_path(position, velocity, self._time_ns, self._stop_ns, goal=goal)
+            for position, velocity, _ in self._desired
+        ]
 
     def _query(self, request: "control_msgs.QueryTrajectoryStateRequest") -> dict[str, Any]:
-        sampled = self._trajectory or SampledTrajectory.hold_position(
-            [joint.position for joint in self._joints], 0, self._default_tolerances
-        )
-        position, velocity, acceleration = zip(*sampled.sample(to_nsec(request.time)), strict=True)
-        return {
-            "name": [joint.name for joint in self._joints],
-            "position": list(position),
-            "velocity": list(velocity),
-            "acceleration": list(acceleration),
-        }
+        time_ns = to_nsec(request.time)
+        if not self._is_running:
+            raise self._refusal("Can't sample trajectory. Controller is not running.")
+        if any(path.index_at(time_ns) < 0 for path in self._paths):
+            raise self._refusal("Requested sample time precedes trajectory start time.")
+        samples = [path.at(time_ns).segment.sample(time_ns) for path in self._paths]
+        position, velocity, acceleration = map(list, zip(*samples, strict=True))
+        return {"name": self._names, "position": position, "velocity": velocity, "acceleration": acceleration}
+
+    def _refusal(self, text: str) -> ServiceError:
+        self._node.log.error(text)
+        return ServiceError(text)
 
     # -- the action
 
@@ -173,13 +191,10 @@ class TrajectoryController:
             self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(outcome))
 
         def begin() -> None:
-            if not self._is_running:
-                settle(_outcome("rejected", GoalError.INVALID_GOAL, "the controller is not running"))
-                return
-            names = [joint.name for joint in self._joints]
             try:
-                self._begin(goal.trajectory, self._default_tolerances.with_goal(goal, names))
+                self._begin_goal(goal)
             except GoalError as error:
+                self._node.log.error(str(error))
                 settle(_outcome("rejected", error.code, str(error)))
                 return
             self._settle("preempted", 0, "another goal came")
@@ -194,52 +209,78 @@ class TrajectoryController:
             self._node.deliver(lambda: self._abandon(settle))
             raise
 
+    def _begin_goal(self, goal: "control_msgs.FollowJointTrajectoryGoal") -> None:
+        if not self._is_running:
+            raise GoalError("Can't accept new action goals. Controller is not running.")
+        error = "Joints on incoming goal don't match the controller joints."
+        self._reader.check_joints(goal.trajectory, error, GoalError.INVALID_JOINTS)
+        self._begin(goal.trajectory, goal_tolerances(self._tolerances, goal, self._names), self._goal + 1)
+        self._goal += 1
+        self._arrived.clear()
+
     def _abandon(self, settle: Callable[[ActionOutcome], None]) -> None:
         """Hold after a goal was cancelled, unless another has replaced it."""
         if self._settled is settle:
             self._settled = None
             self._hold()
 
-    def _check_tolerances(self, sampled: SampledTrajectory, desired: list[tuple[float, float, float]]) -> None:
-        """Check the tolerances, and settle the action or publish its feedback."""
-        tolerances, late_s = sampled.tolerances, (self._time_ns - sampled.end_ns) / 1e9
-        for number, joint in enumerate(self._joints):
-            error = abs(joint.error(desired[number][0]))
-            if late_s < 0.0 and 0.0 < tolerances.path[number] < error:
-                text = f"{joint.name} is {error:.4g} off its path, more than {tolerances.path[number]:g}"
-                self._hold()
-                self._settle("aborted", GoalError.PATH_TOLERANCE_VIOLATED, text)
-                return
-        if late_s >= 0.0:
-            far = [j for n, j in enumerate(self._joints) if not self._has_arrived(j, desired[n][0], n, tolerances)]
-            if not far:
-                self._settle("succeeded", 0, "")
-            elif late_s > tolerances.time_s + _GRACE_S:
-                text = f"{far[0].name} is {abs(far[0].error(desired[self._joints.index(far[0])][0])):.4g} off its goal"
-                self._settle("aborted", GoalError.GOAL_TOLERANCE_VIOLATED, text)
-            return
-        if self._monitors.due(self._time_ns):
-            self._server.publish_feedback(self._desired_fields(desired))
-
-    def _has_arrived(self, joint: JointHardware, position: float, number: int, tolerances: Tolerances) -> bool:
-        at = tolerances.goal[number] <= 0.0 or abs(joint.error(position)) <= tolerances.goal[number]
-        return at and (tolerances.stopped <= 0.0 or abs(joint.velocity) <= tolerances.stopped)
+    def _check_tolerances(self, segments: Sequence[PathSegment]) -> None:
+        """Settle the action where a joint has left its path or missed its goal, or all have reached it; the joints
+        follow their paths as before.
+        """
+        for number, (joint, path, on) in enumerate(zip(self._joints, self._paths, segments, strict=True)):
+            if on.goal != self._goal:
+                continue
+            position, velocity, _ = self._desired[number]
+            errors = joint.shortest_error(position), velocity - joint.velocity
+            if self._time_ns < on.segment.end_ns:
+                if not on.tolerances.path.allows(*errors):
+                    text = f"{joint.name} path error {errors[0]:.6f}"
+                    self._settle("aborted", GoalError.PATH_TOLERANCE_VIOLATED, text)
+                    return
+            elif on is path.segments[-1]:
+                if on.tolerances.goal.allows(*errors):
+                    self._arrived.add(number)
+                elif self._time_ns >= on.segment.end_ns + on.tolerances.time_ns + joint.settling_ns:
+                    text = f"{joint.name} goal error {errors[0]:.6f}"
+                    self._settle("aborted", GoalError.GOAL_TOLERANCE_VIOLATED, text)
+                    return
+        if len(self._arrived) == len(self._joints):
+            self._settle("succeeded", 0, "")
 
     def _settle(self, status: Any, code: int, text: str) -> None:
         if self._settled is not None:
             settle, self._settled = self._settled, None
             settle(_outcome(status, code, text))
 
-    def _desired_fields(self, desired: list[tuple[float, float, float]]) -> dict[str, Any]:
+    def _state_fields(self, first: PathSegment) -> dict[str, Any]:
+        """Fields of a JointTrajectoryControllerState, and of the action's feedback.
+
+        Args:
+            first: segment of the first joint, whose time counts.
+        """
         joints = self._joints
-        positions, velocities, accelerations = (list(values) for values in zip(*desired, strict=True))
+        positions, velocities, accelerations = (list(values) for values in zip(*self._desired, strict=True))
+        elapsed_ns = self._time_ns - first.segment.start_ns
+        from_start_ns = first.from_start_ns
         return {
-            "joint_names": [joint.name for joint in joints],
-            "desired": {"positions": positions, "velocities": velocities, "accelerations": accelerations},
-            "actual": {"positions": [j.position for j in joints], "velocities": [j.velocity for j in joints]},
+            "header": {"stamp": self._time_ns},
+            "joint_names": self._names,
+            "desired": {
+                "positions": positions,
+                "velocities": velocities,
+                "accelerations": accelerations,
+                "time_from_start": from_start_ns,
+            },
+            "actual": {
+                "positions": [joint.position for joint in joints],
+                "velocities": [joint.velocity for joint in joints],
+                "time_from_start": from_start_ns + elapsed_ns,
+            },
             "error": {
-                "positions": [j.error(p) for j, p in zip(joints, positions, strict=True)],
+                "positions": [j.shortest_error(p) for j, p in zip(joints, positions, strict=True)],
                 "velocities": [v - j.velocity for j, v in zip(joints, velocities, strict=True)],
+                "time_from_start": -elapsed_ns,
             },
         }
 

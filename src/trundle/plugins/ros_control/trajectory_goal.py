@@ -1,181 +1,250 @@
-"""Trajectory messages as splines of joints with tolerances."""
+"""Trajectory messages as paths of joints, which continue what the joints follow; rules of ros_controllers'
+initJointTrajectory.
+"""
 
 import math
-from collections.abc import Sequence
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from trundle.control import JointPoint, JointSpline
-from trundle.parameters import RosParameters
-from trundle.ros import Message, to_nsec
+from trundle.control import JointSegment, JointState
+from trundle.ros import to_nsec
+
+from .tolerances import JointTolerances
 
 if TYPE_CHECKING:
-    from trundle.ros.message_types import control_msgs, trajectory_msgs
+    from trundle.ros.message_types import trajectory_msgs
 
-_STOPPED = 0.01
-"""Default stopped_velocity_tolerance of the original [rad/s or m/s]."""
+NO_GOAL = 0
+"""Number of no action's goal."""
 _MAX_POINTS = 100_000
+_OTHER_JOINTS = "Cannot create trajectory from message. It does not contain the expected joints."
+_SIZES = "Size mismatch in trajectory point position, velocity or acceleration data."
+_NO_POSITIONS = "Size mismatch between trajectory point and vector specifying whether joints wrap around."
 
 
 class GoalError(ValueError):
     """Trajectory that cannot be followed; `code` is control_msgs/FollowJointTrajectoryResult's."""
 
-    INVALID_GOAL, INVALID_JOINTS, OLD_HEADER_TIMESTAMP = -1, -2, -3
+    INVALID_GOAL, INVALID_JOINTS = -1, -2
     PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED = -4, -5
 
-    def __init__(self, code: int, text: str) -> None:
+    def __init__(self, text: str, code: int = INVALID_GOAL) -> None:
         super().__init__(text)
         self.code = code
 
 
-class Tolerances(Struct, frozen=True, kw_only=True):
-    """Tolerances of a trajectory; 0: none is checked."""
+class PathSegment(Struct, frozen=True):
+    """Segment of a joint's path."""
 
-    path: tuple[float, ...]
-    """Error of each joint on the path [rad or m]."""
-    goal: tuple[float, ...]
-    """Error of each joint at the goal [rad or m]."""
-    stopped: float
-    """Velocity of every joint at the goal [rad/s or m/s]."""
-    time_s: float
-    """Delay of reaching the goal [s]."""
-
-    def with_goal(self, goal: "control_msgs.FollowJointTrajectoryGoal", joints: Sequence[str]) -> "Tolerances":
-        """Replace tolerances by those of an action's goal; a negative one is not checked."""
-
-        def merged(usual: tuple[float, ...], asked: Sequence[Message]) -> tuple[float, ...]:
-            named = {str(item.name): float(item.position) for item in asked}
-            values = (named.get(joint, 0.0) or ours for joint, ours in zip(joints, usual, strict=True))
-            return tuple(max(value, 0.0) for value in values)
-
-        time_s = to_nsec(goal.goal_time_tolerance) / 1e9
-        return replace(
-            self,
-            path=merged(self.path, goal.path_tolerance),
-            goal=merged(self.goal, goal.goal_tolerance),
-            time_s=time_s if time_s > 0.0 else self.time_s,
-        )
+    segment: JointSegment
+    goal: int = NO_GOAL
+    """Number of the action's goal that it belongs to."""
+    tolerances: JointTolerances = JointTolerances()
+    from_start_ns: int = 0
+    """time_from_start of its first point [ns]."""
 
 
-def read_tolerances(constraints: RosParameters, joints: Sequence[str]) -> Tolerances:
-    """Read the parameters `constraints`."""
-    own = [constraints.section(joint) for joint in joints]
-    return Tolerances(
-        path=tuple(each.number("trajectory", 0.0) for each in own),
-        goal=tuple(each.number("goal", 0.0) for each in own),
-        stopped=constraints.number("stopped_velocity_tolerance", _STOPPED),
-        time_s=constraints.number("goal_time", 0.0),
-    )
+class JointPath:
+    """Segments that a joint follows, in order of their starts; each ends where the next one starts."""
+
+    def __init__(self, segments: list[PathSegment]) -> None:
+        """Make a path of at least one segment."""
+        self.segments = segments
+        self._starts = [each.segment.start_ns for each in segments]
+
+    def index_at(self, time_ns: int) -> int:
+        """Index of the segment at a time; −1 before the first."""
+        return bisect_right(self._starts, time_ns) - 1
+
+    def at(self, time_ns: int) -> PathSegment:
+        """Segment at a time, or the first one."""
+        return self.segments[max(self.index_at(time_ns), 0)]
+
+    def state_at(self, time_ns: int) -> JointState:
+        """Position, velocity and acceleration at a time."""
+        return JointState(*self.at(time_ns).segment.sample(time_ns))
 
 
-class SampledTrajectory:
-    """Splines of all joints from a start time."""
-
-    def __init__(self, points: list[list[JointPoint]], start_ns: int, tolerances: Tolerances) -> None:
-        """Fit splines to the points of each joint; their times count from `start_ns`."""
-        self._points = points
-        self._splines = [JointSpline(each) for each in points]
-        self._start_ns = start_ns
-        self.tolerances = tolerances
-
-    @classmethod
-    def hold_position(cls, positions: Sequence[float], start_ns: int, tolerances: Tolerances) -> "SampledTrajectory":
-        """Hold positions."""
-        return cls([[JointPoint(0.0, position)] for position in positions], start_ns, tolerances)
-
-    @property
-    def end_ns(self) -> int:
-        """End time of the longest spline [ns]."""
-        return self._start_ns + round(max(spline.end_s for spline in self._splines) * 1e9)
-
-    def sample(self, time_ns: int) -> list[tuple[float, float, float]]:
-        """Position, velocity and acceleration of each joint."""
-        time_s = (time_ns - self._start_ns) / 1e9
-        return [spline.sample(time_s) for spline in self._splines]
-
-    def unwind(self, number: int) -> None:
-        """Shift a continuous joint by whole turns, so that it takes the shorter way to its first point."""
-        start, *rest = self._points[number]
-        if not rest:
-            return
-        turns = round((start.position - rest[0].position) / math.tau) * math.tau
-        self._points[number] = [start, *(replace(point, position=point.position + turns) for point in rest)]
-        self._splines[number] = JointSpline(self._points[number])
+def holding_path(position: float, time_ns: int, *, goal: int = NO_GOAL) -> JointPath:
+    """Hold a position from a time on."""
+    held = JointState(position, 0.0, 0.0)
+    return JointPath([PathSegment(JointSegment.between(time_ns, held, time_ns, held), goal)])
 
 
-def read_trajectory(
-    trajectory: "trajectory_msgs.JointTrajectory",
-    joints: Sequence[str],
-    now: Sequence[tuple[float, float, float]],
-    now_ns: int,
-    tolerances: Tolerances,
-    *,
-    partial: bool,
-) -> SampledTrajectory:
-    """Read a trajectory_msgs/JointTrajectory.
+def stopping_path(
+    position: float, velocity: float, time_ns: int, duration_ns: int, *, goal: int = NO_GOAL
+) -> JointPath:
+    """Slow down from a state to rest.
 
-    Args:
-        trajectory: the message, with at least one point.
-        joints: of the controller.
-        now: desired position, velocity and acceleration of each joint now.
-        now_ns: current time [ns].
-        tolerances: of the trajectory.
-        partial: True if joints may be missing; these hold.
-
-    Raises:
-        GoalError: other joints, or an invalid trajectory.
+    The rest is half-way on the segment that returns to the position with the opposite velocity after twice the time.
     """
-    names = [str(name) for name in trajectory.joint_names]
-    missing, unknown = [j for j in joints if j not in names], [n for n in names if n not in joints]
-    if unknown or (missing and not partial) or len(set(names)) != len(names):
-        wanted, got = ", ".join(joints), ", ".join(names) or "none"
-        raise GoalError(
-            GoalError.INVALID_JOINTS, f"the joints of this controller are {wanted}; the trajectory has {got}"
+    start, back = JointState(position, velocity, 0.0), JointState(position, -velocity, 0.0)
+    there_and_back = JointSegment.between(time_ns, start, time_ns + 2 * duration_ns, back)
+    rest = JointState(*there_and_back.sample(time_ns + duration_ns))
+    return JointPath([PathSegment(JointSegment.between(time_ns, start, time_ns + duration_ns, rest), goal)])
+
+
+class PathReader:
+    """Reads trajectories for the joints of one controller."""
+
+    def __init__(
+        self, joints: Sequence[str], continuous: Sequence[bool], *, partial: bool, warn: Callable[[str], None]
+    ) -> None:
+        """Read for some joints.
+
+        Args:
+            joints: of the controller.
+            continuous: True for a joint that takes the shorter way round.
+            partial: True if joints may be missing; these go on as before.
+            warn: takes what is left out.
+        """
+        self._joints, self._continuous, self._partial, self._warn = list(joints), continuous, partial, warn
+
+    def check_joints(self, trajectory: "trajectory_msgs.JointTrajectory", error: str, code: int) -> None:
+        """Check that a trajectory has the controller's joints.
+
+        Raises:
+            GoalError: with an error's text and code; it has others.
+        """
+        there, names = self._joints, trajectory.joint_names
+        fits = len(names) == len(there) or (self._partial and 0 < len(names) < len(there))
+        if not fits or any(name not in there for name in names):
+            got = ", ".join(map(str, names)) or "none"
+            raise GoalError(f"{error} They are {', '.join(there)}; it has {got}.", code)
+
+    def read(
+        self,
+        trajectory: "trajectory_msgs.JointTrajectory",
+        current: Sequence[JointPath],
+        now_ns: int,
+        tolerances: Sequence[JointTolerances] | None,
+        goal: int,
+    ) -> list[JointPath]:
+        """Read a trajectory_msgs/JointTrajectory.
+
+        Args:
+            trajectory: the message, with at least one point.
+            current: paths that the joints follow; they do until the trajectory starts.
+            now_ns: time of the next update; points up to it are left out.
+            tolerances: of the action's goal; None: it comes from the topic.
+            goal: number of the action's goal.
+
+        Raises:
+            GoalError: other joints, or an invalid trajectory.
+        """
+        points = trajectory.points
+        if len(points) > _MAX_POINTS:
+            raise GoalError(f"{len(points)} points are more than {_MAX_POINTS}")
+        begin_ns = to_nsec(trajectory.header.stamp) or now_ns
+        times = [begin_ns + to_nsec(point.time_from_start) for point in points]
+        if any(b <= a for a, b in pairwise(times)):
+            raise GoalError("Trajectory message contains waypoints that are not strictly increasing in time.")
+        self.check_joints(trajectory, _OTHER_JOINTS, GoalError.INVALID_GOAL)
+        columns = [self._joints.index(name) for name in trajectory.joint_names]
+        dropped = bisect_right(times, now_ns)
+        self._check_dropped(times, dropped, now_ns, stamped=to_nsec(trajectory.header.stamp) != 0)
+        paths = [_with_goal(path, now_ns, goal) for path in current]
+        for column, joint in enumerate(columns):
+            states = [
+                _state(point, column, first=number == 0, width=len(columns))
+                for number, point in enumerate(points[dropped:])
+            ]
+            make = _SegmentMaker(goal, JointTolerances() if tolerances is None else tolerances[joint])
+            paths[joint] = _continued(
+                current[joint], now_ns, begin_ns, times[dropped:], states, make, wraps=self._continuous[joint]
+            )
+        return paths
+
+    def _check_dropped(self, times: Sequence[int], dropped: int, now_ns: int, *, stamped: bool) -> None:
+        """Warn of points that are left out, except of a first one that says where the joints are now."""
+        if dropped == len(times):
+            late_s = (now_ns - times[-1]) / 1e9
+            raise GoalError(
+                f"Dropping all {dropped} trajectory point(s), as they occur before the current time.\n"
+                f"Last point is {late_s:.6f}s in the past."
+            )
+        if dropped == 0 or (dropped == 1 and times[0] == now_ns and not stamped):
+            return
+        self._warn(
+            f"Dropping first {dropped} trajectory point(s) out of {len(times)}, as they occur before the current "
+            f"time.\nFirst valid point will be reached in {(times[dropped] - now_ns) / 1e9:.3f}s."
         )
-    begin_ns = to_nsec(trajectory.header.stamp) or now_ns
-    times = [(begin_ns - now_ns + to_nsec(point.time_from_start)) / 1e9 for point in trajectory.points]
-    if len(times) > _MAX_POINTS:
-        raise GoalError(GoalError.INVALID_GOAL, f"{len(times)} points are more than {_MAX_POINTS}")
-    if any(b <= a for a, b in pairwise(times)):
-        raise GoalError(GoalError.INVALID_GOAL, "time_from_start must grow from point to point")
-    if times[-1] < 0.0:
-        raise GoalError(GoalError.OLD_HEADER_TIMESTAMP, "the whole trajectory lies in the past")
-    columns: list[list[JointPoint]] = []
-    for joint, (position, velocity, acceleration) in zip(joints, now, strict=True):
-        start = [JointPoint(0.0, position, velocity, acceleration)]
-        if joint not in names:
-            columns.append([JointPoint(0.0, position)])
-            continue
-        if begin_ns > now_ns:  # hold until the trajectory begins
-            start = [JointPoint(0.0, position), JointPoint((begin_ns - now_ns) / 1e9, position, 0.0, 0.0)]
-        column = names.index(joint)
-        points = [
-            _point(time_s, point, column, len(names))
-            for time_s, point in zip(times, trajectory.points, strict=True)
-            if time_s > start[-1].time_s
-        ]
-        if not points:  # all points are in the past
-            start = []
-            points = [_point(0.0, trajectory.points[-1], column, len(names))]
-        columns.append([*start, *points])
-    return SampledTrajectory(columns, now_ns, tolerances)
 
 
-def _point(time_s: float, point: "trajectory_msgs.JointTrajectoryPoint", column: int, width: int) -> JointPoint:
-    def value(what: str) -> float | None:
-        values = getattr(point, what)
-        if len(values) == 0:
-            return None
-        if len(values) != width or not math.isfinite(values[column]):
-            raise GoalError(GoalError.INVALID_GOAL, f"{what} of a point are not {width} finite numbers")
-        return float(values[column])
+class _SegmentMaker(Struct, frozen=True):
+    """Makes the segments of one joint and goal."""
 
-    position = value("positions")
-    if position is None:
-        raise GoalError(
-            GoalError.INVALID_GOAL, "a point has no positions; trajectories of velocities only are not supported"
-        )
-    return JointPoint(time_s, position, value("velocities"), value("accelerations"))
+    goal: int
+    tolerances: JointTolerances
+
+    def between(
+        self, start_ns: int, start: JointState, end_ns: int, end: JointState, *, from_start_ns: int = 0
+    ) -> PathSegment:
+        try:
+            segment = JointSegment.between(start_ns, start, end_ns, end)
+        except ValueError as error:
+            raise GoalError(f"Quintic spline segment can't be constructed: {error}.") from None
+        return PathSegment(segment, self.goal, self.tolerances, from_start_ns)
+
+
+def _with_goal(path: JointPath, now_ns: int, goal: int) -> JointPath:
+    """Return a path that goes on, as part of a goal that does not name its joint."""
+    first = path.index_at(now_ns)
+    if first < 0:
+        return path
+    return JointPath([*path.segments[:first], *(replace(each, goal=goal) for each in path.segments[first:])])
+
+
+def _continued(
+    current: JointPath,
+    now_ns: int,
+    begin_ns: int,
+    times: Sequence[int],
+    states: Sequence[JointState],
+    make: _SegmentMaker,
+    *,
+    wraps: bool,
+) -> JointPath:
+    """Return the current path up to the trajectory's start, a bridge to its first point, and the rest."""
+    leave_ns = max(begin_ns, now_ns)
+    left = current.state_at(leave_ns)
+    if wraps:
+        offset = _wraparound(left.position, states[0].position)
+        states = [replace(state, position=state.position + offset) for state in states]
+    kept = current.segments[max(current.index_at(now_ns), 0) : current.index_at(leave_ns) + 1]
+    ends = list(zip(times, states, strict=True))
+    later = [make.between(a_ns, a, b_ns, b, from_start_ns=a_ns - begin_ns) for (a_ns, a), (b_ns, b) in pairwise(ends)]
+    return JointPath([*kept, make.between(leave_ns, left, *ends[0]), *later])
+
+
+def _wraparound(start: float, end: float) -> float:
+    """Return the whole turns to add to an end, so that the way there is the shorter one; half a turn keeps its
+    direction.
+    """
+    way = math.remainder(end - start, math.tau)
+    if abs(abs(way) - math.pi) < 1e-9:
+        way = math.copysign(way, end - start)
+    return start + way - end
+
+
+def _state(point: "trajectory_msgs.JointTrajectoryPoint", column: int, *, first: bool, width: int) -> JointState:
+    """Read a joint's state of a point; positions of more joints than the trajectory names are left out."""
+    count = len(point.positions)
+    if any(len(values) not in (0, count) for values in (point.velocities, point.accelerations)):
+        raise GoalError(_SIZES)
+    if not count:
+        start_end = "Can't construct segment from ROS message: Start/end points data size mismatch."
+        raise GoalError(_NO_POSITIONS if first else start_end)
+    if count < width:
+        raise GoalError(_SIZES)
+    values = [float(each[column]) for each in (point.positions, point.velocities, point.accelerations) if len(each)]
+    if not all(map(math.isfinite, values)):
+        raise GoalError("A trajectory point has a value that is not finite.")
+    velocity = float(point.velocities[column]) if len(point.velocities) else None
+    acceleration = float(point.accelerations[column]) if len(point.accelerations) else None
+    return JointState(float(point.positions[column]), velocity, acceleration)
