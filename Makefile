@@ -10,7 +10,7 @@ NPM    := $(BIN)/python web/npm.py
 CLIENT := src/trundle/page/client/index.html
 WEB    := $(shell find web -path web/node_modules -prune -o -path web/test -prune -o -type f -print)
 
-.PHONY: demo test test-all check lint types tidy format docs film bench load dist system clean help
+.PHONY: demo test test-all check lint types tidy format docs film bench load fuzz dist system clean help
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
@@ -68,8 +68,8 @@ check: $(READY)  ## lint, types, layers, the format of C++
 lint: $(READY)
 	$(BIN)/python cpp/lint.py format --check
 	$(BIN)/python cpp/lint.py tidy --changed
-	$(BIN)/ruff check src tests bench examples docs cpp web
-	$(BIN)/ruff format --check src tests bench examples docs cpp web
+	$(BIN)/ruff check src tests bench fuzz examples docs cpp web
+	$(BIN)/ruff format --check src tests bench fuzz examples docs cpp web
 	$(BIN)/lint-imports
 	$(NPM) run --silent check
 
@@ -82,8 +82,8 @@ tidy: $(READY)  ## clang-tidy over all of cpp/ (installs it, 46 MB)
 
 format: $(READY)  ## rewrite the code in house style
 	$(BIN)/python cpp/lint.py format
-	$(BIN)/ruff check --fix src tests bench examples docs cpp web
-	$(BIN)/ruff format src tests bench examples docs cpp web
+	$(BIN)/ruff check --fix src tests bench fuzz examples docs cpp web
+	$(BIN)/ruff format src tests bench fuzz examples docs cpp web
 	$(NPM) run --silent format
 	$(BIN)/python typings/message_types.py
 	$(BIN)/python docs/generate/sensor_topics.py
@@ -99,6 +99,15 @@ bench: $(READY)  ## figures, as ratios against a peer in the same run
 
 load: $(READY)  ## ten minutes (SECONDS=60: one) of 200 topics at 100 Hz to 50 nodes
 	$(BIN)/python -m bench.load $(SECONDS)
+
+fuzz: $(VENV)/.fuzz  ## ten minutes (SECONDS=3600: an hour) of damaged inputs for every reader and socket (TARGET=stl: one)
+	$(BIN)/python -m fuzz $(TARGET) $(if $(SECONDS),--seconds $(SECONDS))
+
+# Atheris guides by coverage; without it inputs are random.
+$(VENV)/.fuzz: $(READY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt atheris || \
+	  echo "PyPI brought no atheris: inputs of make fuzz are not guided by coverage"
+	@touch $@
 
 dist: dist/.built  ## sdist and wheels, checked, in dist/
 

@@ -1,0 +1,31 @@
+"""Names of all targets; the module of each is imported when it is its turn."""
+
+import importlib
+
+from .target import Target
+
+_FAMILIES = {
+    "descriptions": ("sdf", "urdf", "xacro", "model.config", "package.xml", "material", "scene"),
+    "launches": ("launch", "yaml", "map"),
+    "messages": ("msg", "srv", "action", "definition", "cfg", "message"),
+    "meshes": ("stl", "obj", "dae", "glb", "skin", "bvh"),
+    "images": ("png", "jpeg", "tiff", "dem"),
+    "recordings": ("bag", "rosrecord", "mcap", "state-log"),
+    "plans": ("sweep", "dataset"),
+    "graph": ("xmlrpc", "slave", "tcpros", "tcpros-client", "service-client"),
+    "web": ("foxglove", "http", "upload", "zip", "rosbridge", "rosbridge-tcp"),
+}
+TARGETS = {name: family for family, names in _FAMILIES.items() for name in names}
+"""Target → module."""
+NATIVE = frozenset(
+    {
+        "scene", "msg", "srv", "action", "definition", "message", "stl", "obj", "dae", "glb", "bag", "rosrecord",
+        "mcap", "tcpros", "tcpros-client", "service-client", "foxglove", "rosbridge", "rosbridge-tcp",
+    }
+)  # fmt: skip
+"""Targets that reach the C++, and so run with sanitizers."""
+
+
+def load_target(name: str) -> Target:
+    """Import a target."""
+    return importlib.import_module(f".{TARGETS[name]}", __package__).TARGETS[name]

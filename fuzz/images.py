@@ -1,0 +1,50 @@
+"""Pictures: textures of meshes, and heights of terrain."""
+
+from pathlib import Path
+
+from trundle.meshes import mean_colour, png_of, read_heights
+from trundle.render import load_texture
+
+from .seeds import picture
+from .target import Open, Target, reads_file
+
+
+def _textures(name: str) -> Open:
+    def read(file: Path) -> None:
+        mean_colour(file)
+        data = file.read_bytes()
+        load_texture(data)
+        png_of(data)
+
+    return reads_file(name, read)
+
+
+TARGETS = {
+    "png": Target(
+        open=_textures("t.png"),
+        seeds=lambda: [picture("PNG", mode) for mode in ("RGB", "RGBA", "L", "P", "1", "I;16")],
+        words=(b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND", b"gAMA", b"zTXt", b"iCCP", b"acTL", b"fcTL"),
+        corpus=("repos/**/*.png",),
+    ),
+    "jpeg": Target(
+        open=_textures("t.jpg"),
+        seeds=lambda: [picture("JPEG"), picture("JPEG", "L"), picture("JPEG", progressive=True)],
+        words=(b"\xff\xd8", b"\xff\xc0", b"\xff\xc2", b"\xff\xda", b"\xff\xdb", b"\xff\xc4", b"\xff\xe1Exif\0\0",
+        b"\xff\xd9"), corpus=("repos/**/*.jpg",),
+    ),
+    "tiff": Target(
+        open=_textures("t.tif"),
+        seeds=lambda: [
+            picture("TIFF"), picture("TIFF", "L", compression="tiff_lzw"),
+            picture("TIFF", compression="tiff_adobe_deflate"), picture("TIFF", "I;16"), picture("TIFF", "F"),
+        ],
+        words=(b"II*\0", b"MM\0*", b"II+\0", b"\x01\x01", b"\x53\x01", b"\x03\x01"),
+    ),
+    "dem": Target(
+        open=reads_file("h.png", read_heights),
+        seeds=lambda: [
+            picture("PNG", "L"), picture("PNG", "I;16"), picture("TIFF", "F"), picture("TIFF", "I;16"),
+            picture("PPM", "L"),
+        ],
+    ),
+}  # fmt: skip
