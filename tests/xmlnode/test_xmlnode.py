@@ -101,6 +101,12 @@ def test_no_fault_is_worded_as_the_xml_library_does(text: str) -> None:
     assert (original.value.msg or "").partition(", line")[0] not in error.value.what
 
 
+def test_half_a_character_is_refused_in_a_sentence() -> None:
+    """JSON can hold one, as a state log's header."""
+    with pytest.raises(DescriptionError, match="log:1: error: "):
+        parse_xml("<\ud800 a='1'/>", name="log", report=Diagnostics())
+
+
 def test_an_entity_bomb_is_refused_before_it_grows() -> None:
     entities = "".join(f'<!ENTITY e{i + 1} "{f"&e{i};" * 10}">' for i in range(12))
 

@@ -34,7 +34,7 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     Raises:
         DescriptionError: not XML, empty, or beyond the size or depth limit.
     """
-    data = text.encode() if isinstance(text, str) else text
+    data = text.encode(errors="surrogatepass") if isinstance(text, str) else text  # JSON can hold halves of characters
     if len(data) > _MAX_BYTES:
         raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
     if not data.strip():
