@@ -233,6 +233,22 @@ def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     assert "node /c: launch-prefix 'nice' is not used; the stand-in runs within this process" in done.stderr
 
 
+def test_a_prefix_that_cannot_start_a_node_is_left_out(launch: Launch, package: Path) -> None:
+    """The node runs without it, and its output is shown."""
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="a" args="0" launch-prefix="no_such_debugger -ex run --args"/>'
+        '<node pkg="p" type="talk" name="b" args="0" launch-prefix="env A=1"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless", "--duration", "0.1")
+
+    where = f"{package / 'main.launch'}:1: warning: node /a: "
+    prefix = "launch-prefix 'no_such_debugger -ex run --args' is left out: there is no no_such_debugger here"
+    assert where + prefix in done.stderr
+    assert "/b: launch-prefix" not in done.stderr
+    assert "hello 0 __name:=a" in done.stdout
+    assert "hello 0 __name:=b" not in done.stdout, "its output is in the log"
+
+
 def test_rosparam_dumps_and_deletes_what_was_there_before(launch: Launch, trundle, package: Path) -> None:
     """As roslaunch does, which runs both before it sets anything: launch files clear a node's old parameters so."""
     (package / "main.launch").write_text(

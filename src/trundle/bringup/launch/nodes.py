@@ -1,7 +1,9 @@
 """Jobs of a launch file's nodes: processes, or stand-ins in this process."""
 
 import contextlib
+import os
 import shlex
+import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -32,6 +34,11 @@ from trundle.yaml_loader import load_yaml
 from ..graph import Graph
 from ..missing_nodes import is_here, report_missing_node
 from .logs import ros_home
+
+_TERMINALS = """
+    gnome-terminal konsole lxterminal mate-terminal rxvt terminator uxterm x-terminal-emulator xfce4-terminal xterm
+"""
+"""Programs that open a window for a node."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,7 +100,12 @@ class NodeStarter:
             case Executable(path):
                 if fault := script_fault(path):
                     self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")
-                job = ProcessJob(self._command(node, label, path, env, more), show, tree=self.tree)
+                prefix = _split(node.launch_prefix, node)
+                if prefix and (fault := _prefix_fault(prefix, env)):
+                    what = f"launch-prefix {node.launch_prefix!r} is left out: {fault}"
+                    self.report.warn(node.at, f"node {node.full_name}: {what}")
+                    prefix = []
+                job = ProcessJob(self._command(node, label, path, env, prefix, more), show, tree=self.tree)
                 logs = f"{self.log_folder / name}*.log"
                 return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
             case BuiltinReplacement() as stand_in:
@@ -136,13 +148,19 @@ class NodeStarter:
             return await run_builtin_node(stand_in, ros_node, list(given.rest), host)
 
     def _command(
-        self, node: LaunchNode, label: str, program: Path, env: Mapping[str, str], more: tuple[str, ...]
+        self,
+        node: LaunchNode,
+        label: str,
+        program: Path,
+        env: Mapping[str, str],
+        prefix: list[str],
+        more: tuple[str, ...],
     ) -> ProcessCommand:
         log = self.log_folder / label.replace("/", "-")
         return ProcessCommand(
             name=label,
             argv=(
-                *_split(node.launch_prefix, node),
+                *prefix,
                 *start_words(program, env),
                 str(program),
                 *_split(node.arguments, node),
@@ -153,9 +171,19 @@ class NodeStarter:
             ),
             env=with_finder(env, self.packages.package_folders()),
             cwd=program.parent if node.cwd == "node" else ros_home(env),
-            output=self.output or node.output,
+            output=self.output or ("screen" if node.launch_prefix and not prefix else node.output),
             log_file=log.with_name(f"{log.name}-stdout.log"),
         )
+
+
+def _prefix_fault(prefix: list[str], env: Mapping[str, str]) -> str | None:
+    """Return why a launch-prefix cannot start a node here; None: it can."""
+    program = Path(prefix[0]).name
+    if shutil.which(prefix[0], path=env.get("PATH", os.defpath)) is None:
+        return f"there is no {program} here"
+    if program in _TERMINALS.split() and not (env.get("DISPLAY") or env.get("WAYLAND_DISPLAY")):
+        return f"{program} needs a display; keys reach a node that is started by itself, with rosrun"
+    return None
 
 
 def _split(text: str, node: LaunchNode) -> list[str]:
