@@ -53,6 +53,25 @@ def test_another_python_of_the_same_version_keeps_its_libraries(tmp_path: Path) 
         _printed(code, python=python, **other)
 
 
+@pytest.mark.parametrize(
+    ("module", "advice"),
+    [
+        ("cv2.aruco", f"no module 'cv2' in this Python; {sys.executable} -m pip install opencv-python"),
+        ("no_such_library", f"{sys.executable} -m pip install no_such_library"),
+        ("PyQt4", "it ended with Python 2; PyQt5 is its successor"),
+        ("robotnik_msgs", "'robotnik_msgs' is a ROS package: trundle pack get robotnik_msgs"),
+    ],
+)
+def test_a_missing_module_is_told_where_it_comes_from(module: str, advice: str) -> None:
+    code = f"import sys; sys.modules.update(cv2=None) if {module!r}[:3] == 'cv2' else None; import {module}"
+    words = [sys.executable, "-c", code]
+    done = subprocess.run(words, env=with_finder(os.environ), capture_output=True, text=True, check=False)
+
+    assert done.returncode == 1
+    assert "ModuleNotFoundError: " in done.stderr
+    assert done.stderr.splitlines()[-1].endswith(advice)
+
+
 def test_the_pth_of_trundle_rospy_makes_them_importable(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
     site = next((tmp_path / "venv").glob("**/site-packages"))

@@ -14,6 +14,7 @@ TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from importlib.abc import Loader
+    from types import TracebackType
     from typing import Any
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
@@ -90,9 +91,20 @@ class RosFinder:
 
 
 def install() -> None:
-    """Append the finder, once."""
-    if not any(isinstance(finder, RosFinder) for finder in sys.meta_path):
-        sys.meta_path.append(RosFinder())
+    """Append the finder, and advice to the traceback of a missing module; once."""
+    if any(isinstance(finder, RosFinder) for finder in sys.meta_path):
+        return
+    sys.meta_path.append(RosFinder())
+    before = sys.excepthook
+
+    def advise(kind: type[BaseException], error: BaseException, trace: "TracebackType | None") -> None:
+        before(kind, error, trace)
+        if isinstance(error, ModuleNotFoundError) and error.name:
+            from .missing_libraries import missing_module_advice
+
+            sys.stderr.write(f"{missing_module_advice(error.name)}\n")
+
+    sys.excepthook = advise
 
 
 def _loader(loader: "Any") -> "Loader":
