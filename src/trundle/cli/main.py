@@ -17,6 +17,7 @@ from typing import Protocol, cast
 from trundle import __version__
 from trundle.diagnostics import TrundleError
 from trundle.names import Arguments, parse_arguments
+from trundle.shortage import shortage
 
 from .help_text import HelpFormatter, describe
 from .originals import ORIGINALS
@@ -92,6 +93,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _main(arguments)
     except KeyboardInterrupt:
         return EXIT_OK if arguments and arguments[0] in _OF_ROS else EXIT_INTERRUPTED
+    except Exception as error:
+        if (reason := shortage(error)) is None:
+            raise
+        print(f"trundle: error: {reason}", file=sys.stderr)
+        return EXIT_INPUT
 
 
 def run_command(command: Sequence[str], arguments: Sequence[str]) -> int:
@@ -175,6 +181,8 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
         _discard_stdout()
         return EXIT_OK
     except OSError as error:  # mostly files that cannot be written
+        if shortage(error) is not None:
+            raise
         if error.filename is not None:
             print(f"{program}: error: {error.filename}: {error.strerror}", file=sys.stderr)
         elif error.errno in _DISK_ERRORS:

@@ -76,6 +76,6 @@ def test_without_descriptors_it_says_so_once_and_accepts_when_there_are_some(*, 
             client.close()
     assert process.returncode == 0
     assert said == (
-        "this process accepts no connection for now: all files that it may have open are (30; ulimit -n): "
-        "close clients, or raise the limit\n"
+        "this process has as many files open as it may (30; ulimit -n): close some, or raise the limit; "
+        "connections are accepted again then\n"
     )

@@ -1,18 +1,14 @@
 """Event loop that closes everything opened in it, and orderly closing of servers."""
 
 import asyncio
-import errno
 import logging
 from collections.abc import Coroutine, Mapping
 from typing import Any
 from weakref import WeakSet
 
-from .fast_selector import FastSelector
+from trundle.shortage import shortage
 
-try:
-    import resource  # at once: without a descriptor nothing can be imported
-except ImportError:  # Windows limits no files
-    resource = None
+from .fast_selector import FastSelector
 
 _log = logging.getLogger(__name__)
 _OPENING_S, _ENDING_S = 1.0, 1.0
@@ -21,13 +17,6 @@ _ENDING_ROUNDS = 10
 """Rounds of closing, for what is opened meanwhile."""
 _PASSES = 5
 """Passes of the loop in which a transport opens or closes its socket."""
-_SHORTAGES = {
-    errno.EMFILE: "all files that it may have open are (LIMIT; ulimit -n): close clients, or raise the limit",
-    errno.ENFILE: "all files that the system may have open are (fs.file-max): end programs, or raise the limit",
-    errno.ENOBUFS: "the system has no memory for sockets: close clients",
-    errno.ENOMEM: "the system has no memory for sockets: close clients",
-}
-"""Reasons why a connection cannot be accepted for now, and what to do; asyncio tries again after a second."""
 _SAME_SHORTAGE_S = 10.0
 """A shortage that recurs within this time is not reported again."""
 
@@ -41,7 +30,7 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         """Listening servers."""
         self._opening: set[asyncio.Task[asyncio.Server]] = set()
         self._shortage_s = -_SAME_SHORTAGE_S
-        """Time when a connection could last not be accepted."""
+        """Time of the last shortage."""
 
     async def create_server(self, *args: Any, backlog: int = 100, **options: Any) -> asyncio.Server:
         """Create a server that is closed at the end even if its creator is cancelled."""
@@ -67,12 +56,12 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         return server
 
     def default_exception_handler(self, context: dict[str, Any]) -> None:
-        """Report that connections cannot be accepted in one sentence, anything else as asyncio does."""
+        """Report in one sentence what the process ran out of, anything else as asyncio does."""
         error = context.get("exception")
-        if "socket" in context and isinstance(error, OSError) and error.errno in _SHORTAGES:
+        if (reason := shortage(error)) is not None:
             if self.time() > self._shortage_s + _SAME_SHORTAGE_S:
-                reason = _SHORTAGES[error.errno].replace("LIMIT", _max_open_files())
-                _log.error("this process accepts no connection for now: %s", reason)
+                accepts = "; connections are accepted again then" if "socket" in context else ""
+                _log.error("%s%s", reason, accepts)
             self._shortage_s = self.time()
         elif not (isinstance(error, ValueError) and "_start_serving" in context["message"]):
             # ValueError: the server was closed before asyncio tried to accept again
@@ -119,10 +108,6 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         self._opening.discard(task)
         if not task.cancelled() and task.exception() is None:
             self._servers.add(task.result())
-
-
-def _max_open_files() -> str:
-    return "as many as the system allows" if resource is None else str(resource.getrlimit(resource.RLIMIT_NOFILE)[0])
 
 
 async def close_server(server: asyncio.Server) -> None:

@@ -1,0 +1,45 @@
+"""What a process has run out of: open files, memory, threads."""
+
+import errno
+import os
+
+try:
+    import resource  # at once: without a descriptor nothing can be imported
+except ImportError:  # Windows has no such limits
+    resource = None
+
+_NO_MEMORY = ("failed to map segment", "annot allocate memory")
+"""Parts of what the dynamic linker and libraries say."""
+_MIB = 1 << 20
+
+
+def shortage(error: BaseException | None) -> str | None:
+    """Say what this process ran out of, its limit, and what to do; None for an error of another kind."""
+    number = error.errno if isinstance(error, OSError) else None
+    if number == errno.EMFILE:
+        limit = _limit("RLIMIT_NOFILE")
+        return f"this process has as many files open as it may ({limit}; ulimit -n): close some, or raise the limit"
+    if number == errno.ENFILE:
+        return "all programs together have as many files open as the system allows (fs.file-max): end some, or raise it"
+    if isinstance(error, MemoryError) or number == errno.ENOMEM or _is(error, ImportError, *_NO_MEMORY):
+        limit = _limit("RLIMIT_AS", _MIB)
+        return f"no memory is left (limit of this process [MiB]: {limit}; ulimit -v): end others, or raise the limit"
+    if number == errno.ENOBUFS:
+        return "the system has no memory left for sockets: end other programs"
+    if _is(error, BlockingIOError, os.strerror(errno.EAGAIN)) or _is(error, RuntimeError, "can't start new thread"):
+        processes, memory = _limit("RLIMIT_NPROC"), _limit("RLIMIT_AS", _MIB)
+        limits = f"limits: {processes} of them, ulimit -u; memory [MiB]: {memory}, ulimit -v"
+        return f"no further thread or process can be started ({limits}): end some, or raise the limit"
+    return None
+
+
+def _is(error: BaseException | None, kind: type[Exception], *parts: str) -> bool:
+    return isinstance(error, kind) and any(part in str(error) for part in parts)
+
+
+def _limit(name: str, unit: int = 1) -> str:
+    """Return a limit of this process, in units; 'none' where the system's own is reached."""
+    if resource is None:
+        return "none"
+    soft, _ = resource.getrlimit(getattr(resource, name))
+    return "none" if soft == resource.RLIM_INFINITY else str(soft // unit)

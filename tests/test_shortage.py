@@ -1,0 +1,69 @@
+"""A process that runs out of something says what, its limit, and what to do."""
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from trundle.cli import main
+from trundle.shortage import shortage
+
+_FEW_THREADS = """
+import sys, threading
+left, start = int(sys.argv[1]), threading.Thread.start
+def limited(thread):
+    global left
+    left -= 1
+    if left < 0:
+        raise RuntimeError("can't start new thread")
+    start(thread)
+threading.Thread.start = limited
+sys.argv[1:2] = []
+from trundle.__main__ import main
+sys.exit(main())
+"""
+"""Starts of threads fail as under RLIMIT_NPROC, which does not bind root."""
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="this system limits no process")
+
+
+@pytest.mark.parametrize(
+    ("error", "sentence"),
+    [
+        (OSError(errno.EMFILE, "x", "w.sdf"), "trundle: error: this process has as many files open as it may ("),
+        (MemoryError(), "trundle: error: no memory is left (limit of this process [MiB]: "),
+        (ImportError("libx.so: failed to map segment from shared object"), "trundle: error: no memory is left ("),
+    ],
+)
+def test_a_command_that_runs_out_of_something_ends_in_one_sentence(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], error: Exception, sentence: str
+) -> None:
+    def fail(_: object) -> int:
+        raise error
+
+    monkeypatch.setattr("trundle.cli.check.main", fail)
+    assert main(["check", "w.sdf"]) == 1
+    out, said = capsys.readouterr()
+    assert (out, said.count("\n")) == ("", 1)
+    assert said.startswith(sentence)
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_no_thread_is_one_sentence(tmp_path: Path, count: int) -> None:
+    words = [sys.executable, "-c", _FEW_THREADS, str(count), "core", "-p", "0"]
+    env = {**os.environ, "ROS_LOG_DIR": str(tmp_path)}
+    done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=100)
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    assert "no further thread or process can be started (limits: " in done.stderr
+
+
+def test_other_errors_are_none() -> None:
+    late = BlockingIOError(errno.EAGAIN, "write could not complete without blocking", 0)
+    assert [shortage(error) for error in (None, ValueError("x"), late, ImportError("x"), OSError(errno.EIO, "x"))] == [
+        None
+    ] * 5
+    assert "can be started" in str(shortage(BlockingIOError(errno.EAGAIN, os.strerror(errno.EAGAIN))))
