@@ -65,7 +65,7 @@ class WebAddress:
         return f"ROS has no access control: {who} may connect here; set ~token to ask for one"
 
     def url(self, scheme: str, port: int) -> str:
-        """URL of the server for the log; with the token if it is required, and nobody has set it."""
+        """URL of the server for the log; with the token if it is required, unless ~token sets it."""
         host = f"[{self.host}]" if ":" in self.host else self.host
         asks_token = not self.is_open and (self.has_own_token or self.is_public)
         query = f"/?token={'…' if self.has_own_token else self.token}" if asks_token else ""
