@@ -63,6 +63,17 @@ void ContactJacobian::find(const mjModel* m, const mjData* d, const mjContact& c
   }
 }
 
+double row_product(const mjModel* m, const mjData* d, int row, const double* vector) {
+  double sum = 0;
+  if (mujoco.mj_isSparse(m)) {
+    const int first = d->efc_J_rowadr[row];
+    for (int i = first; i < first + d->efc_J_rownnz[row]; ++i) sum += d->efc_J[i] * vector[d->efc_J_colind[i]];
+  } else {
+    for (int i = 0; i < m->nv; ++i) sum += d->efc_J[row * m->nv + i] * vector[i];
+  }
+  return sum;
+}
+
 bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const double along[3]) {
   double* frame = contact.frame;
   const double normal_part = dot(along, frame);

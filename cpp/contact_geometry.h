@@ -37,6 +37,9 @@ class ContactJacobian {
   std::vector<double> first_, second_;
 };
 
+// Product of a constraint row with a vector (nv).
+double row_product(const mjModel* m, const mjData* d, int row, const double* vector);
+
 // Turn a contact's first tangent, and its constraint rows, to a direction projected into the tangent plane; false if
 // the projection vanishes.
 bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const double along[3]);

@@ -20,6 +20,7 @@
 
 #include "contact_offset.h"
 #include "contact_recorder.h"
+#include "friction_pyramid.h"
 #include "friction_slip.h"
 #include "joint_stop.h"
 #include "law_tables.h"
@@ -68,6 +69,7 @@ void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   apply_damping(laws, m, d);
   apply_compliance(laws, m, d);
   hold_sliding(laws, m, d);
+  shape_pyramids(laws, m, d);
   approach_stops(m, d);
 }
 
@@ -79,6 +81,7 @@ void apply_static_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   }
   resist_slip(laws, m, d);
   apply_compliance(laws, m, d);
+  shape_pyramids(laws, m, d);
   approach_stops(m, d);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_geometry.h"
+#include "friction_pyramid.h"
 #include "mujoco_api.h"
 #include "velocity_motor.h"
 
@@ -35,16 +36,20 @@ Spring spring(const mjtNum* solref, double impedance) {
 // residual, and the dual cone offsets the normal row by μ times that.
 double lift(const mjContact& contact, const mjData* d, double h, const double* accelerations) {
   const double impedance = contact.solimp[1];
-  const bool own = contact.solreffriction[0] != 0 || contact.solreffriction[1] != 0;
   const Spring normal = spring(contact.solref, impedance);
-  const double damping = spring(own ? contact.solreffriction : contact.solref, impedance).damping;
+  const double decay = slip_decay(contact, h);
   const double stiffness = normal.stiffness * impedance;
-  double sum = 0;
+  double left[6] = {};
   for (int j = 1; j < contact.dim; ++j) {
     const int row = contact.efc_address + j;
-    const double left = contact.friction[j - 1] * (accelerations[row] + damping * d->efc_vel[row] / (1 + h * damping));
-    sum += left * left;
+    left[j] = contact.friction[j - 1] * std::abs(accelerations[row] + decay * d->efc_vel[row]);
   }
+  if (has_pyramid(contact)) {  // whose dual adds up
+    left[1] += left[2];
+    left[2] = 0;
+  }
+  double sum = 0;
+  for (const double each : left) sum += each * each;
   // The normal spring is implicit, which divides its reference by the same sum as R.
   const double whole = 1 + h * normal.damping + h * h * stiffness;
   // At an impact, friction that the previous step lacked holds with up to μ times the stopping force.
@@ -140,6 +145,12 @@ class Accelerations {
 thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Accelerations::next_;
 
 }  // namespace
+
+double slip_decay(const mjContact& contact, double h) {
+  const bool own = contact.solreffriction[0] != 0 || contact.solreffriction[1] != 0;
+  const double damping = spring(own ? contact.solreffriction : contact.solref, contact.solimp[1]).damping;
+  return damping / (1 + h * damping);
+}
 
 void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d) {
   if (laws.compliance.empty()) return;

@@ -16,4 +16,7 @@ void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d);
 // Keep sliding contacts down in this step; call after mj_fwdVelocity and `apply_compliance`.
 void hold_sliding(const LawTables& laws, const mjModel* m, mjData* d);
 
+// Rate at which friction that suffices reduces the slip of a contact [1/s].
+double slip_decay(const mjContact& contact, double h);
+
 }  // namespace trundle

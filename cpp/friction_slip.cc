@@ -155,10 +155,10 @@ void apply_force(const mjModel* m, mjData* d, SlippingContact& each, Group& grou
     force[t] = each.slip[t] > 0 ? force_along(each, t, share, speed, each.side * before) : 0.0;
     excess[t] = force[t] / std::max(each.friction[t] * last.load / share, 1e-12);
   }
-  const double sliding = std::max(std::sqrt(excess[0] * excess[0] + excess[1] * excess[1]), 1.0);
-  const double turning = std::max(std::abs(excess[2]), 1.0);
+  if (each.friction[0] == each.friction[1])  // a cone; else a pyramid
+    excess[0] = excess[1] = std::sqrt(excess[0] * excess[0] + excess[1] * excess[1]);
   for (int t = 0; t < 3; ++t) {
-    force[t] /= t < 2 ? sliding : turning;
+    force[t] /= std::max(std::abs(excess[t]), 1.0);
     for (int i = 0; i < nv; ++i) d->qfrc_passive[i] += force[t] * rows[(t + 1) * nv + i];
   }
   for (int i = 0; i < 3; ++i)

@@ -110,8 +110,9 @@ void Impacts::relax() {
         target[t] = impulse_[row] - change(row) / std::max(admittance_[row * count + row], 1e-12);
         ratio[t] = target[t] / std::max(impulse_[n] * impact.friction[t], 1e-12);
       }
-      const double excess = std::max(std::sqrt(ratio[0] * ratio[0] + ratio[1] * ratio[1]), 1.0);
-      for (int t = 0; t < 2; ++t) impulse_[n + 1 + t] = target[t] / excess;
+      if (impact.friction[0] == impact.friction[1])  // a cone; else a pyramid
+        ratio[0] = ratio[1] = std::sqrt(ratio[0] * ratio[0] + ratio[1] * ratio[1]);
+      for (int t = 0; t < 2; ++t) impulse_[n + 1 + t] = target[t] / std::max(std::abs(ratio[t]), 1.0);
     }
   }
 }

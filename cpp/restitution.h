@@ -2,7 +2,7 @@
 //
 // MuJoCo's soft contacts act over several steps, and the rebound then depends on the impact's phase within a step. So a
 // bouncing contact gets an impulse when it is found: normal velocities by Newton's law of restitution, friction within
-// Coulomb's cone, all contacts together by projected Gauss-Seidel.
+// Coulomb's cone or ODE's pyramid, all contacts together by projected Gauss-Seidel.
 #pragma once
 
 #include "law_tables.h"

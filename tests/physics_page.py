@@ -143,6 +143,7 @@ def _period(trace: Trace) -> float:
 
 MEASURES: dict[str, Callable[[Trace], float]] = {
     "x": lambda trace: trace.positions[-1, 0],
+    "y": lambda trace: trace.positions[-1, 1],
     "z": lambda trace: trace.positions[-1, 2],
     "highest z": lambda trace: trace.positions[:, 2].max(),
     "lowest z": lambda trace: trace.positions[:, 2].min(),

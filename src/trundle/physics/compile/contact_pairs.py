@@ -3,7 +3,7 @@
 Gazebo uses the smaller friction of two surfaces, MuJoCo the larger, so each pair sets its own. Links connected by a
 joint never collide, links of one model only with <self_collide>.
 
-ODE and MuJoCo differ: ODE's friction pyramid becomes an elliptic cone, and max_vel, which limits ODE's depth
+ODE and MuJoCo differ: ODE's friction pyramid becomes a cone where mu = mu2, and max_vel, which limits ODE's depth
 correction, is ignored: initial penetration is resolved at once (see `separation`), impacts are corrected slowly.
 """
 
