@@ -85,6 +85,12 @@ _GROUPS = (
     "(lambda d: d(d, 0, (1,)))(lambda d, n, x: d(d, n + 1, (x, x)) if n < 16 else x)",
     "[frozenset(j * (2**61 - 1) for j in range(i, 300)) for i in range(20)]",
 )
+_ALIKE = (
+    "set(i * (2**61 - 1) for i in range(7000))",
+    "frozenset(i * (2**61 - 1) for i in range(7000))",
+    "dict((i * (2**61 - 1), i) for i in range(7000))",
+    "dict((233 + i * (2**61 - 1), 'a') for i in range(7000))",
+)
 _ITERATORS = ("(i for i in {a})", "map(lambda i: i, {a})", "enumerate({a})", "zip({a}, {a})", "reversed({a})")
 _VIEWS = ("{a}.keys()", "{a}.items()", "{a}.values()", "{a}.copy()", "{a}[::2]", "*{a}", *_ITERATORS)
 _OPERATORS = ("+", "-", "*", "/", "//", "%", "**", "<<", ">>", "&", "|", "^", "==", "!=", "<", "<=", ">=", "in", "and")
@@ -105,16 +111,17 @@ _REPEATS = ("2", "100", "10**6")
 
 @cache
 def names() -> dict[str, Any]:
-    """The names of the expressions: functions, and `t0` …, `n0` …, `g0` … for texts, numbers and collections."""
+    """The names of the expressions: functions; texts `t0` …, numbers `n0` …, keys with one hash `a0` …, others `g0` …"""
     return {**NAMES, **{name: eval(text, {**NAMES}) for name, text in _sources().items()}}
 
 
 @cache
 def _sources() -> dict[str, str]:
-    alike = [each.format(k=key, n=3000) for key in _KEYS for each in _COLLECTIONS]
+    alike = [each.format(k=key, n=1000) for key in _KEYS for each in _COLLECTIONS]
     return {
         **{f"t{i}": text.replace("{{}}", "{}") for i, text in enumerate(_TEXTS)},
         **{f"n{i}": text for i, text in enumerate(_NUMBERS)},
+        **{f"a{i}": text for i, text in enumerate(_ALIKE)},
         **{f"g{i}": text for i, text in enumerate((*_GROUPS, *alike))},
     }
 
@@ -145,7 +152,7 @@ def made_up(number: int) -> str:
 
 
 def _value(chance: random.Random) -> str:
-    kind = chance.choice(("t", "n", "g", "g", "g"))
+    kind = chance.choice(("t", "n", "a", "g", "g", "g"))
     name = chance.choice([name for name in _sources() if name.startswith(kind)])
     return chance.choice(_VIEWS).format(a=name) if chance.random() < 0.2 and kind == "g" else name
 
@@ -154,9 +161,8 @@ def _operation(chance: random.Random, a: str, b: str) -> str:
     match chance.randrange(6):
         case 0 | 1:
             if chance.random() < 0.7:  # mostly of one type, others being refused at once
-                a, b = chance.choices(
-                    _named(chance.choice(("set", "set", "frozenset", "dict", "dict", "str", "list"))), k=2
-                )
+                kind = chance.choice(("a", "a", "set", "frozenset", "dict", "str", "list"))
+                a, b = chance.choices(_named(kind) if kind != "a" else ["a0", "a1", "a2", "a3"], k=2)
                 b = chance.choice((a, b))
                 a, b = (chance.choice((each, each, f"{each}.keys()")) for each in (a, b))
             return f"({a} {chance.choice(_OPERATORS)} {b})"
