@@ -125,6 +125,14 @@ def test_a_command_in_a_scripts_background_is_ended_by_sigint_as_are_its_childre
         assert running.wait(50) == 130
 
 
+def test_help_and_runs_are_the_same_without_docstrings_and_asserts(tmp_path: Path) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text('<robot name="r"><link name="base"/></robot>')
+    for words in (["xacro", "--help"], ["check", "--tree", str(file)]):
+        plain, optimized = (_run(sys.executable, *option, "-m", "trundle", *words) for option in ((), ("-OO",)))
+        assert (optimized.returncode, optimized.stdout, optimized.stderr) == (0, plain.stdout, plain.stderr)
+
+
 def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
     link = tmp_path / "a b" / "robot"
     link.parent.mkdir()

@@ -6,12 +6,14 @@ A command is a module or a package `trundle.cli.<name>`: the first line of its d
 """
 
 import argparse
+import ast
 import errno
 import importlib
 import os
 import sys
 from collections.abc import Callable, Sequence
 from io import TextIOWrapper
+from pathlib import Path
 from typing import Protocol, cast
 
 from trundle import __version__
@@ -80,6 +82,7 @@ EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 class CommandModule(Protocol):
     """Interface of a command's module."""
 
+    __file__: str
     EXAMPLES: str
     configure: Callable[[argparse.ArgumentParser], None]
     main: Callable[[argparse.Namespace], int]
@@ -241,12 +244,17 @@ def make_parser(
     """
     command = _command(name)
     program = program or f"trundle {name}"
-    summary = (command.__doc__ or "").partition("\n")[0]
+    summary = (command.__doc__ or _written_docstring(command) or "").partition("\n")[0]
     parser = parser or argparse.ArgumentParser(prog=program, formatter_class=HelpFormatter)
     examples = command.EXAMPLES.strip("\n").replace(f"trundle {name}", program)
     command.configure(parser)
     describe(parser, examples, summary)
     return parser
+
+
+def _written_docstring(command: CommandModule) -> str | None:
+    """Return a module's docstring as its file has it; `python -OO` drops those of modules."""
+    return ast.get_docstring(ast.parse(Path(command.__file__).read_bytes()))
 
 
 def _overview() -> str:
