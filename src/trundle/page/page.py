@@ -86,7 +86,8 @@ class Page:
         self._assets = assets
         self._owner = Owner(send)
         self._plotted: dict[Connection, frozenset[str]] = {}
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._tasks: dict[bool, set[asyncio.Task[None]]] = {False: set(), True: set()}
+        """By whether they are for clients that may only look."""
         self._model_pictures = asyncio.Semaphore(1)
         self._uploads = Uploads(lambda folder: send(Uploaded(str(folder))), os.environ)
         self._session_channel = SessionChannel(self.session_json)
@@ -301,13 +302,14 @@ class Page:
 
     def _start(self, client: Connection, client_id: int | str, work: Coroutine[None, None, None]) -> None:
         """Begin work that takes time, and that answers a client."""
-        if len(self._tasks) >= MAX_IN_FLIGHT:
+        tasks = self._tasks[client.is_view_only]
+        if len(tasks) >= MAX_IN_FLIGHT:
             work.close()
             respond(client, client_id, f"{MAX_IN_FLIGHT} requests wait already")
             return
         task = asyncio.get_running_loop().create_task(work)
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        tasks.add(task)
+        task.add_done_callback(tasks.discard)
 
     async def _define(self, client: Connection, client_id: int | str, type_name: str) -> None:
         """Answer with the definition of a type, which may have to be searched."""

@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 import pytest
 from tests.page.built_client import needs_client
 from tests.page_client import PATIENCE_S, ProtocolClient, page_url
-from websockets.exceptions import InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
 import trundle
@@ -23,6 +23,7 @@ from trundle.access import Access, PageRequest
 from trundle.page import PageServer, Session
 from trundle.page.http.client_files import CLIENT, ClientFiles
 from trundle.page.http.content_policy import response_fields
+from trundle.page.http.places import MAX_CONTROLLING
 from trundle.page_address import AllowedNames, PageAddress
 
 EVIL = "http://evil.example"
@@ -254,9 +255,9 @@ def _policy(fields: dict[str, str]) -> dict[str, list[str]]:
     return {part.split()[0]: part.split()[1:] for part in parts}
 
 
-def test_more_clients_than_a_hundred_are_refused_until_one_leaves(page: PageServer) -> None:
+def test_more_clients_than_there_are_places_are_refused_until_one_leaves(page: PageServer) -> None:
     with ExitStack() as stack:
-        clients = [stack.enter_context(ProtocolClient(page.url)) for _ in range(100)]
+        clients = [stack.enter_context(ProtocolClient(page.url)) for _ in range(MAX_CONTROLLING)]
         with pytest.raises(InvalidStatus) as refused:
             ProtocolClient(page.url)
         assert refused.value.response.status_code == 503
@@ -267,3 +268,35 @@ def test_more_clients_than_a_hundred_are_refused_until_one_leaves(page: PageServ
                 stack.enter_context(ProtocolClient(page.url))
                 return
     pytest.fail("the server answers no client any more")
+
+
+def test_a_crowd_that_may_only_look_leaves_room_for_those_who_may_more(page: PageServer) -> None:
+    """Its oldest one is dropped for the newest."""
+    with ExitStack() as stack:
+        crowd = [stack.enter_context(ProtocolClient(page.view_url)) for _ in range(95)]
+        owner = stack.enter_context(ProtocolClient(page.url))
+        owner.until(lambda: owner.channels)
+        crowd[-1].until(lambda: crowd[-1].channels)
+        with pytest.raises(ConnectionClosed):
+            crowd[0].settle(PATIENCE_S)
+        assert _get(page_url(page.url, "/session.json"))[0] == 200
+
+
+def test_pictures_of_those_who_only_look_leave_room_for_others(page: PageServer) -> None:
+    """They cannot have models drawn, which they cannot insert."""
+    view, control = (page_url(url, "/camera.png?width=64&height=48") for url in (page.view_url, page.url))
+    with ThreadPoolExecutor(8) as pool:
+        looking = [pool.submit(_get, view) for _ in range(6)]
+        asked = []
+        end = time.monotonic() + PATIENCE_S
+        while len(asked) < 2 and time.monotonic() < end:
+            asked += page.requests()
+        done = pool.submit(_get, control)
+        while len(asked) < 3 and time.monotonic() < end:
+            asked += page.requests()
+        for request in asked:
+            page.respond(request.id, "no renderer here")
+        assert "no renderer here" in done.result()[1]
+        refused = [answer.result()[1] for answer in looking]
+    assert sorted("being drawn already" in text for text in refused) == [False] * 2 + [True] * 4
+    assert _get(page_url(page.view_url, "/model.png?model=cart"))[0] == 403

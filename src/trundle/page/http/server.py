@@ -2,7 +2,8 @@
 
 import logging
 import socket
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Generator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
@@ -23,11 +24,13 @@ from ..requests.world import RenderModel
 from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
 from .content_policy import response_fields
+from .places import MAX_CONTROLLING, Places
 from .refusals import Refusals
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
 """Longest message of a client."""
-_MAX_CLIENTS = 100
+_MAX_LOOKERS_PICTURES = 2
+"""Pictures at once for clients that may only look."""
 _FAREWELL_S = 1.0
 _log = logging.getLogger(__name__)
 _TEXT = "text/plain"
@@ -81,7 +84,8 @@ class HttpServer:
         self._page = page
         self._access = access
         self._files = files
-        self._clients = 0
+        self._places = Places()
+        self._lookers_pictures = 0
         self._refusals = Refusals(has_link=True)
 
     async def start(self, listening: socket.socket) -> None:
@@ -130,12 +134,29 @@ class HttpServer:
     async def _camera(self, request: web.Request) -> web.StreamResponse:
         try:
             view = msgspec.convert(dict(request.query), RenderView, strict=False)
-            picture = await self._page.render(view)
+            with self._picture_place(request):
+                picture = await self._page.render(view)
         except msgspec.ValidationError as error:
             raise web.HTTPBadRequest(reason=f"not a view: {error}") from None
         except PictureError as error:
             raise web.HTTPServiceUnavailable(reason=" ".join(str(error).split())) from None
         return web.Response(body=picture, content_type="image/png", headers={"Cache-Control": "no-store"})
+
+    @contextmanager
+    def _picture_place(self, request: web.Request) -> Generator[None]:
+        """Take a place among the pictures that are drawn.
+
+        Raises:
+            PictureError: those that clients who may only look can have are taken.
+        """
+        count = int(self._access.is_view_only(_page_request(request)))
+        if self._lookers_pictures + count > _MAX_LOOKERS_PICTURES:
+            raise PictureError(f"{_MAX_LOOKERS_PICTURES} pictures are being drawn already")
+        self._lookers_pictures += count
+        try:
+            yield
+        finally:
+            self._lookers_pictures -= count
 
     async def _model_picture(self, request: web.Request) -> web.StreamResponse:
         return await self._render_model(request, "picture", "image/png")
@@ -144,6 +165,8 @@ class HttpServer:
         return await self._render_model(request, "shape", "model/gltf-binary")
 
     async def _render_model(self, request: web.Request, kind: str, media_type: str) -> web.StreamResponse:
+        if self._access.is_view_only(_page_request(request)):
+            raise web.HTTPForbidden(reason=REFUSAL)
         try:
             model = msgspec.convert({**request.query, "kind": kind}, RenderModel)
             drawn = await self._page.render_model(model)
@@ -183,8 +206,9 @@ class HttpServer:
         offered = [name.strip() for name in request.headers.get("Sec-WebSocket-Protocol", "").split(",")]
         if not any(name in SUBPROTOCOLS for name in offered):
             raise web.HTTPBadRequest(reason=f"this page speaks {', '.join(SUBPROTOCOLS)}")
-        if self._clients >= _MAX_CLIENTS:
-            raise web.HTTPServiceUnavailable(reason=f"{_MAX_CLIENTS} clients are served already")
+        is_view_only = self._access.is_view_only(_page_request(request))
+        if not self._places.has_room(is_view_only=is_view_only):
+            raise web.HTTPServiceUnavailable(reason=f"{MAX_CONTROLLING} clients are served already")
         web_socket = web.WebSocketResponse(
             protocols=SUBPROTOCOLS, compress=False, autoping=False, autoclose=False, max_msg_size=_MAX_MESSAGE_BYTES,
             decode_text=False,
@@ -197,16 +221,15 @@ class HttpServer:
         client = self._page.join(
             Outbox(own, broken=lambda _: transport.abort(), dropped=lambda stream: client.count_drop(stream)),
             is_own=web_socket.ws_protocol == TRUNDLE,
-            is_view_only=self._access.is_view_only(_page_request(request)),
+            is_view_only=is_view_only,
         )
-        self._clients += 1
         try:
-            while await self._receive(client, await web_socket.receive()):
-                pass
+            with self._places.taken(transport.abort, is_view_only=is_view_only):
+                while await self._receive(client, await web_socket.receive()):
+                    pass
         except Exception:
             _log.exception("a client could not be served")
         finally:
-            self._clients -= 1
             self._page.leave(client)  # first: a robot that it drove is stopped now
             await client.outbox.drain(_FAREWELL_S)
             client.outbox.close()
