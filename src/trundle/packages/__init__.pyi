@@ -11,6 +11,7 @@ from .gazebo_paths import is_stand_in as is_stand_in
 from .model_config import model_file as model_file
 from .model_config import refuse_template as refuse_template
 from .packages import ALLOW_OUTSIDE as ALLOW_OUTSIDE
+from .packages import HELD as HELD
 from .packages import LENIENT as LENIENT
 from .packages import Packages as Packages
 from .ros2 import refuse_ros2 as refuse_ros2

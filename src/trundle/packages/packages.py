@@ -22,6 +22,9 @@ ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
 LENIENT = "TRUNDLE_LENIENT"
 """Environment variable; 1 ignores parts from missing packages; set by `--lenient`."""
 
+HELD = ".held"
+"""Ending of uploaded files of code, which are no plugins until a person agrees."""
+
 _LONGEST = 200
 """Longest name or URI in a message."""
 _MAX_NAMED = 3

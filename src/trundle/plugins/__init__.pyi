@@ -1,5 +1,6 @@
 from .catalog import BUILTIN as BUILTIN
 from .catalog import SENSOR_PLUGINS as SENSOR_PLUGINS
+from .catalog import find_held_file as find_held_file
 from .catalog import find_model_sensor_plugin as find_model_sensor_plugin
 from .catalog import find_plugin as find_plugin
 from .catalog import find_sensor_plugin as find_sensor_plugin

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from trundle.diagnostics import DescriptionError, Source
 from trundle.model import PluginTag
+from trundle.packages import HELD
 from trundle.parameters import TagParameters
 
 from .gazebo_ros.namespaces import WITHOUT_EFFECT
@@ -159,6 +160,14 @@ def find_user_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | Non
         return _python_file(tag, environment)
     except DescriptionError:
         return None
+
+
+def find_held_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | None:
+    """Return the uploaded file of code that a plugin would run if a person agreed to that; None: there is none."""
+    if _base_name(tag) in BUILTIN or _installed(_base_name(tag)):
+        return None
+    name = f"{python_file_name(_base_name(tag))}{HELD}"
+    return next((file for folder in _folders(tag, environment) if (file := folder / name).is_file()), None)
 
 
 def is_cosmetic(tag: PluginTag) -> bool:

@@ -1,5 +1,6 @@
 """The draft of a model beside a running world, by requests of the page."""
 
+import os
 import queue
 import time
 from collections.abc import Iterator
@@ -8,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from trundle.bringup.simulation_page.code_consent import CodeConsent
 from trundle.bringup.simulation_page.drafting import Drafting, ShownDraft
 from trundle.bringup.simulation_page.edits import edit
 from trundle.bringup.simulation_page.model_edits import ModelEdits
@@ -36,7 +38,7 @@ class Editor:
         contents = BareContents(self._do)
         self.edits = ModelEdits(self.simulation, contents, self._do)
         self._answers: queue.SimpleQueue[tuple[str | None, dict[str, Any]]] = queue.SimpleQueue()
-        self.drafting = Drafting(self._respond, contents, folder)
+        self.drafting = Drafting(self._respond, contents, folder, CodeConsent(os.environ))
         self.shown: list[ShownDraft] = []
 
     def _do(self, command: Any) -> None:
@@ -109,6 +111,26 @@ def test_a_draft_that_cannot_be_spawned_leaves_the_model(editor: Editor) -> None
     assert [model.name for model in editor.simulation.models] == ["crate"]
     assert editor.drafting.is_open
     assert editor.ask(LeaveDraft()) == {}
+
+
+def test_a_draft_s_code_is_asked_for_once_and_again_when_it_changes(
+    editor: Editor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An answer with an error means that it went on to the world, where plugins cannot be started here."""
+    monkeypatch.setenv("TRUNDLE_PLUGIN_PATH", str(tmp_path))
+    (tmp_path / "code.py").write_text("first = 1")
+    editor.ask(BeginDraft(model="crate"))
+    editor.ask(AddPart(into=(), kind="plugin", type="code.py"))
+    asked = editor.ask(FinishDraft())
+    assert asked["code"] == [str(tmp_path / "code.py")]
+    assert editor.ask(FinishDraft(consent="true"))["code"]
+    (tmp_path / "code.py").write_text("second = 2")
+    again = editor.ask(FinishDraft(consent=asked["consent"]))
+    assert again["code"]
+
+    assert "would not run here" in editor.ask(FinishDraft(consent=again["consent"]))["error"]
+    assert editor.ask(FinishDraft(consent=again["consent"]))["code"]
+    editor.ask(LeaveDraft())
 
 
 def test_an_empty_model_is_not_put_into_the_world(editor: Editor) -> None:

@@ -1,10 +1,13 @@
 """Insertion of models, shapes and lights into a running world, by requests of the page."""
 
+import shutil
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from trundle.bringup.simulation_page.code_consent import CodeConsent
 from trundle.bringup.simulation_page.insertion import Insertion
 from trundle.bringup.simulation_page.model_edits import ModelEdits
 from trundle.description import load_text
@@ -12,6 +15,7 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Model
 from trundle.packages import Packages
 from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels, RestoreLight
+from trundle.plugins import find_user_file
 from trundle.robot import Robot
 from trundle.simulation import Simulation
 
@@ -56,7 +60,7 @@ def packages(tmp_path: Path, environment: dict[str, str]) -> Packages:
 @pytest.fixture
 def insertion(simulation: Simulation, packages: Packages, environment: dict[str, str]) -> Insertion:
     contents = Contents(simulation, packages, environment)
-    return Insertion(simulation, contents, lambda command: command(simulation))
+    return Insertion(simulation, contents, lambda command: command(simulation), CodeConsent(environment))
 
 
 @pytest.fixture
@@ -122,17 +126,67 @@ def test_a_simple_shape_stands_on_the_floor(insertion: Insertion, simulation: Si
     assert simulation[name].link("link").link.inertial.mass == 1.0
 
 
+CODED = '<plugin name="p" filename="code.py"><speed>{}</speed></plugin>'
+
+
+def _insert(insertion: Insertion, consent: str | None = None, model: str = "crate") -> dict[str, Any]:
+    return insertion.handle(InsertModel(model=model, position=(0.0, 0.0, 0.0), consent=consent))
+
+
 def test_a_model_with_code_is_asked_for_first(insertion: Insertion, simulation: Simulation, tmp_path: Path) -> None:
-    _put_crate(tmp_path, '<plugin name="p" filename="code.py"/>')
+    _put_crate(tmp_path, CODED.format(1))
     code = tmp_path / "models/crate/code.py"
     code.write_text("")
 
-    asked = insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0)))
+    asked = _insert(insertion)
     before = [model.name for model in simulation.models]
-    agreed = insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0), runs_code=True))
 
-    assert (asked, before) == ({"code": [str(code)]}, [])
-    assert agreed == {"name": "crate"}
+    assert (asked["code"], before) == ([str(code)], [])
+    assert _insert(insertion, asked["consent"]) == {"name": "crate"}
+
+
+def test_consent_counts_once_and_for_what_was_shown(
+    insertion: Insertion, simulation: Simulation, tmp_path: Path
+) -> None:
+    """Neither a word that is invented or used, nor one for other code, other parameters or another model, runs it."""
+    _put_crate(tmp_path, CODED.format(1))
+    folder = tmp_path / "models/crate"
+    (folder / "code.py").write_text("first = 1")
+    shutil.copytree(folder, folder.with_name("other"))
+    used, for_code, for_speed, for_crate = (str(_insert(insertion)["consent"]) for _ in range(4))
+
+    assert _insert(insertion, used) == {"name": "crate"}
+    (folder / "code.py").write_text("second = 2")
+    refused = [_insert(insertion, word) for word in (used, for_code, "true", "")]
+    (folder / "code.py").write_text("first = 1")
+    (folder / "model.sdf").write_text(CRATE.format(CODED.format(2)))
+    refused += [_insert(insertion, for_speed), _insert(insertion, for_crate, model="other")]
+
+    assert all(answer["code"] for answer in refused)
+    assert [model.name for model in simulation.models] == ["crate"]
+
+
+def test_uploaded_code_is_no_plugin_before_a_person_agrees(
+    insertion: Insertion, packages: Packages, environment: dict[str, str], tmp_path: Path
+) -> None:
+    """By no path: neither a copy of a model, nor a service that spawns one."""
+    _put_crate(tmp_path, CODED.format(1))
+    (tmp_path / "models").rename(tmp_path / "uploads")
+    held = tmp_path / "uploads/crate/code.py.held"
+    held.write_text("first = 1")
+    packages.add_models(tmp_path / "uploads")
+    (tag,) = insertion._read("crate")[0].plugins
+
+    asked = _insert(insertion)
+    assert asked["code"] == [str(held.with_suffix(""))]
+    assert find_user_file(tag, environment) is None
+    held.write_text("second = 2")
+    assert _insert(insertion, asked["consent"])["code"]
+    assert find_user_file(tag, environment) is None
+    assert _insert(insertion, _insert(insertion)["consent"]) == {"name": "crate"}
+    code = find_user_file(tag, environment)
+    assert code is not None
+    assert code.read_text() == "second = 2"
 
 
 def test_lights_come_and_go(insertion: Insertion, edits: ModelEdits, simulation: Simulation) -> None:

@@ -74,6 +74,14 @@ def test_an_archive_becomes_a_model_and_another_of_its_name_takes_its_place(page
     assert [each.name for each in folder.parent.parent.glob("trundle-upload-*")] == []
 
 
+def test_code_in_it_is_held(page: PageServer) -> None:
+    """A file of that name is no plugin; a person is asked first."""
+    files = {"coded/model.sdf": b"<sdf/>", "coded/code.py": b"", "coded/scripts/more.PY": b""}
+    assert _post(page.url, files)[0] == 200
+    folder = _uploads(page) / "coded"
+    assert {each.name for each in folder.rglob("*.*")} == {"model.config", "model.sdf", "code.py.held", "more.PY.held"}
+
+
 def test_a_single_file_is_a_model(page: PageServer) -> None:
     assert _post(page.url, {"my wagon.urdf": b"<robot/>"}) == (200, json.dumps({"models": ["my wagon"]}))
     assert "my wagon.urdf" in (_uploads(page) / "my wagon" / "model.config").read_text()

@@ -83,6 +83,8 @@ export interface RequestAnswer {
   readonly name?: string;
   /** Programs that a model's plugins would run, if the person agrees. */
   readonly code?: readonly string[];
+  /** Word that agrees to run that code, once. */
+  readonly consent?: string;
   /** What a model that is edited can be given. */
   readonly plugins?: readonly { readonly filename: string; readonly about: string }[];
   readonly sensors?: readonly string[];

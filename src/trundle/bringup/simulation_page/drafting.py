@@ -41,10 +41,11 @@ from ..model_editor.offers import draft_offers
 from ..model_editor.overview import draft_overview
 from ..model_editor.reader import ModelReader
 from ..world_contents import WorldContents
+from .code_consent import CodeConsent
 from .controls import reason_of
 from .current_world import current_world
 from .edits import find_model
-from .insertion import free_name, user_files
+from .insertion import free_name
 from .model_edits import ModelEdits
 from .model_saver import save_draft
 from .world_files import WorldFiles
@@ -77,15 +78,16 @@ class _Finished(Struct, frozen=True, kw_only=True):
 class Drafting:
     """Edits one draft; used on the simulation's thread, but for `respond`, which is called on the draft's own, too."""
 
-    def __init__(self, respond: Callable[..., None], contents: WorldContents, root: Path) -> None:
+    def __init__(self, respond: Callable[..., None], contents: WorldContents, root: Path, consent: CodeConsent) -> None:
         """Prepare.
 
         Args:
             respond: answers a request by its id, with an error or fields.
             contents: adds models with what belongs to them.
             root: folder to write below.
+            consent: asks before code is run.
         """
-        self._respond = respond
+        self._respond, self._consent = respond, consent
         self._contents = contents
         self._reader = ModelReader(contents.packages, contents.environment, root)
         self._root = root
@@ -186,8 +188,8 @@ class Drafting:
         model = draft.checked.model
         if not model.links:
             raise UsageError("the model has no links yet")
-        if not action.runs_code and (code := user_files(model, self._contents.environment)):
-            return {"code": code}
+        if (question := self._consent.question(model, action.consent)) is not None:
+            return question
         model = replace(model, world_from_model=draft.world_from_model)
         self._finished.put(_Finished(request_id=request_id, model=model, of=draft.of))
         return None

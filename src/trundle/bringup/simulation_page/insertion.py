@@ -1,7 +1,7 @@
 """Models, simple shapes and lights that a person at the page puts into the running world."""
 
 import itertools
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +12,13 @@ from trundle.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.model import Light, Model, flattened
 from trundle.packages import Packages
 from trundle.page import InsertAction, InsertLight, InsertModel, ListModels
-from trundle.plugins import find_user_file
 from trundle.robot import Robot
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 from trundle.xmlnode import read_xml
 
 from ..world_contents import Do, WorldContents
+from .code_consent import CodeConsent
 from .model_edits import add_light
 
 Json = dict[str, Any]
@@ -36,15 +36,16 @@ _LIGHT_ANGLES = {"spot": {"inner_angle_rad": 0.6, "outer_angle_rad": 1.0, "fallo
 class Insertion:
     """Inserts into one simulation."""
 
-    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do) -> None:
+    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do, consent: CodeConsent) -> None:
         """Prepare.
 
         Args:
             simulation: the running one.
             contents: adds models with what belongs to them.
             do: gives the simulation a command that a timeline can repeat.
+            consent: asks before code is run.
         """
-        self._simulation, self._contents, self._do = simulation, contents, do
+        self._simulation, self._contents, self._do, self._consent = simulation, contents, do, consent
         self._packages = contents.packages
 
     def handle(self, action: InsertAction) -> Json:
@@ -63,8 +64,8 @@ class Insertion:
 
     def _insert_model(self, action: InsertModel) -> Json:
         model, robot = self._shape(action.model) if action.is_shape else self._read(action.model)
-        if not action.runs_code and (code := user_files(model, self._contents.environment)):
-            return {"code": code}
+        if (question := self._consent.question(model, action.consent)) is not None:
+            return question
         name = free_name(model.name, {each.name for each in self._simulation.models})
         pose = Pose(action.position) @ model.world_from_model
         self._contents.spawn(replace(model, name=name, world_from_model=pose), robot)
@@ -123,13 +124,6 @@ def _config(folder: Path) -> Json:
         return {"title": folder.name, "description": ""}
     title, description = root.string("name"), " ".join(root.string("description").split())
     return {"title": (title or folder.name)[:100], "description": description[:300]}
-
-
-def user_files(model: Model, environment: Mapping[str, str]) -> list[str]:
-    """Return the Python files that a model's plugins would run."""
-    visuals = (visual for link in model.links for visual in link.visuals)
-    tags = (*model.plugins, *(tag for visual in visuals for tag in visual.plugins))
-    return [str(file) for tag in tags if (file := find_user_file(tag, environment)) is not None]
 
 
 def shape_sdf(kind: str) -> str:

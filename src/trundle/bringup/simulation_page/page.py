@@ -32,6 +32,7 @@ from trundle.timeline import Timeline
 from ..realtime_pacer import RealtimePacer
 from ..shared_page import SharedPage
 from ..world_contents import BareContents, WorldContents
+from .code_consent import CodeConsent
 from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
 from .drafting import Drafting
@@ -97,7 +98,8 @@ class SimulationPage:
         self._streams = WorldStreams(
             self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
         )
-        self._drafting = Drafting(self._server.respond, self._contents, here)
+        self._consent = CodeConsent(self._contents.environment)
+        self._drafting = Drafting(self._server.respond, self._contents, here, self._consent)
         self._pictures = WorldPictures(self._server.respond_picture)
         self._performance = PerformanceStream(self._server)
         self._set_simulation(simulation, sensors, node, recorder, timeline)
@@ -135,7 +137,7 @@ class SimulationPage:
     ) -> None:
         self._simulation = simulation
         self._controls = SimulationControls(simulation, recorder, timeline, wall_ns=self._wall_ns)
-        self._insertion = Insertion(simulation, self._contents, self._do)
+        self._insertion = Insertion(simulation, self._contents, self._do, self._consent)
         self._model_edits = ModelEdits(simulation, self._contents, self._do)
         self._streams.show(simulation, sensors, recorder, timeline)
         self._performance.show(simulation, node)

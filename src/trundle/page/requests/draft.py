@@ -5,7 +5,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from .edits import Action, Name, Quaternion, Triple, check_direction
-from .world import FileName
+from .world import Consent, FileName
 
 Part: TypeAlias = Annotated[tuple[Name, ...], msgspec.Meta(max_length=12)]
 """Element of the model by tags and names: ("link", "base", "sensor", "eye"); empty: the model itself."""
@@ -95,11 +95,11 @@ class SaveDraft(Action, frozen=True, tag="draft_save"):
 class FinishDraft(Action, frozen=True, tag="draft_finish"):
     """Put the draft into the world, in place of the model that it is a copy of; answered with its `name` there.
 
-    A model whose plugins are code is answered with that `code`, unless a person has agreed to run it.
+    A model whose plugins are code is answered as by `InsertModel`.
     """
 
-    runs_code: bool = False
-    """True if a person has agreed."""
+    consent: Consent = None
+    """Word of the answer that showed the code, if a person has agreed."""
 
 
 class LeaveDraft(Action, frozen=True, tag="draft_leave"):

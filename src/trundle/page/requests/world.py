@@ -6,6 +6,7 @@ import msgspec
 
 from .edits import Action, Name, Triple
 
+Consent: TypeAlias = Annotated[str, msgspec.Meta(max_length=100)] | None
 FileName: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=300)]
 
 
@@ -33,7 +34,7 @@ class ListModels(Action, frozen=True, tag="models"):
 class InsertModel(Action, frozen=True, tag="insert"):
     """Put a model of the model path, or a simple shape, into the world; answered with its `name` there.
 
-    A model whose plugins are code is answered with that `code`, unless a person has agreed to run it.
+    A model whose plugins are code is answered with that `code`, and a word of `consent` that agrees to run it once.
     """
 
     model: FileName
@@ -41,8 +42,8 @@ class InsertModel(Action, frozen=True, tag="insert"):
     position: Triple
     """Point on the floor [m]."""
     is_shape: bool = False
-    runs_code: bool = False
-    """True if a person has agreed."""
+    consent: Consent = None
+    """Word of the answer that showed the code, if a person has agreed."""
 
 
 class InsertLight(Action, frozen=True, tag="insert_light"):

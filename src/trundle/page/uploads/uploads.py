@@ -11,7 +11,7 @@ from aiohttp import BodyPartReader, MultipartReader
 
 from trundle.diagnostics import UsageError
 from trundle.output_folder import is_portable
-from trundle.packages import Packages, is_stand_in
+from trundle.packages import HELD, Packages, is_stand_in
 
 from .archive import unpack
 from .model import find_models
@@ -79,6 +79,7 @@ class Uploads:
             if name in known and not is_stand_in(known[name] / name):
                 raise UsageError(f"a model {name!r} is on the model path already; give its folder another name")
         for name, there in models.items():
+            _hold_code(there)
             if (folder / name).exists():
                 (folder / name).rename(tree.root.with_name(f"before {name}"))
             there.rename(folder / name)
@@ -96,6 +97,12 @@ class Uploads:
         """Remove all that was uploaded."""
         if self._folder is not None:
             shutil.rmtree(self._folder.parent, ignore_errors=True)
+
+
+def _hold_code(folder: Path) -> None:
+    """Rename the files of code of a model, so that nothing runs them before a person agrees."""
+    for file in [each for each in folder.rglob("*") if each.suffix.lower() == ".py"]:
+        file.rename(f"{file}{HELD}")
 
 
 async def _write_parts(parts: MultipartReader, tree: UploadTree) -> str:

@@ -78,12 +78,12 @@ export class ModelEditor {
   }
 
   /** Put the draft into the world; asks before a model's own code is run. */
-  async finish(runsCode = false): Promise<void> {
-    const answer = await this.ask("Finish", "draft_finish", { runs_code: runsCode });
+  async finish(consent: string | null = null): Promise<void> {
+    const answer = await this.ask("Finish", "draft_finish", { consent });
     if (answer?.name !== undefined) this.page.selection.value = { kind: "model", model: answer.name };
     if (answer?.code === undefined) return;
     const text = `Plugins of this model are programs, which would run on the machine that simulates: ${answer.code.join(", ")}`;
-    this.question.value = { title: "Run the model's code?", text, action: "Run it", run: () => void this.finish(true) };
+    this.question.value = { title: "Run the model's code?", text, action: "Run it", run: () => void this.finish(answer.consent) };
   }
 
   leave(): void {

@@ -54,19 +54,19 @@ export class Insertion {
     if (layout.isPhone.peek()) layout.sheetHeight.value = "closed";
   }
 
-  private place(thing: Insertable, point: Vector3, runsCode = false): void {
-    void this.shell.page.undo.ask(this.insert(thing, point, runsCode));
+  private place(thing: Insertable, point: Vector3, consent: string | null = null): void {
+    void this.shell.page.undo.ask(this.insert(thing, point, consent));
   }
 
-  private async insert(thing: Insertable, point: Vector3, runsCode: boolean): Promise<void> {
+  private async insert(thing: Insertable, point: Vector3, consent: string | null): Promise<void> {
     const position = point.toArray();
     const [request, fields]: [string, Fields] =
       thing.kind === "light"
         ? ["insert_light", { type: thing.name, position }]
-        : ["insert", { model: thing.name, position, is_shape: thing.kind === "shape", runs_code: runsCode }];
+        : ["insert", { model: thing.name, position, is_shape: thing.kind === "shape", consent }];
     try {
-      const { code, name } = await this.shell.page.connection.request(request, fields);
-      if (code !== undefined) this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, true) };
+      const { code, name, ...answer } = await this.shell.page.connection.request(request, fields);
+      if (code !== undefined) this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, answer.consent) };
       else if (name !== undefined) this.record(thing, name);
     } catch (error) {
       this.report(`Insert ${thing.title}`, error);
