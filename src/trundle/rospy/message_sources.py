@@ -1,4 +1,4 @@
-"""Message, service and action definitions of a package: shipped ones first, then the package's own."""
+"""Message, service and action definitions of a package: shipped ones first, then the package's own, then published."""
 
 import os
 from collections.abc import Iterator
@@ -7,7 +7,12 @@ from pathlib import Path
 
 from trundle.files import read_text
 from trundle.ros.errors import MessageError
-from trundle.ros.messages.definition_search import MAX_CHARACTERS, split_action, split_service
+from trundle.ros.messages.definition_search import (
+    MAX_CHARACTERS,
+    published_definitions,
+    split_action,
+    split_service,
+)
 
 from .message_spec import SEPARATOR
 from .package_folders import find_package
@@ -61,6 +66,28 @@ class DefinitionFolder:
         return [(name.removesuffix(f".{kind}"), folder / name) for name in names if name.endswith(f".{kind}")]
 
 
+class PublishedDefinitions:
+    """Definitions of a published package that is not here."""
+
+    def __init__(self, package: str) -> None:
+        self.messages: dict[str, str] = {}
+        self.services: dict[str, str] = {}
+        for kind, name, text in published_definitions(package):
+            if kind == "action":
+                parts = split_action(name, text).items()
+                self.messages |= {part.partition("/")[2]: text_of_part for part, (_, text_of_part) in parts}
+            else:
+                (self.messages if kind == "msg" else self.services)[name.partition("/")[2]] = text
+
+    def message(self, name: str) -> str | None:
+        """Text of a message; None if there is none of this name."""
+        return self.messages.get(name)
+
+    def service(self, name: str) -> str | None:
+        """Text of a service; None if there is none of this name."""
+        return self.services.get(name)
+
+
 class PackageDefinitions:
     """Definitions of one package; the package's own folder is searched for what is not shipped."""
 
@@ -70,9 +97,9 @@ class PackageDefinitions:
         self._shipped = DefinitionFolder(package, _FOLDERS / package)
 
     @cached_property
-    def _own(self) -> DefinitionFolder | None:
+    def _own(self) -> DefinitionFolder | PublishedDefinitions:
         folder = find_package(self._package)
-        return None if folder is None else DefinitionFolder(self._package, folder)
+        return PublishedDefinitions(self._package) if folder is None else DefinitionFolder(self._package, folder)
 
     @property
     def _is_shipped(self) -> bool:
@@ -85,8 +112,8 @@ class PackageDefinitions:
 
     def names(self, kind: str) -> list[str]:
         """Names of the messages (`msg`) or services (`srv`): the shipped ones if there are any, else its own."""
-        folders = [self._shipped] if self._is_shipped or self._own is None else [self._own]
-        found = [name for folder in folders for name in (folder.messages if kind == "msg" else folder.services)]
+        folder = self._shipped if self._is_shipped else self._own
+        found = folder.messages if kind == "msg" else folder.services
         return sorted({*found, *(self._bundle if kind == "msg" else ())})
 
     def message(self, name: str) -> str | None:
@@ -97,7 +124,7 @@ class PackageDefinitions:
         """
         text = self._bundle.get(name)
         text = self._shipped.message(name) if text is None else text
-        return self._own.message(name) if text is None and self._own is not None else text
+        return self._own.message(name) if text is None else text
 
     def service(self, name: str) -> str | None:
         """Text of a service; None if the package has none of this name.
@@ -106,7 +133,7 @@ class PackageDefinitions:
             MessageError: its file cannot be read.
         """
         text = self._shipped.service(name)
-        return self._own.service(name) if text is None and self._own is not None else text
+        return self._own.service(name) if text is None else text
 
 
 @cache

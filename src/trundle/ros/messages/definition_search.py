@@ -1,4 +1,8 @@
-"""Sources of message definitions: shipped with Trundle, added folders, packages on the package path."""
+"""Sources of message definitions: shipped with Trundle, added folders, packages on the package path, published ones.
+
+Those of the standard packages are shipped, and come first. Published ones of other packages come last: a package on the
+path may be another release.
+"""
 
 import os
 import re
@@ -10,6 +14,9 @@ from typing import NamedTuple
 from trundle.files import read_text
 
 _SHIPPED = Path(__file__).parents[1] / "definitions"
+_PUBLISHED = Path(__file__).parents[1] / "published"
+"""Folder of a file for each package; its definitions begin with `MSG: `, `SRV: ` or `ACTION: ` and their name."""
+_PART = "=" * 80 + "\n"
 MAX_CHARACTERS = 1_000_000
 """Maximum length of a definition, also from peers; the longest of a desktop installation is below 100,000."""
 _SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
@@ -44,6 +51,7 @@ class Definitions:
         """Type with `.msg` or `.srv` → reason why its file cannot be read."""
         self._on_path = on_path
         self._looked_up: set[str] = set()
+        self._published: set[str] = set()
 
     @classmethod
     def shipped(cls) -> "Definitions":
@@ -73,6 +81,22 @@ class Definitions:
             if (folder := self.on_path.get(package)) is not None:
                 self._read(package, folder)
 
+    def load_published(self, package: str) -> None:
+        """Read a published package; definitions of one on the package path are kept."""
+        if package in self._published or package in self.on_path:
+            return
+        self._published.add(package)
+        for kind, name, text in published_definitions(package):
+            origin = Origin(_PUBLISHED / f"{package}.txt")
+            match kind:
+                case "msg":
+                    self._add(self.messages, name, text, origin)
+                case "srv":
+                    self._add(self.services, name, text, origin)
+                case _:
+                    for part, (_, part_text) in split_action(name, text).items():
+                        self._add(self.messages, part, part_text, origin)
+
     def service_text(self, type_name: str) -> str:
         """Definition of a known service type: the installed one with its comments, if otherwise equal."""
         known = self.services[type_name]
@@ -95,6 +119,8 @@ class Definitions:
             self.load_package(package)
         for package in self.on_path:
             self.load_from_path(package)
+        for path in sorted(_PUBLISHED.glob("*.txt")):
+            self.load_published(path.stem)
 
     def add_part(self, name: str, text: str, line: int, *, of: str) -> None:
         """Add the request or response of a service."""
@@ -125,6 +151,17 @@ class Definitions:
         if name not in texts:
             texts[name] = text
             self.origins[name] = origin
+
+
+def published_definitions(package: str) -> Iterator[tuple[str, str, str]]:
+    """Yield kind (msg, srv or action), name and text of a published package's definitions; none if it is not known."""
+    path = _PUBLISHED / f"{package}.txt"
+    if not path.is_file():
+        return
+    for part in path.read_text(encoding="utf-8").split(_PART):
+        head, _, text = part.partition("\n")
+        kind, _, name = head.partition(": ")
+        yield kind.lower(), name, text
 
 
 def split_service(text: str, line: int = 1) -> tuple[tuple[int, str], tuple[int, str]]:

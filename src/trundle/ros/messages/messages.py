@@ -218,8 +218,9 @@ class Messages:
         key = f"{package}/msg/{name}" if not name.startswith("msg/") else type_name
         if key in self._store.types:
             return key
-        for load in (self._definitions.load_package, self._definitions.load_from_path):
-            if load == self._definitions.load_from_path:
+        definitions = self._definitions
+        for load in (definitions.load_package, definitions.load_from_path, definitions.load_published):
+            if load == definitions.load_from_path:
                 _ = self._definitions.on_path  # a search that takes long: other threads have the lock meanwhile
             with self._lock:
                 load(package)
@@ -249,8 +250,9 @@ class Messages:
     def _read_service(self, type_name: str) -> ServiceType:
         package = type_name.partition("/")[0]
         self._definitions.load_package(package)
-        if type_name not in self._definitions.services:
-            self._definitions.load_from_path(package)
+        for load in (self._definitions.load_from_path, self._definitions.load_published):
+            if type_name not in self._definitions.services:
+                load(package)
         text = self._definitions.services.get(type_name)
         if text is None:
             if why := self._definitions.unreadable.get(f"{type_name}.srv"):
