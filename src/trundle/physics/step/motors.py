@@ -193,7 +193,7 @@ class Motors:
         else:
             self._direct[actuator] = direct = command
             interface = self._hardware[actuator]
-        if interface.rate == _KINEMATIC:
+        if interface.rate == _KINEMATIC or (direct.max_effort == 0.0 and direct.effort == 0.0):
             return interface
         if interface.is_drive and direct.is_drive:
             return command

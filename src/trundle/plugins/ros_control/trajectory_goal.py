@@ -4,8 +4,8 @@ initJointTrajectory.
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -150,10 +150,10 @@ class PathReader:
         self._check_dropped(times, dropped, now_ns, stamped=to_nsec(trajectory.header.stamp) != 0)
         paths = [_with_goal(path, now_ns, goal) for path in current]
         for column, joint in enumerate(columns):
-            states = [
+            states = (
                 _state(point, column, first=number == 0, width=len(columns))
                 for number, point in enumerate(points[dropped:])
-            ]
+            )
             make = _SegmentMaker(goal, JointTolerances() if tolerances is None else tolerances[joint])
             paths[joint] = _continued(
                 current[joint], now_ns, begin_ns, times[dropped:], states, make, wraps=self._continuous[joint]
@@ -205,21 +205,24 @@ def _continued(
     now_ns: int,
     begin_ns: int,
     times: Sequence[int],
-    states: Sequence[JointState],
+    states: Iterator[JointState],
     make: _SegmentMaker,
     *,
     wraps: bool,
 ) -> JointPath:
     """Return the current path up to the trajectory's start, a bridge to its first point, and the rest."""
     leave_ns = max(begin_ns, now_ns)
-    left = current.state_at(leave_ns)
-    if wraps:
-        offset = _wraparound(left.position, states[0].position)
-        states = [replace(state, position=state.position + offset) for state in states]
-    kept = current.segments[max(current.index_at(now_ns), 0) : current.index_at(leave_ns) + 1]
-    ends = list(zip(times, states, strict=True))
-    later = [make.between(a_ns, a, b_ns, b, from_start_ns=a_ns - begin_ns) for (a_ns, a), (b_ns, b) in pairwise(ends)]
-    return JointPath([*kept, make.between(leave_ns, left, *ends[0]), *later])
+    left, first = current.state_at(leave_ns), next(states)
+    turns = _wraparound(left.position, first.position) if wraps else 0.0
+    first = replace(first, position=first.position + turns)
+    segments = current.segments[max(current.index_at(now_ns), 0) : current.index_at(leave_ns) + 1]
+    segments.append(make.between(leave_ns, left, times[0], first))
+    ends = (
+        (time, replace(state, position=state.position + turns)) for time, state in zip(times[1:], states, strict=True)
+    )
+    for (a_ns, a), (b_ns, b) in pairwise(chain([(times[0], first)], ends)):
+        segments.append(make.between(a_ns, a, b_ns, b, from_start_ns=a_ns - begin_ns))
+    return JointPath(segments)
 
 
 def _wraparound(start: float, end: float) -> float:
