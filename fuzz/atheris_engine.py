@@ -17,6 +17,8 @@ from .target import Execute
 _MAX_BYTES = 200_000
 _BYTES_RATIO = 0.25
 """Part of the mutations that libFuzzer makes, which knows compared values."""
+_SEEDS_RATIO = 0.1
+"""Part of the mutations that start from a seed."""
 
 
 def is_installed() -> bool:
@@ -71,6 +73,8 @@ def run(execute: Execute, pool: Pool, *, corpus: Path, seeds: Path, seconds: flo
 
     def mutated(data: bytes, max_size: int, seed: int) -> bytes:
         source = random.Random(seed)
+        if len(data) <= 1 or source.random() < _SEEDS_RATIO:  # nothing is kept of targets that are not Python
+            data = source.choice(pool.inputs)
         if source.random() < _BYTES_RATIO:
             return engine.Mutate(data, max_size)
         return mutate(data, pool, source)[:max_size]

@@ -12,6 +12,7 @@ _FAMILIES = {
     "images": ("png", "jpeg", "tiff", "dem"),
     "recordings": ("bag", "rosrecord", "mcap", "state-log"),
     "plans": ("sweep", "dataset"),
+    "rviz": ("rviz",),
     "graph": ("xmlrpc", "slave", "tcpros", "tcpros-client", "service-client"),
     "web": ("foxglove", "http", "upload", "zip", "rosbridge", "rosbridge-tcp"),
 }

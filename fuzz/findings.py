@@ -7,9 +7,20 @@ from pathlib import Path
 _FRAME = re.compile(r'File "[^"]*?/(src/trundle/[^"]+|fuzz/[^"]+|[^/"]+/[^/"]+)", line (\d+), in (\S+)')
 _ERROR = re.compile(r"^([A-Za-z_][\w.]*(?:Error|Exception|Warning|Exit|Iteration|Group|Interrupt))\b", re.MULTILINE)
 _SANITIZER = re.compile(r"(\S+:\d+:\d+: runtime error|ERROR: \w+Sanitizer: [\w-]+|ERROR: libFuzzer: [\w ]+)")
+_WARNING = re.compile(r"(\S+:\d+: \w*Warning): ")
 _NATIVE_FRAME = re.compile(r"#\d+ 0x\w+ in (\S+).*?/cpp/(\S+)")
-PRINTED = re.compile(r"Traceback \(most recent call last\)|^\S+:\d+: \w*Warning: |: runtime error: ", re.MULTILINE)
+_PRINTED = re.compile(r"Traceback \(most recent call last\)|^\S+:\d+: \w*Warning: |: runtime error: ", re.MULTILINE)
 """Signs of a fault in what was printed: a traceback, a warning of Python's or numpy's, a report of UBSan."""
+
+
+def fault_in(printed: str) -> tuple[str, str] | None:
+    """Return a fault's sentence and its details in what was printed; None: there is none."""
+    found = _PRINTED.search(printed)
+    if found is None:
+        return None
+    details = printed[found.start() :].strip()
+    lines = details.splitlines()
+    return f"printed: {lines[-1 if lines[0].startswith('Traceback') else 0][:300]}", details
 
 
 class Findings:
@@ -47,6 +58,8 @@ def _place(details: str) -> str:
     if found := _SANITIZER.search(details):
         native = _NATIVE_FRAME.search(details)
         return found[1] + (f" {native[2]}" if native else "")
+    if found := _WARNING.search(details):
+        return found[1]
     frames = _FRAME.findall(details)
     ours = next(
         (frame for frame in reversed(frames) if frame[0].startswith("src/")), frames[-1] if frames else ("", "", "")

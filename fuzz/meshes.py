@@ -1,6 +1,7 @@
-"""Meshes: read, and where one is accepted, checked as collision and visual of a model, and drawn."""
+"""Meshes: read, and where one is accepted, drawn, and checked as collision and visual of a model."""
 
 import json
+import zlib
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,6 +20,8 @@ from trundle.spatial import Pose
 from .seeds import picture, seed
 from .target import Execute, Open, Target, reads_file, write_file
 
+_CHECKED = 8
+"""Of so many accepted meshes one is compiled, too, which takes long; which one depends on the input alone."""
 _DAE_WORDS = (
     b"Y_UP", b"1e9", b"<scale>0 1 1</scale>", b"<skew>1 2 3 4 5 6 7</skew>", b"<lookat>0 0 0 0 0 0 0 0 0</lookat>",
     b"polygons", b"tristrips", b"trifans", b"lines", b"<instance_node url='#n1'/>", b"#quad-mesh", b"#p", b"NORMAL",
@@ -55,8 +58,9 @@ def _meshes(name: str) -> Open:
         def execute(data: bytes) -> None:
             write_file(file, data)
             mesh = load_mesh(file)
-            json.dumps(check(str(folder / "model.sdf"), {}, start=folder).as_json(), allow_nan=False)
             _draw(mesh)
+            if zlib.crc32(data) % _CHECKED == 0:
+                json.dumps(check(str(folder / "model.sdf"), {}, start=folder).as_json(), allow_nan=False)
 
         yield execute
 

@@ -1,6 +1,5 @@
 """Definitions of messages, services, actions and configurations, and serialized messages."""
 
-import ast
 import importlib
 import json
 from collections.abc import Callable, Generator
@@ -70,11 +69,12 @@ def _open_configuration(folder: Path) -> Generator[Execute]:
     file = folder / "Fuzz.cfg"
 
     def execute(data: bytes) -> None:
-        lines = ["from dynamic_reconfigure.parameter_generator_catkin import *", "gen = ParameterGenerator()"]
+        lines = ["from dynamic_reconfigure.parameter_generator_catkin import *", "from math import inf, nan"]
+        lines.append("gen = ParameterGenerator()")
         for line in data.decode(errors="replace").splitlines():
             try:
-                arguments = ast.literal_eval(line.replace("true", "True"))
-            except (ValueError, SyntaxError, MemoryError, RecursionError, TypeError):
+                arguments = json.loads(line)
+            except (ValueError, RecursionError):
                 continue
             if isinstance(arguments, list):
                 lines.append(f"gen.add(*{arguments!r})")

@@ -15,8 +15,8 @@ from types import ModuleType
 from .target import ROOT
 
 _FOLDER = ROOT / "build" / "sanitized"
-_FLAGS = "-fsanitize=address,undefined,fuzzer-no-link -fno-sanitize=vptr -fno-omit-frame-pointer"
-"""fuzzer-no-link counts edges; vptr would need RTTI of a C++ runtime that Python does not load."""
+_FLAGS = "-fsanitize=address,undefined,fuzzer-no-link -fno-sanitize=vptr,function -fno-omit-frame-pointer"
+"""fuzzer-no-link counts edges; vptr and function need what runtimes of other versions of clang do not have."""
 _MODULES = {
     "trundle.render._native": "_native",
     "trundle.physics._contact_laws": "_contact_laws",

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from . import atheris_engine
-from .findings import PRINTED, Findings
+from .findings import Findings, fault_in
 from .guard import forbid
 from .mutate import Pool, mutate
 from .sanitized import use_sanitized
@@ -88,10 +88,8 @@ class Worker:
             file.seek(self._printed)
             text = file.read().decode(errors="replace")
         self._printed = size
-        if found := PRINTED.search(text):
-            self.findings.add(
-                "printed: " + text[found.start() :].strip().rpartition("\n")[2][:300], text[found.start() :], data
-            )
+        if fault := fault_in(text):
+            self.findings.add(*fault, data)
 
     def write_statistics(self) -> None:
         """Write the counts, for the campaign."""
@@ -140,7 +138,7 @@ def main() -> None:
     faulthandler.enable()
     os.umask(0o077)
     if args.sanitized is None:
-        resource.setrlimit(resource.RLIMIT_AS, (_MAX_ADDRESSES, _MAX_ADDRESSES))
+        resource.setrlimit(resource.RLIMIT_AS, (_MAX_ADDRESSES, resource.RLIM_INFINITY))
     else:
         use_sanitized(args.sanitized)
     guides = args.input is None and atheris_engine.instrument()
