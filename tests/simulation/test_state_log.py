@@ -47,6 +47,23 @@ def test_a_log_that_was_cut_short_is_read_up_to_there(tmp_path: Path) -> None:
     assert len(read_state_log(path).times) == 24
 
 
+@pytest.mark.parametrize("number", [np.nan, np.inf, 1e200, -1e39, 0.0])
+@pytest.mark.parametrize("column", [0, 1, 4])
+def test_a_damaged_row_is_named(tmp_path: Path, column: int, number: float) -> None:
+    """Time, x and qw: zero is damage only in a quaternion."""
+    path, _ = recorded(tmp_path)
+    header, newline, data = path.read_bytes().partition(b"\n")
+    rows = np.frombuffer(data).reshape(25, -1).copy()
+    rows[2, column] = number
+    path.write_bytes(header + newline + rows.tobytes())
+
+    if number == 0.0 and column != 4:
+        assert len(read_state_log(path).times) == 25
+    else:
+        with pytest.raises(DescriptionError, match=r"run.log: error: row 3 of 25 is damaged"):
+            read_state_log(path)
+
+
 def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
     (tmp_path / "one").mkdir()
     (tmp_path / "two").mkdir()

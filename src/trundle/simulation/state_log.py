@@ -26,6 +26,10 @@ from .state_log_format import FORMAT
 
 _ROW = np.dtype("<f8")
 _LONGEST_HEADER = 256 * 1024 * 1024
+_LARGEST = 1e12
+"""Largest number [s, m, rad]: float32 of glTF holds it, and its square."""
+_TOLERANCE = 0.01
+"""Of a quaternion's squared length."""
 _Array = NDArray[np.float64]
 
 
@@ -94,7 +98,7 @@ def read_state_log(file: Path | str) -> StateLog:
     """Read a state log, without an incomplete last row.
 
     Raises:
-        DescriptionError: the file is not a state log.
+        DescriptionError: the file is not a state log, or a row is damaged.
         OSError: it cannot be read.
     """
     path = Path(file)
@@ -112,11 +116,23 @@ def read_state_log(file: Path | str) -> StateLog:
     width = 1 + 7 * len(links) + len(joints)
     count = (path.stat().st_size - start) // (width * _ROW.itemsize)
     rows = np.fromfile(path, dtype=_ROW, offset=start, count=count * width).reshape(count, width).astype(np.float64)
+    poses = rows[:, 1 : 1 + 7 * len(links)].reshape(count, len(links), 7)
+    damaged = np.flatnonzero(~_are_states(rows, poses))
+    if damaged.size:
+        what = f"row {damaged[0] + 1} of {count} is damaged: it holds no time with poses and positions"
+        raise DescriptionError(Source(str(path)), what)
     return StateLog(
         links=links,
         joints=joints,
         sdf=sdf,
         times=rows[:, 0],
-        poses=rows[:, 1 : 1 + 7 * len(links)].reshape(count, len(links), 7),
+        poses=poses,
         positions=rows[:, 1 + 7 * len(links) :],
     )
+
+
+def _are_states(rows: _Array, poses: _Array) -> NDArray[np.bool_]:
+    """Return, per row, whether its numbers can be of a world: bounded, with unit quaternions."""
+    bounded = (np.abs(rows) <= _LARGEST).all(axis=1)  # and so no NaN
+    squares = np.square(np.clip(poses[:, :, 3:], -2.0, 2.0)).sum(axis=2)
+    return bounded & (np.abs(squares - 1.0) < _TOLERANCE).all(axis=1)
