@@ -1,4 +1,4 @@
-"""What a process has run out of: open files, memory, threads."""
+"""Shortages of a process: open files, memory, threads."""
 
 import errno
 import os

@@ -29,7 +29,7 @@ _LONGEST_HEADER = 256 * 1024 * 1024
 _LARGEST = 1e12
 """Largest number [s, m, rad]: float32 of glTF holds it, and its square."""
 _TOLERANCE = 0.01
-"""Of a quaternion's squared length."""
+"""Tolerance of a quaternion's squared length."""
 _Array = NDArray[np.float64]
 
 

@@ -13,7 +13,7 @@ class Places:
     def __init__(self) -> None:
         self._controlling = 0
         self._looking: list[Callable[[], object]] = []
-        """What ends each client that may only look, oldest first."""
+        """Functions that end each client that may only look, oldest first."""
 
     def has_room(self, *, is_view_only: bool) -> bool:
         """True if a client can be served; one that may only look always can."""
