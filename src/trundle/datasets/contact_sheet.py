@@ -11,6 +11,7 @@ from pathlib import Path
 from PIL import Image
 
 from trundle.atomic_write import write_atomically
+from trundle.html_policy import policy_of_document
 
 from .annotation import PictureAnnotation
 from .dataset_folder import picture_path
@@ -93,7 +94,10 @@ def _page(plan: DatasetPlan, annotations: Sequence[PictureAnnotation], figures: 
         )
     )
     said = f"{len(annotations)} of {plan.count} pictures, {plan.width_px} × {plan.height_px} px, seed {plan.seed}"
-    head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{name}</title>'
+    head = (
+        f'<meta charset="utf-8">{policy_of_document()}<meta name="viewport" content="width=device-width">'
+        f"<title>{name}</title>"
+    )
     body = (
         f"<h1>{name}</h1><p>{said}</p>{table}<fieldset>{switches}</fieldset><div class='grid'>{''.join(figures)}</div>"
     )

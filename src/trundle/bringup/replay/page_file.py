@@ -10,6 +10,7 @@ from string import Template
 import msgspec
 
 from trundle.diagnostics import Diagnostics, UsageError
+from trundle.html_policy import policy_of_viewer
 from trundle.page import REPLAY_FILES
 
 from ..scene_settings import scene_settings
@@ -19,6 +20,7 @@ _PAGE = Template("""<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
+$policy
 <meta name="viewport" content="width=device-width, initial-scale=1, viewport-fit=cover">
 <title>$title</title>
 <style>$style</style>
@@ -52,12 +54,14 @@ def replay_page(motion: RecordedMotion, report: Diagnostics, *, view: Mapping[st
     world = gzip.compress(animated_world(motion, report), mtime=0)
     about: dict[str, object] = {"title": motion.title, "start": float(motion.times[0]), "end": float(motion.times[-1])}
     about |= {"scene": scene_settings(motion.world), "view": view}
+    own = _inert(script)
     return _PAGE.substitute(
+        policy=policy_of_viewer(own),
         title=escape(motion.title),
         style=style,
         about=msgspec.json.encode(about).decode().replace("<", "\\u003c"),
         world=base64.b64encode(world).decode(),
-        script=_inert(script),
+        script=own,
         licenses=_inert(licenses),
     )
 

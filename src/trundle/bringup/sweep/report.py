@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
+from trundle.html_policy import policy_of_document
 from trundle.trials import Plan, Rows, lock_folder, numbers, rank_correlation, worst_rows
 
 from .report_charts import breakable, correlation_bars, histogram, scatter
@@ -57,7 +58,10 @@ class _Report:
     def html(self) -> str:
         name = escape(Path(self._plan.file).name)
         parts = [self._summary(), self._distributions(), self._importance(), self._worst()]
-        head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{name}</title>'
+        head = (
+            f'<meta charset="utf-8">{policy_of_document()}<meta name="viewport" content="width=device-width">'
+            f"<title>{name}</title>"
+        )
         body = f"<head>{head}<style>{STYLE}</style></head><body>{''.join(parts)}</body>"
         return f'<!doctype html><html lang="en">{body}</html>'
 

@@ -1,7 +1,6 @@
 """Document in place of the page for those who have no token: it asks for the link."""
 
-import base64
-import hashlib
+from trundle.html_policy import inline_hash
 
 _STYLE = """
 :root { color-scheme: light dark }
@@ -38,8 +37,6 @@ LINK_REQUEST = f"""<!doctype html>
 </html>
 """
 POLICY = (
-    "default-src 'none'; "
-    f"style-src 'sha256-{base64.b64encode(hashlib.sha256(_STYLE.encode()).digest()).decode()}'; "
-    "frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
+    f"default-src 'none'; style-src {inline_hash(_STYLE)}; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
 )
 """Content security policy of the document."""
