@@ -251,6 +251,7 @@ class RosGraph:
         task = asyncio.get_running_loop().create_task(_answered(client, work))
         tasks.add(task)
         task.add_done_callback(tasks.discard)
+        task.add_done_callback(lambda _: work.close())  # which a task that is cancelled at once has not begun
 
 
 async def _answered(client: Connection, work: Coroutine[Any, Any, None]) -> None:
