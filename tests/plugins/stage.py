@@ -1,12 +1,13 @@
 """A model with its plugins, and a node of no graph that a test speaks through."""
 
-from collections.abc import Callable
+import asyncio
+from collections.abc import Callable, Coroutine, Mapping
 from pathlib import Path
 from typing import Any
 
 import trundle
 from trundle.bringup.plugins import load_plugins, load_world_plugins
-from trundle.ros import Messages
+from trundle.ros import NOETIC, Distro, Messages
 from trundle.ros.node.endpoint_recorder import EndpointRecorder
 from trundle.simulation import Simulation
 
@@ -19,27 +20,47 @@ ARM = (
 """An arm of 0.1 kg·m² on a hinge that points upwards."""
 
 
-class Wires:
-    """Stand-in for a node: keeps subscribers and log messages."""
+class _Loop:
+    def run(self, coroutine: Coroutine[Any, Any, Any]) -> Any:
+        return asyncio.run(coroutine)
 
-    def __init__(self) -> None:
+
+class _Params:
+    def __init__(self, values: Mapping[str, object]) -> None:
+        self._values = values
+
+    async def get(self, name: str, default: Any) -> Any:
+        return self._values.get(name, default)
+
+
+class Wires:
+    """Stand-in for a node: keeps subscribers, services and what is published."""
+
+    loop = _Loop()
+
+    def __init__(self, params: Mapping[str, object] | None = None, profile: Distro = NOETIC) -> None:
+        self.params, self.profile = _Params(params or {}), profile
+        self.services: set[str] = set()
         self._types = Messages()
-        self._heard_by: dict[str, list[tuple[str, Callable[[Any], None]]]] = {}
+        self.heard_by: dict[str, list[tuple[str, Callable[[Any], None]]]] = {}
         self.said: dict[str, list[Any]] = {}
         self.latched: set[str] = set()
         self.endpoints = EndpointRecorder()
 
     def subscribe(self, topic: str, kind: str, call: Callable[[Any], None], **_: Any) -> None:
-        self._heard_by.setdefault(topic, []).append((kind, call))
+        self.heard_by.setdefault(topic, []).append((kind, call))
 
     def advertise(self, topic: str, kind: str, *, latch: bool = False, **_: Any) -> "_Topic":
         if latch:
             self.latched.add(topic)
         return _Topic(self._types, kind, self.said.setdefault(topic, []))
 
+    def advertise_service(self, name: str, *_: object) -> None:
+        self.services.add(name)
+
     def tell(self, topic: str, **fields: Any) -> None:
         """Pass a message to the subscribers of a topic."""
-        for kind, call in self._heard_by[topic]:
+        for kind, call in self.heard_by[topic]:
             call(self.new(kind, fields))
 
     def new(self, kind: str, fields: Any) -> Any:
@@ -57,14 +78,20 @@ class _Topic:
 
 
 def load(
-    folder: Path, body: str, *, gravity: str = "0 0 0", ground: bool = False, wires: Wires | None = None
+    folder: Path,
+    body: str,
+    *,
+    gravity: str = "0 0 0",
+    ground: bool = False,
+    others: str = "",
+    wires: Wires | None = None,
 ) -> Simulation:
-    """A world with the model `m`, whose plugins run."""
+    """A world with the model `m`, and others after it, whose plugins run."""
     plane = "<include><uri>model://ground_plane</uri></include>" if ground else ""
     file = folder / "w.sdf"
     file.write_text(
         f'<sdf version="1.6"><world name="w"><gravity>{gravity}</gravity>{plane}'
-        f'<model name="m">{body}</model></world></sdf>'
+        f'<model name="m">{body}</model>{others}</world></sdf>'
     )
     sim = trundle.load(str(file))
     make: Any = None if wires is None else lambda _: wires

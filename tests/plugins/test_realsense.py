@@ -41,7 +41,7 @@ def see(folder: Path, parameters: str = "") -> tuple[Simulation, Wires, list[str
     wires: Any = Wires()
     sim = load(folder, f'<link name="eyes">{BODY.format(1)}{eyes}</link>{WALL}{plugin}</plugin>', wires=wires)
     cameras = mount_cameras(sim, RENDERERS["cpu"])
-    silent = attach_sensor_plugins(cameras, wires, sim.report)
+    silent = attach_sensor_plugins(cameras, wires, sim)
     for camera in cameras:
         camera.start(sim)
     sim.run(0.25)

@@ -125,9 +125,12 @@ def load_world_plugins(
 _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 
-def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diagnostics) -> list[_Sensor]:
+def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: "Simulation") -> list[_Sensor]:
     """Attach the sensors' plugins, which publish their readings; return the sensors without one, in order."""
+    from trundle.plugins import PluginNames
     from trundle.ros import Publisher
+
+    report, models = simulation.report, [each.model for each in simulation.models]
 
     silent: list[_Sensor] = []
     for sensor in sensors:
@@ -139,8 +142,9 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", report: Diag
                 _warn_unsupported(sensor.name, tag, report)
                 continue
             try:
+                parameters = TagParameters(tag.node, report)
                 with node.endpoints.record() as ends:
-                    attach(sensor, node, TagParameters(tag.node, report))
+                    attach(sensor, parameters, PluginNames(node, parameters, sensor.model, models))
                 sensor.topics |= {end.topic: end.type for end in ends if isinstance(end, Publisher)}
                 attached += 1
             except TrundleError as error:

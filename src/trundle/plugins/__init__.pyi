@@ -13,6 +13,7 @@ from .catalog import require_plugin as require_plugin
 from .documentation import PluginDocumentation as PluginDocumentation
 from .documentation import PluginParameter as PluginParameter
 from .documentation import plugin_documentation as plugin_documentation
+from .gazebo_ros.plugin_names import PluginNames as PluginNames
 from .plugin import Hooks as Hooks
 from .plugin import Plugin as Plugin
 from .plugin import VisualPlugin as VisualPlugin

@@ -24,7 +24,7 @@ from .plugin import Hooks, Plugin, VisualPlugin, WorldPlugin
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoints
 
-    from trundle.ros import Node
+    from .gazebo_ros.plugin_names import PluginNames
 
 BUILTIN: dict[str, str] = {
     "libActorPlugin.so": "trundle.plugins.gazebo.actor:WanderingActor",
@@ -85,10 +85,10 @@ BUILTIN: dict[str, str] = {
 
 _SENSORS = "trundle.plugins.gazebo_ros"
 SENSOR_PLUGINS: dict[str, str] = {
-    "libgazebo_ros_block_laser.so": f"{_SENSORS}.laser:attach_points",
+    "libgazebo_ros_block_laser.so": f"{_SENSORS}.block_laser:attach",
     "libgazebo_ros_bumper.so": f"{_SENSORS}.bumper:attach",
     "libgazebo_ros_camera.so": f"{_SENSORS}.camera:attach",
-    "libgazebo_ros_depth_camera.so": f"{_SENSORS}.depth_camera:attach",
+    "libgazebo_ros_depth_camera.so": f"{_SENSORS}.depth_camera:attach_depth_camera",
     "libgazebo_ros_gpu_laser.so": f"{_SENSORS}.laser:attach",
     "libgazebo_ros_imu_sensor.so": f"{_SENSORS}.imu_sensor:attach",
     "libgazebo_ros_laser.so": f"{_SENSORS}.laser:attach",
@@ -99,8 +99,8 @@ SENSOR_PLUGINS: dict[str, str] = {
     "libgazebo_ros_thermal_camera.so": "trundle.plugins.hector_gazebo.thermal:attach",
     "libgazebo_ros_triggered_camera.so": f"{_SENSORS}.camera:attach_triggered",
     "libgazebo_ros_triggered_multicamera.so": f"{_SENSORS}.camera:attach_triggered",
-    "libgazebo_ros_velodyne_gpu_laser.so": f"{_SENSORS}.laser:attach_points",
-    "libgazebo_ros_velodyne_laser.so": f"{_SENSORS}.laser:attach_points",
+    "libgazebo_ros_velodyne_gpu_laser.so": f"{_SENSORS}.velodyne_laser:attach",
+    "libgazebo_ros_velodyne_laser.so": f"{_SENSORS}.velodyne_laser:attach",
     "libhector_gazebo_ros_sonar.so": "trundle.plugins.hector_gazebo.sonar:attach",
     "libunitreeFootContactPlugin.so": "trundle.plugins.unitree.foot_contact:attach",
 }
@@ -185,22 +185,22 @@ def is_sensor_plugin(tag: PluginTag) -> bool:
     return _base_name(tag) in SENSOR_PLUGINS
 
 
-def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, Node, TagParameters], None] | None":
+def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, TagParameters, PluginNames], None] | None":
     """Function that publishes a sensor's readings as its plugin does; None: no such plugin."""
     target = SENSOR_PLUGINS.get(_base_name(tag))
     if target is None:
         return None
     publish = _imported(target)
 
-    def attach(sensor: Any, node: "Node", parameters: TagParameters) -> None:
-        publish(sensor, node, parameters)
+    def attach(sensor: Any, parameters: TagParameters, names: "PluginNames") -> None:
+        publish(sensor, parameters, names)
         parameters.ignore(*WITHOUT_EFFECT)
         parameters.report_unread()
 
     return attach
 
 
-def find_model_sensor_plugin(tag: PluginTag, sensor: str) -> "Callable[[Any, Node, TagParameters], None] | None":
+def find_model_sensor_plugin(tag: PluginTag, sensor: str) -> "Callable[[Any, TagParameters, PluginNames], None] | None":
     """Function that publishes a sensor's readings as a plugin of its model does; None: the plugin does not."""
     target = _OF_MODELS.get(_base_name(tag))
     return None if target is None else _imported(target)(tag, sensor)

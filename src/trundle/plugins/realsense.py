@@ -14,6 +14,7 @@ from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor, DepthCameraSensor
 from trundle.simulation import ModelHandle, Simulation
 
+from .gazebo_ros.plugin_names import PluginNames
 from .gazebo_ros.sensor_publisher import SensorPublisher
 from .plugin import Plugin
 
@@ -56,13 +57,13 @@ class RealSense(Plugin):
         return cls()
 
 
-def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, Node, TagParameters], None] | None":
+def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, TagParameters, PluginNames], None] | None":
     """Return `attach` if the name is that of one of the RealSense's sensors, else None."""
     ends = {f"{tag.node.string('prefix')}{end}" for end in _STREAMS}
     return attach if sensor in ends else None
 
 
-def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
+def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish one of the four streams; see `RealSense`."""
     stream = _STREAMS[sensor.name.removeprefix(parameters.text("prefix", ""))]
     image = image_encoder(sensor.optics.format)
@@ -74,8 +75,9 @@ def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
         _topic(parameters, parameters.text(f"{stream}TopicName", "")),
         parameters.text(f"{stream}OpticalframeName", ""),
     )
-    images = SensorPublisher(node, topic, "sensor_msgs/Image", frame)
-    infos = SensorPublisher(node, f"{topic.rpartition('/')[0]}/camera_info", "sensor_msgs/CameraInfo", frame)
+    images = SensorPublisher(names.advertise("sensor_msgs/Image", topic), frame)
+    info_topic = f"{topic.rpartition('/')[0]}/camera_info"
+    infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame)
     outlets, calibration = [images, infos], _calibration(sensor)
 
     def publish(reading: CameraReading) -> None:
@@ -84,7 +86,7 @@ def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
 
     sensor.listen(publish, enabled=lambda: any(outlet.has_subscribers() for outlet in outlets))
     if stream == "depth" and parameters.flag("pointCloud", default=False):
-        _publish_points(sensor, node, parameters, frame)
+        _publish_points(sensor, names, parameters, frame)
 
 
 def _topic(parameters: TagParameters, name: str) -> str:
@@ -96,11 +98,12 @@ def _as_bytes(image: dict[str, object]) -> dict[str, object]:
     return {**image, "encoding": "8UC1"} if image["encoding"] == "mono8" else image
 
 
-def _publish_points(sensor: CameraSensor, node: Node, parameters: TagParameters, frame: str) -> None:
+def _publish_points(sensor: CameraSensor, names: PluginNames, parameters: TagParameters, frame: str) -> None:
     near = parameters.number("pointCloudCutoff", 0.0)
     far = parameters.number("pointCloudCutoffMax", 5.0)
     topic = _topic(parameters, parameters.text("pointCloudTopicName", ""))
-    points, cloud = SensorPublisher(node, topic, "sensor_msgs/PointCloud2", frame), point_cloud_encoder(sensor)
+    points = SensorPublisher(names.advertise("sensor_msgs/PointCloud2", topic), frame)
+    cloud = point_cloud_encoder(sensor)
 
     def cut(reading: CameraReading) -> CameraReading:
         depth = _depth(reading)

@@ -30,6 +30,14 @@ class Distro(NamedTuple):
 
     So up to Kinetic; not since gazebo_plugins 2.8.3, of Melodic (changelog, #707).
     """
+    namespace_is_tf_prefix: bool
+    """True if a namespace without tf_prefix is the prefix of its plugins' frames (diff_drive, camera, laser …); not
+    since gazebo_plugins 2.9.2, of Noetic (changelog, #1143 and #1173).
+    """
+    imu_reference_is_first_pose: bool
+    """True if gazebo_ros_imu_sensor without <initialOrientationAsReference> measures from the imu's first pose; not
+    since gazebo_plugins 2.9.0, of Noetic, "comply with REP 145 by default" (changelog).
+    """
     has_clock_frequency: bool
     """/gazebo/pub_clock_frequency slows /clock down; not before gazebo_ros 2.5.4, of Jade (changelog).
 
@@ -44,6 +52,8 @@ _INDIGO = Distro(
     publishes_empty_joint_states=True,
     planar_is_free=True,
     mirrored_diff_drive=True,
+    namespace_is_tf_prefix=True,
+    imu_reference_is_first_pose=True,
     has_clock_frequency=False,
 )
 _LATER = {
@@ -52,13 +62,21 @@ _LATER = {
     "planar_is_free": False,
     "has_clock_frequency": True,
 }
+_BEFORE_NOETIC = {**_LATER, "namespace_is_tf_prefix": True, "imu_reference_is_first_pose": True}
 DISTROS: dict[str, Distro] = {
     profile.distro: profile
     for profile in (
         _INDIGO,
-        Distro(distro="kinetic", version="1.12.17", mirrored_diff_drive=True, **_LATER),
-        Distro(distro="melodic", version="1.14.13", mirrored_diff_drive=False, **_LATER),
-        Distro(distro="noetic", version="1.16.0", mirrored_diff_drive=False, **_LATER),
+        Distro(distro="kinetic", version="1.12.17", mirrored_diff_drive=True, **_BEFORE_NOETIC),
+        Distro(distro="melodic", version="1.14.13", mirrored_diff_drive=False, **_BEFORE_NOETIC),
+        Distro(
+            distro="noetic",
+            version="1.16.0",
+            mirrored_diff_drive=False,
+            namespace_is_tf_prefix=False,
+            imu_reference_is_first_pose=False,
+            **_LATER,
+        ),
     )
 }
 """Supported distributions by name."""

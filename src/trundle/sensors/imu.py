@@ -49,6 +49,10 @@ class ImuSensor(LiveSensor[ImuReading]):
         self._last_velocity: tuple[int, Vector3, Vector3] | None = None
         """Time, velocity of the centre of mass and angular velocity at the last reading, world axes."""
 
+    def set_reference(self, reference_from_world: Pose) -> None:
+        """Set the frame of the orientation output."""
+        self._reference_from_world = reference_from_world
+
     def measure(self, snapshot: Snapshot) -> ImuReading:
         """Measure; the first reading has no acceleration other than gravity."""
         world_from_sensor = self.world_from_sensor(snapshot)

@@ -136,10 +136,10 @@ _BOX = f"""<sdf version="1.6"><model name="box"><pose>0 0 2 0 0 0</pose><link na
 
 
 def test_a_model_slides_as_it_is_told_and_does_not_fall(gazebo: Gazebo) -> None:
-    parameters = "<robotNamespace></robotNamespace><cmdTimeout>0.3</cmdTimeout>"
+    parameters = "<robotNamespace>box</robotNamespace><cmdTimeout>0.3</cmdTimeout>"
     gazebo.spawn(_BOX.format(plugin=_plugin("planar_move", parameters)), "box")
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/box/odom", ODOMETRY)  # an empty namespace is the model's name
+    odometry = gazebo.hear("/box/odom", ODOMETRY)
     drive = gazebo.speak("/box/cmd_vel", TWIST)
 
     def moved() -> bool:

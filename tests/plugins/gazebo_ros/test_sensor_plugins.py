@@ -4,6 +4,7 @@ import math
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
 import pytest
 from tests.gazebo_server import Gazebo, until
 
@@ -151,9 +152,23 @@ def test_a_kinect_sees_depths_and_points_within_its_reach(gazebo: Gazebo) -> Non
     assert (cloud.width, cloud.height) == (32, 24)
 
 
+@pytest.mark.parametrize(("plugin", "is_seen"), [("depth_camera", True), ("openni_kinect", False)])
+def test_only_a_kinect_has_a_largest_depth_by_default(gazebo: Gazebo, plugin: str, is_seen: bool) -> None:
+    """The wall is at 7 m; a Kinect sees 5 m."""
+    assert gazebo.spawn(_WALL.replace("2.5 0 1", "7.5 0 1"), "wall").success
+    eye = _sensor("depth", _CAMERA, plugin, "<cameraName>eye</cameraName><frameName>f</frameName>")
+    assert gazebo.spawn(_mast(eye), "mast").success
+    gazebo.call("unpause_physics")
+    depth = _first(gazebo, "/eye/depth/image_raw", "sensor_msgs/Image")
+
+    middle = np.frombuffer(bytes(depth.data), "<f4").reshape(depth.height, depth.width)[12, 16]
+    assert (middle == pytest.approx(7.0, abs=0.05)) if is_seen else np.isnan(middle)
+
+
 def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
     parameters = "<topicName>imu</topicName><frameName>imu_link</frameName><updateRateHZ>20</updateRateHZ>"
     parameters += "<gaussianNoise>0.01</gaussianNoise><xyzOffset>0 0 0</xyzOffset><rpyOffset>0 0 1</rpyOffset>"
+    parameters += "<robotNamespace>/</robotNamespace>"
     _seeing(gazebo, _sensor("imu", "", "imu_sensor", parameters))
     heard = gazebo.hear("/imu", "sensor_msgs/Imu")
     until(lambda: len(heard) > 5)
@@ -163,7 +178,9 @@ def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
     assert heard[-1].linear_acceleration.z == pytest.approx(9.8, abs=0.2)
     assert heard[-1].orientation_covariance[0] == pytest.approx(1e-4)
     assert heard[-1].header.frame_id == "imu_link"
-    assert [w.rpartition(": ")[2] for w in gazebo.report.warnings if "Offset" in w] == ["<rpyOffset> is not supported"]
+    turn = heard[-1].orientation
+    assert 2.0 * math.atan2(turn.z, turn.w) == pytest.approx(1.0, abs=0.1)
+    assert not gazebo.report.warnings
 
 
 def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:

@@ -37,7 +37,7 @@ def test_a_sonar_tells_the_nearest_with_its_errors(gazebo: Gazebo) -> None:
     told = _first(gazebo, sensor, "/sonar_height", "sensor_msgs/Range")
 
     assert told.range == pytest.approx(2.25, abs=1e-3)
-    assert (told.radiation_type, told.header.frame_id) == (0, "/sonar_link")
+    assert (told.radiation_type, told.header.frame_id) == (0, "sonar_link")
     assert told.field_of_view == pytest.approx(0.2)
     assert (told.min_range, told.max_range) == (pytest.approx(0.1), pytest.approx(10.0))
 

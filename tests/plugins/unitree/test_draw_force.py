@@ -41,7 +41,7 @@ def test_a_standing_foot_has_a_line_as_long_as_its_weight(tmp_path: Path) -> Non
     wires: Any = Wires()
     sim = load(tmp_path, foot(), gravity=f"0 0 {-G}", ground=True, wires=wires)
     sensors = mount_sensors(sim)
-    attach_sensor_plugins(sensors, wires, sim.report)
+    attach_sensor_plugins(sensors, wires, sim)
     for sensor in sensors:
         sensor.start(sim)
     sim.lines_are_shown = True

@@ -22,7 +22,7 @@ def forces(folder: Path, pose: str) -> list[Any]:
     sim = load(folder, body, gravity=f"0 0 {-G}", ground=True)
     wires: Any = Wires()
     sensors = mount_sensors(sim)
-    assert attach_sensor_plugins(sensors, wires, sim.report) == []
+    assert attach_sensor_plugins(sensors, wires, sim) == []
     for sensor in sensors:
         sensor.start(sim)
     sim.run(1.0)

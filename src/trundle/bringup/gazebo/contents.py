@@ -68,7 +68,7 @@ class GazeboContents:
         if setup is not None:
             setup.start(self.simulation, node)
         ClockTopic(node, rate_hz=clock_hz).attach(self.simulation)
-        self._sensors = GazeboSensors(self.simulation, node, renderer, report)
+        self._sensors = GazeboSensors(self.simulation, node, renderer)
         self._plugins = GazeboPlugins(
             self.simulation, node, graph=graph, env=env, clock=clock, deliver=deliver, say=say
         )

@@ -1,7 +1,6 @@
 """Sensors of the world behind /gazebo, and their topics, as models come and go."""
 
 from trundle.bridge import FrameNames
-from trundle.diagnostics import Diagnostics
 from trundle.robot import Robot
 from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.sensors import CameraSensor, InstrumentSensor, RayScene, mount_cameras, mount_sensors
@@ -14,10 +13,10 @@ from ..renderers import RENDERERS, RendererName
 class GazeboSensors:
     """Sensors of one simulation; on its thread."""
 
-    def __init__(self, simulation: Simulation, node: Node, renderer: RendererName, report: Diagnostics) -> None:
+    def __init__(self, simulation: Simulation, node: Node, renderer: RendererName) -> None:
         """Prepare; `mount` starts sensors."""
         self._simulation = simulation
-        self._topics = ModelTopics(node, StaticTransformBroadcaster(node), report)
+        self._topics = ModelTopics(node, StaticTransformBroadcaster(node), simulation)
         self._renderer: RendererName = renderer
         self._around = RayScene(simulation)
         self._robots: dict[str, Robot] = {}

@@ -54,7 +54,7 @@ class RosInterface:
         frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
         simulation.on_change(lambda: frames.set_world(simulation.world, simulation.snapshot()))
         simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled, name="/tf")
-        self._sensor_topics = ModelTopics(self.node, static_broadcaster, simulation.report)
+        self._sensor_topics = ModelTopics(self.node, static_broadcaster, simulation)
         self.plugin_nodes = ModelNodes(loop, self.make_node)
         self._frame_names = FrameNames.from_world(stage.world, stage.robot)
         self.advertise(cameras, sensors)

@@ -3,24 +3,25 @@
 from trundle.bridge import contacts_message
 from trundle.diagnostics import UsageError
 from trundle.parameters import TagParameters
-from trundle.ros import Node
 from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 
-from .namespaces import read_namespace
-from .sensor_publisher import SensorPublisher, read_topic_name
+from .plugin_names import PluginNames
+from .sensor_publisher import SensorPublisher
 
 
-def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
-    """Publish gazebo_msgs/ContactsState on <bumperTopicName> (bumper_states), in the world frame."""
+def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNames) -> None:
+    """Publish gazebo_msgs/ContactsState on <bumperTopicName> (bumper_states).
+
+    As in the original, contacts are in world axes, whatever <frameName> (world) puts into the header.
+    """
     if not isinstance(sensor, ContactSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a contact sensor is needed")
-    topic = read_topic_name(
-        parameters, read_namespace(parameters, sensor.model.name), "bumperTopicName", "bumper_states"
-    )
-    frame = parameters.text("frameName", "world").strip("/")
-    if frame not in ("", "world", "map"):
-        parameters.warn(f"frameName {frame!r}: contacts are published in the world frame")
-    outlet = SensorPublisher(node, topic, "gazebo_msgs/ContactsState", "world")
+    topic = names.advertise("gazebo_msgs/ContactsState", parameters.text("bumperTopicName", "bumper_states"))
+    frame = parameters.text("frameName", "world")
+    if frame.strip("/") not in ("", "world", "map"):
+        what = f"frameName {frame!r} is the header's alone: contacts are in world axes, as in gazebo_ros"
+        parameters.report.info(parameters.at, what)
+    outlet = SensorPublisher(topic, names.frame(frame))
     parameters.ignore("updateRate")
 
     def publish(reading: ContactReading) -> None:

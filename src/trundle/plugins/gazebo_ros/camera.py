@@ -5,17 +5,17 @@ from typing import Any
 
 from trundle.bridge import camera_info_message, image_encoder
 from trundle.parameters import TagParameters
-from trundle.ros import Node, Option, Options, ReconfigureServer
+from trundle.ros import Option, Options, ReconfigureServer
 from trundle.sensors import CameraReading, CameraSensor
 
-from .namespaces import join_topic, read_namespace
-from .sensor_publisher import SensorPublisher, read_frame_name
+from .plugin_names import PluginNames
+from .sensor_publisher import SensorPublisher
 
 _FASTEST_HZ = 1000.0
 _SIDES = ["left", "right"]
 
 
-def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
+def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish images and camera_info.
 
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
@@ -24,32 +24,22 @@ def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
     distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
     one, by default that of the file.
     """
-    attach_images(sensor, node, parameters, image_encoder(sensor.optics.format))
+    attach_images(sensor, parameters, names, image_encoder(sensor.optics.format))
 
 
 def attach_images(
     sensor: CameraSensor,
-    node: Node,
     parameters: TagParameters,
+    names: PluginNames,
     image: Callable[[CameraReading], dict[str, object]],
 ) -> None:
     """Publish the messages that a function makes of readings, with the parameters of `attach`."""
     read_border_crop(sensor, parameters)
-    frame, rate_hz = read_frame_name(parameters, "world"), parameters.number("updateRate", 0.0)
-    pictures = SensorPublisher(
-        node,
-        camera_topic(sensor, parameters, "imageTopicName", "image_raw"),
-        "sensor_msgs/Image",
-        frame,
-        rate_hz=rate_hz,
-    )
-    infos = SensorPublisher(
-        node,
-        camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info"),
-        "sensor_msgs/CameraInfo",
-        frame,
-        rate_hz=rate_hz,
-    )
+    frame, rate_hz = names.frame(parameters.text("frameName", "/world")), parameters.number("updateRate", 0.0)
+    image_topic = camera_topic(sensor, parameters, "imageTopicName", "image_raw")
+    pictures = SensorPublisher(names.advertise("sensor_msgs/Image", image_topic), frame, rate_hz=rate_hz)
+    info_topic = camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info")
+    infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame, rate_hz=rate_hz)
     calibration = read_calibration(sensor, parameters)
     parameters.ignore("autoDistortion", "triggerTopicName", "cameraName")
 
@@ -58,18 +48,18 @@ def attach_images(
         infos.publish(reading, lambda: calibration)
 
     sensor.listen(publish, enabled=lambda: pictures.has_subscribers() or infos.has_subscribers())
-    offer_rate(sensor, node, parameters, rate_hz)
+    offer_rate(sensor, parameters, names, rate_hz)
 
 
-def attach_triggered(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
+def attach_triggered(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish as `attach`, one image for each std_msgs/Empty on <triggerTopicName> (image_trigger)."""
     trigger = sensor.await_trigger()
     topic = camera_topic(sensor, parameters, "triggerTopicName", "image_trigger")
-    node.subscribe(topic, "std_msgs/Empty", lambda _: trigger(), queue_size=1)
-    attach(sensor, node, parameters)
+    names.subscribe(topic, "std_msgs/Empty", lambda _: trigger())
+    attach(sensor, parameters, names)
 
 
-def offer_rate(sensor: CameraSensor, node: Node, parameters: TagParameters, plugin_rate_hz: float) -> None:
+def offer_rate(sensor: CameraSensor, parameters: TagParameters, names: PluginNames, plugin_rate_hz: float) -> None:
     """Offer the camera's rate as the dynamic_reconfigure option `imager_rate`.
 
     The option sets the sensor's rate, for all cameras of a multicamera; <updateRate> stays the limit of publishing.
@@ -81,7 +71,8 @@ def offer_rate(sensor: CameraSensor, node: Node, parameters: TagParameters, plug
         return values
 
     option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Images per second")
-    ReconfigureServer(node, [option], apply, namespace=join_topic(_topic_prefix(sensor, parameters), "").rstrip("/"))
+    namespace = names.topic(_camera_name(sensor, parameters)).rstrip("/")
+    ReconfigureServer(names.node, [option], apply, namespace=namespace)
 
 
 def read_border_crop(sensor: CameraSensor, parameters: TagParameters) -> None:
@@ -91,13 +82,13 @@ def read_border_crop(sensor: CameraSensor, parameters: TagParameters) -> None:
 
 
 def camera_topic(sensor: CameraSensor, parameters: TagParameters, parameter: str, default: str) -> str:
-    """Topic below the robot's namespace and the camera's name; each camera of a multicamera has its own."""
-    return join_topic(_topic_prefix(sensor, parameters), parameters.text(parameter, default))
+    """Topic below the camera's name, in the robot's namespace; each camera of a multicamera has its own."""
+    topic = parameters.text(parameter, default)
+    return topic if topic.startswith("/") else "/".join(filter(None, (_camera_name(sensor, parameters), topic)))
 
 
-def _topic_prefix(sensor: CameraSensor, parameters: TagParameters) -> str:
-    name = parameters.text("cameraName", "").strip("/")
-    return "/".join(part for part in (read_namespace(parameters, sensor.model.name), name, _eye(sensor)) if part)
+def _camera_name(sensor: CameraSensor, parameters: TagParameters) -> str:
+    return "/".join(filter(None, (parameters.text("cameraName", "").strip("/"), _eye(sensor))))
 
 
 def _eye(sensor: CameraSensor) -> str:

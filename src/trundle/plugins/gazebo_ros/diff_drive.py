@@ -4,14 +4,15 @@ import math
 
 from trundle.control import DifferentialDrive, WheelOdometry, step_towards
 from trundle.parameters import TagParameters
-from trundle.ros import Node, Transform, TransformBroadcaster
-from trundle.simulation import JointHandle, ModelHandle, Simulation, Snapshot
+from trundle.ros import Node
+from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
+from .namespaces import rate_to_period_ns
 from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 from .twist_command import TwistCommand
+from .wheel_frames import WheelFrames
 
 _VARIANCES = (1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3)
 
@@ -27,9 +28,8 @@ class DiffDrive(RosPlugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        del sim
         self._model = model
-        namespace = read_namespace(parameters, model.name)
+        names = plugin_names(sim, model, node, parameters)
 
         self._wheels = (
             model.joint(parameters.text("leftJoint", "left_joint")),
@@ -46,16 +46,16 @@ class DiffDrive(RosPlugin):
         self._sign = -1.0 if parameters.flag("legacyMode", default=node.profile.mirrored_diff_drive) else 1.0
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
         self._from_wheels = parameters.text("odometrySource", "world") in ("encoder", "0")
-        self._command = TwistCommand.from_tag(parameters, namespace, node)
+        self._command = TwistCommand.from_tag(parameters, names)
         self._odometry = None
         if parameters.flag("publishTf", default=True):
             with_tf = parameters.flag("publishOdomTF", default=True)
-            self._odometry = OdometryTopic.from_tag(parameters, namespace, node, variances=_VARIANCES, with_tf=with_tf)
+            self._odometry = OdometryTopic.from_tag(parameters, names, variances=_VARIANCES, with_tf=with_tf)
         states = parameters.flag("publishWheelJointState", default=False)
-        self._states = (
-            node.advertise(join_topic(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
-        )
-        self._frames = TransformBroadcaster(node) if parameters.flag("publishWheelTF", default=False) else None
+        self._states = names.advertise("sensor_msgs/JointState", "joint_states", queue_size=10) if states else None
+        self._frames = None
+        if parameters.flag("publishWheelTF", default=False):
+            self._frames = WheelFrames(names, model, {wheel.joint.child: wheel for wheel in self._wheels})
         parameters.ignore("odometryFrame", "robotBaseFrame", "odometryTopic", "publishOdomTF")
         self.reset()
 
@@ -78,8 +78,8 @@ class DiffDrive(RosPlugin):
             header = {"stamp": snapshot.time_ns}
             names, positions = [w.name for w in self._wheels], [w.position for w in self._wheels]
             self._states.publish({"header": header, "name": names, "position": positions})
-        if self._frames is not None and self._frames.has_subscribers:
-            self._frames.send_transform(*(_frame(self._model, wheel, snapshot.time_ns) for wheel in self._wheels))
+        if self._frames is not None:
+            self._frames.send(snapshot.time_ns)
 
     def reset(self) -> None:
         """Stop, and restart odometry at its origin."""
@@ -102,9 +102,3 @@ class DiffDrive(RosPlugin):
         if elapsed <= 0.0:
             return pose, Twist()
         return pose, Twist((distance / elapsed, 0.0, 0.0), (0.0, 0.0, turn / elapsed))
-
-
-def _frame(model: ModelHandle, wheel: JointHandle, time_ns: int) -> Transform:
-    parent, child = wheel.joint.parent, wheel.joint.child
-    pose = model.link(parent).pose.inverse() @ model.link(child).pose
-    return Transform(parent=parent, child=child, stamp_ns=time_ns, translation=pose.position, rotation=pose.quaternion)

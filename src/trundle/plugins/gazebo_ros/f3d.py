@@ -5,8 +5,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Wrench
 
-from .namespaces import join_topic, read_namespace
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 
 
 class F3D(RosPlugin):
@@ -19,9 +18,9 @@ class F3D(RosPlugin):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         super().__init__(sim, model, node, parameters)
         self._link = model.link(parameters.text("bodyName"))
-        topic = join_topic(read_namespace(parameters, model.name), parameters.text("topicName"))
-        self._frame = parameters.text("frameName", "world")
-        self._topic = node.advertise(topic, "geometry_msgs/WrenchStamped", queue_size=1)
+        names = plugin_names(sim, model, node, parameters)
+        self._frame = names.frame(parameters.text("frameName", "world"))
+        self._topic = names.advertise("geometry_msgs/WrenchStamped", parameters.text("topicName"))
         self._wrench = Wrench()
 
     def before_step(self, sim: Simulation) -> None:

@@ -7,8 +7,7 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 from trundle.spatial import Wrench
 
-from .namespaces import join_topic, read_namespace
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import geometry_msgs
@@ -18,16 +17,10 @@ class Force(RosPlugin):
     """Applies the last geometry_msgs/Wrench of <topicName>, in world axes, to <bodyName> at every step."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        del sim
         self._link = model.link(parameters.text("bodyName", ""))
         topic = parameters.text("topicName")
         self._wrench = Wrench()
-        node.subscribe(
-            join_topic(read_namespace(parameters, model.name), topic),
-            "geometry_msgs/Wrench",
-            self._on_wrench,
-            queue_size=1,
-        )
+        plugin_names(sim, model, node, parameters).subscribe(topic, "geometry_msgs/Wrench", self._on_wrench)
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the wrench."""

@@ -7,8 +7,8 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Vector3
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin
+from .namespaces import rate_to_period_ns
+from .ros_plugin import RosPlugin, plugin_names
 
 
 class FtSensor(RosPlugin):
@@ -24,9 +24,9 @@ class FtSensor(RosPlugin):
         self._noise = parameters.number("gaussianNoise", 0.0)
         self._random = np.random.default_rng(sim.seed)
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
-        self._topic = node.advertise(
-            join_topic(read_namespace(parameters, model.name), topic), "geometry_msgs/WrenchStamped"
-        )
+        names = plugin_names(sim, model, node, parameters)
+        self._frame = names.frame(self._child.name)
+        self._topic = names.advertise("geometry_msgs/WrenchStamped", topic, queue_size=10)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the wrench."""
@@ -35,7 +35,7 @@ class FtSensor(RosPlugin):
         on_child = self._joint.reaction
         back = Pose(quaternion=self._child.pose.quaternion).inverse()
         wrench = {"force": self._with_noise(back, on_child.force), "torque": self._with_noise(back, on_child.torque)}
-        header = {"stamp": snapshot.time_ns, "frame_id": self._child.name}
+        header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
         self._topic.publish({"header": header, "wrench": wrench})
 
     def _with_noise(self, back: Pose, vector: Vector3) -> dict[str, float]:

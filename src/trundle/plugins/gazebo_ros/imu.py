@@ -10,8 +10,8 @@ from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import ZERO, Pose, Vector3
 
 from .link_motion import LinkMotion
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin
+from .namespaces import rate_to_period_ns, read_offset
+from .ros_plugin import RosPlugin, plugin_names
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import std_srvs
@@ -20,24 +20,24 @@ if TYPE_CHECKING:
 class Imu(RosPlugin):
     """Publishes sensor_msgs/Imu.
 
-    Parameters, with gazebo_ros' defaults: <bodyName> (required), <topicName> and <serviceName> default_imu,
-    <frameName> (the body), <rpyOffset> 0 0 0, <gaussianNoise> 0, <updateRate> 0 (every step).
+    Parameters, with gazebo_ros' defaults: <bodyName> (required), <topicName> and <serviceName> /default_imu,
+    <frameName> (the body), <rpyOffset> 0 0 0 (or <rpyOffsets>; turns the orientation, in world axes), <gaussianNoise>
+    0, <updateRate> 0 (every step). As in the original, <xyzOffset> has no effect.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         link = model.link(parameters.text("bodyName"))
-        namespace = read_namespace(parameters, model.name)
+        names = plugin_names(sim, model, node, parameters)
         self._motion = LinkMotion(link)
-        self._frame = parameters.text("frameName", link.name)
-        self._offset = Pose.from_rpy(0, 0, 0, *parameters.vector("rpyOffset", ZERO))
+        self._frame = names.frame(parameters.text("frameName", link.name))
+        self._offset = read_offset(parameters, ("rpyOffset",))
         self._noise = parameters.number("gaussianNoise", 0.0)
         self._random = np.random.default_rng(sim.seed)
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
-        topic = join_topic(namespace, parameters.text("topicName", "default_imu"))
-        self._topic = node.advertise(topic, "sensor_msgs/Imu", queue_size=1)
-        service = join_topic(namespace, parameters.text("serviceName", "default_imu"))
+        self._topic = names.advertise("sensor_msgs/Imu", parameters.text("topicName", "/default_imu"))
+        service = names.topic(parameters.text("serviceName", "/default_imu"))
         node.advertise_service(service, "std_srvs/Empty", _calibrated)
-        parameters.ignore("xyzOffset")
+        parameters.ignore("xyzOffset", "xyzOffsets")
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the reading."""

@@ -8,8 +8,8 @@ from trundle.parameters import TagParameters
 from trundle.ros import Node, to_nsec
 from trundle.simulation import ModelHandle, Simulation
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin
+from .namespaces import rate_to_period_ns
+from .ros_plugin import RosPlugin, plugin_names
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import gazebo_msgs, trajectory_msgs
@@ -26,12 +26,12 @@ class JointPoseTrajectory(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         self._sim, self._model, self._node = sim, model, node
-        namespace = read_namespace(parameters, model.name)
-        topic = join_topic(namespace, parameters.text("topicName", "set_joint_trajectory"))
-        service = join_topic(namespace, parameters.text("serviceName", "set_joint_trajectory"))
+        names = plugin_names(sim, model, node, parameters)
+        topic = parameters.text("topicName", "set_joint_trajectory")
+        service = names.topic(parameters.text("serviceName", "set_joint_trajectory"))
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
         self._due: deque[tuple[int, dict[str, float]]] = deque()
-        node.subscribe(topic, "trajectory_msgs/JointTrajectory", self._on_trajectory, queue_size=100)
+        names.subscribe(topic, "trajectory_msgs/JointTrajectory", self._on_trajectory, queue_size=100)
         node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._set_trajectory)
 
     def before_step(self, sim: Simulation) -> None:

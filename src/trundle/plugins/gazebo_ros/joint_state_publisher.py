@@ -6,8 +6,8 @@ from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin
+from .namespaces import rate_to_period_ns
+from .ros_plugin import RosPlugin, plugin_names
 
 
 class JointStatePublisher(RosPlugin):
@@ -17,12 +17,11 @@ class JointStatePublisher(RosPlugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        del sim
-        names = [name for name in re.split(r"[\s,]+", parameters.text("jointName", "")) if name]
-        self._joints = [model.joint(name) for name in names] or [joint for joint in model.joints if joint.axes]
+        listed = [name for name in re.split(r"[\s,]+", parameters.text("jointName", "")) if name]
+        self._joints = [model.joint(name) for name in listed] or [joint for joint in model.joints if joint.axes]
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
-        topic = join_topic(read_namespace(parameters, model.name), "joint_states")
-        self._states = node.advertise(topic, "sensor_msgs/JointState", queue_size=1000)
+        names = plugin_names(sim, model, node, parameters)
+        self._states = names.advertise("sensor_msgs/JointState", "joint_states", queue_size=1000)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the joint states."""

@@ -1,16 +1,12 @@
-"""Namespaces, topics and update rates of gazebo_ros plugins."""
+"""Parameters that plugins of gazebo_ros share: topics, update rates, offsets."""
 
-from trundle.names import ros_name
+from collections.abc import Collection
+
 from trundle.parameters import TagParameters
+from trundle.spatial import ZERO, Pose
 
 WITHOUT_EFFECT = ("rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate")
 """Parameters that any plugin of gazebo_ros may have and that mean nothing here."""
-
-
-def read_namespace(parameters: TagParameters, model: str) -> str:
-    """<robotNamespace> without slashes at its ends; if present and empty the model's name, as in gazebo_ros."""
-    namespace = parameters.text("robotNamespace", "/")
-    return namespace.strip("/") if namespace else ros_name(model)
 
 
 def join_topic(namespace: str, topic: str) -> str:
@@ -23,3 +19,12 @@ def join_topic(namespace: str, topic: str) -> str:
 def rate_to_period_ns(rate_hz: float) -> int:
     """Period of an update rate [ns]; 0: every step."""
     return round(1e9 / rate_hz) if rate_hz > 0.0 else 0
+
+
+def read_offset(parameters: TagParameters, names: Collection[str]) -> Pose:
+    """Read <xyzOffset> and <rpyOffset>, or those of them that are named; many files write them with an s at the end."""
+    xyz, rpy = (
+        parameters.vector(name, parameters.vector(f"{name}s", ZERO)) if name in names else ZERO
+        for name in ("xyzOffset", "rpyOffset")
+    )
+    return Pose.from_rpy(*xyz, *rpy)

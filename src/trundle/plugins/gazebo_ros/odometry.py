@@ -4,11 +4,11 @@ import math
 from typing import Self
 
 from trundle.parameters import TagParameters
-from trundle.ros import Node, Transform, TransformBroadcaster
+from trundle.ros import Transform, TransformBroadcaster
 from trundle.simulation import ModelHandle
 from trundle.spatial import Pose, Twist
 
-from .namespaces import join_topic
+from .plugin_names import PluginNames
 
 LARGE_VARIANCE = 1e12
 """Variance of the axes that planar odometry does not measure."""
@@ -19,7 +19,7 @@ class OdometryTopic:
 
     def __init__(
         self,
-        node: Node,
+        names: PluginNames,
         topic: str,
         *,
         frame: str,
@@ -31,42 +31,52 @@ class OdometryTopic:
         """Advertise.
 
         Args:
-            node: publishes the topic.
-            topic: global name.
-            frame: odometry frame.
-            base: the robot's frame.
+            names: of the plugin.
+            topic: in its namespace.
+            frame: odometry frame, without its prefix.
+            base: the robot's frame, without its prefix.
             variances: of x, y, z [m²], roll, pitch, yaw [rad²].
             with_tf: True: send the frame on /tf, too.
             twist_variances: of the velocities; None: the same values.
         """
-        self._frame, self._base = frame, base
+        self._frame, self._base = names.frame(frame), names.frame(base)
         self._covariance = _diagonal(variances)
         self._twist_covariance = _diagonal(twist_variances or variances)
-        self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
-        self._broadcaster = TransformBroadcaster(node) if with_tf else None
+        self._topic = names.advertise("nav_msgs/Odometry", topic)
+        self._broadcaster = TransformBroadcaster(names.node) if with_tf else None
 
     @classmethod
     def from_tag(
         cls,
         parameters: TagParameters,
-        namespace: str,
-        node: Node,
+        names: PluginNames,
         *,
         variances: tuple[float, ...],
         with_tf: bool,
         base: str = "base_footprint",
         twist_variances: tuple[float, ...] | None = None,
     ) -> Self:
-        """Read <odometryTopic>, <odometryFrame> and <robotBaseFrame>, the parameters of every gazebo_ros drive."""
-        return cls(
-            node,
-            join_topic(namespace, parameters.text("odometryTopic", "odom")),
+        """Read <odometryTopic>, <odometryFrame> and <robotBaseFrame>, the parameters of every gazebo_ros drive.
+
+        Warn if another model sends the same frames.
+        """
+        odometry = cls(
+            names,
+            parameters.text("odometryTopic", "odom"),
             frame=parameters.text("odometryFrame", "odom"),
             base=parameters.text("robotBaseFrame", base),
             variances=variances,
             with_tf=with_tf,
             twist_variances=twist_variances,
         )
+        frames = (odometry._frame, odometry._base)
+        for model, of_other, other in names.drives_before():
+            theirs = (of_other.text("odometryFrame", "odom"), of_other.text("robotBaseFrame", base))
+            if with_tf and frames == tuple(map(other.frame, theirs)):
+                what = f"this model and {model!r} both send {' -> '.join(frames)}"
+                parameters.warn(f"{what}; a parameter tf_prefix in the namespace of each keeps them apart")
+                break
+        return odometry
 
     def publish(self, time_ns: int, pose: Pose, twist: Twist, *, yaw_variance: float | None = None) -> None:
         """Publish; `twist` is in the robot's axes, `yaw_variance` replaces that of yaw and its rate in this message."""

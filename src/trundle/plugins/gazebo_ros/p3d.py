@@ -7,10 +7,10 @@ import numpy as np
 from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
-from trundle.spatial import ZERO, Pose, Twist
+from trundle.spatial import Pose, Twist
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
-from .ros_plugin import RosPlugin
+from .namespaces import rate_to_period_ns, read_offset
+from .ros_plugin import RosPlugin, plugin_names
 
 _WORLD = frozenset({"", "/", "world", "/world", "map", "/map", "/my_frame"})
 
@@ -24,17 +24,17 @@ class P3D(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         self._link = model.link(parameters.text("bodyName"))
-        self._frame = parameters.text("frameName", "world")
+        frame = parameters.text("frameName", "world")
         self._reference: LinkHandle | None = None
-        if self._frame not in _WORLD:
-            self._reference = model.link(self._frame.strip("/"))
-        offsets = [parameters.vector(name, parameters.vector(f"{name}s", ZERO)) for name in ("xyzOffset", "rpyOffset")]
-        self._offset = Pose.from_rpy(*offsets[0], *offsets[1])
+        if frame not in _WORLD:
+            self._reference = model.link(frame.strip("/"))
+        self._offset = read_offset(parameters, ("xyzOffset", "rpyOffset"))
         self._noise = parameters.number("gaussianNoise", 0.0)
         self._random = np.random.default_rng(sim.seed)
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 0.0))
-        topic = join_topic(read_namespace(parameters, model.name), parameters.text("topicName"))
-        self._topic = node.advertise(topic, "nav_msgs/Odometry", queue_size=1)
+        names = plugin_names(sim, model, node, parameters)
+        self._frame, self._child = names.frame(frame), names.frame(self._link.name)
+        self._topic = names.advertise("nav_msgs/Odometry", parameters.text("topicName"))
         variance = self._noise**2
         self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]
 
@@ -65,7 +65,7 @@ class P3D(RosPlugin):
             "covariance": self._covariance,
         }
         header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
-        self._topic.publish({"header": header, "child_frame_id": self._link.name, "pose": pose_fields, "twist": speeds})
+        self._topic.publish({"header": header, "child_frame_id": self._child, "pose": pose_fields, "twist": speeds})
 
     def _with_noise(self, vector: tuple[float, float, float]) -> dict[str, Any]:
         if self._noise > 0.0:

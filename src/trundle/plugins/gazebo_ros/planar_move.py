@@ -7,9 +7,9 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Twist
 
-from .namespaces import rate_to_period_ns, read_namespace
+from .namespaces import rate_to_period_ns
 from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 from .twist_command import TwistCommand
 
 
@@ -21,16 +21,15 @@ class PlanarMove(RosPlugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        namespace = read_namespace(parameters, model.name)
+        names = plugin_names(sim, model, node, parameters)
         self._model = model
-        self._command = TwistCommand.from_tag(parameters, namespace, node)
+        self._command = TwistCommand.from_tag(parameters, names)
         self._timeout_s = parameters.number("cmdTimeout", -1.0)
         self._publish_period_ns = rate_to_period_ns(parameters.number("odometryRate", 20.0))
         self._published_ns = sim.time_ns
         self._odometry = OdometryTopic.from_tag(
             parameters,
-            namespace,
-            node,
+            names,
             variances=(1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3),
             with_tf=True,
         )

@@ -4,26 +4,25 @@ import numpy as np
 
 from trundle.diagnostics import UsageError
 from trundle.parameters import TagParameters
-from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from .namespaces import read_namespace
-from .sensor_publisher import SensorPublisher, read_frame_name, read_topic_name
+from .plugin_names import PluginNames
+from .sensor_publisher import SensorPublisher
 
 _KINDS = {"ultrasound": 0, "infrared": 1}
 
 
-def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
+def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish sensor_msgs/Range.
 
-    Parameters, with gazebo_ros' defaults: <topicName> range, <frameName> world, <radiation> ultrasound or infrared,
+    Parameters, with gazebo_ros' defaults: <topicName> /range, <frameName> /world, <radiation> ultrasound or infrared,
     <fov> 0.05 [rad], <gaussianNoise> 0 [m], <updateRate> 0 (the sensor's).
     """
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
-    topic = read_topic_name(parameters, read_namespace(parameters, sensor.model.name), "topicName", "range")
-    rate_hz = parameters.number("updateRate", 0.0)
-    outlet = SensorPublisher(node, topic, "sensor_msgs/Range", read_frame_name(parameters, "world"), rate_hz=rate_hz)
+    topic = names.advertise("sensor_msgs/Range", parameters.text("topicName", "/range"))
+    frame, rate_hz = names.frame(parameters.text("frameName", "/world")), parameters.number("updateRate", 0.0)
+    outlet = SensorPublisher(topic, frame, rate_hz=rate_hz)
     kind = parameters.text("radiation", "ultrasound")
     if kind not in _KINDS:
         parameters.warn(f"radiation {kind!r} is neither of {', '.join(_KINDS)}; ultrasound is used")

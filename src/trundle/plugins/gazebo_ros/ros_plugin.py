@@ -10,6 +10,12 @@ from trundle.simulation import ModelHandle, Simulation
 
 from ..plugin import Plugin
 from .namespaces import WITHOUT_EFFECT
+from .plugin_names import PluginNames
+
+
+def plugin_names(sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> PluginNames:
+    """Return the names of a model's plugin."""
+    return PluginNames(node, parameters, model.model, [each.model for each in sim.models])
 
 
 class RosPlugin(Plugin):

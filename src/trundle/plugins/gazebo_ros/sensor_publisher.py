@@ -3,10 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from trundle.parameters import TagParameters
-from trundle.ros import Node, Publisher
-
-from .namespaces import join_topic, rate_to_period_ns
+from .namespaces import rate_to_period_ns
+from .plugin_names import Outlet
 
 
 class UpdateRateThrottle:
@@ -40,9 +38,9 @@ class StampedReading(Protocol):
 class SensorPublisher:
     """One topic of a sensor plugin."""
 
-    def __init__(self, node: Node, topic: str, kind: str, frame: str, *, rate_hz: float = 0.0) -> None:
-        """Advertise."""
-        self._topic: Publisher = node.advertise(topic, kind, queue_size=1)
+    def __init__(self, topic: Outlet, frame: str, *, rate_hz: float = 0.0) -> None:
+        """Publish on a topic with a frame in each header."""
+        self._topic = topic
         self._frame = frame
         self._throttle = UpdateRateThrottle(rate_hz)
 
@@ -55,13 +53,3 @@ class SensorPublisher:
         if self._topic.has_subscribers and self._throttle.is_due(reading.time_ns):
             header = {"stamp": reading.time_ns, "frame_id": self._frame}
             self._topic.publish({**make(), "header": header})
-
-
-def read_frame_name(parameters: TagParameters, default: str) -> str:
-    """<frameName> without a leading slash, as tf2 requires."""
-    return parameters.text("frameName", default).strip().lstrip("/")
-
-
-def read_topic_name(parameters: TagParameters, namespace: str, name: str, default: str) -> str:
-    """Global name of the topic that a parameter names."""
-    return join_topic(namespace, parameters.text(name, default))

@@ -5,9 +5,9 @@ from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 
-from .namespaces import rate_to_period_ns, read_namespace
+from .namespaces import rate_to_period_ns
 from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 from .twist_command import TwistCommand
 
 
@@ -21,8 +21,7 @@ class SkidSteerDrive(RosPlugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        del sim
-        namespace = read_namespace(parameters, model.name)
+        names = plugin_names(sim, model, node, parameters)
 
         def wheel(side: str, row: str) -> str:
             return parameters.text(f"{side}{row}Joint", f"{side}_{row.lower()}_joint")
@@ -35,7 +34,7 @@ class SkidSteerDrive(RosPlugin):
         )
         self._torque = parameters.number("torque", 5.0)
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
-        self._command = TwistCommand.from_tag(parameters, namespace, node)
+        self._command = TwistCommand.from_tag(parameters, names)
         x, y, yaw = (
             parameters.number("covariance_x", 1e-4),
             parameters.number("covariance_y", 1e-4),
@@ -43,8 +42,7 @@ class SkidSteerDrive(RosPlugin):
         )
         self._odometry = OdometryTopic.from_tag(
             parameters,
-            namespace,
-            node,
+            names,
             variances=(x, y, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, yaw),
             with_tf=parameters.flag("broadcastTF", default=False),
         )

@@ -8,10 +8,11 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from .namespaces import join_topic, rate_to_period_ns, read_namespace
+from .namespaces import rate_to_period_ns
 from .odometry import LARGE_VARIANCE, OdometryTopic, ground_truth
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 from .twist_command import TwistCommand
+from .wheel_frames import WheelFrames
 
 _LAG = 2
 """Time constant of the steering, in updates."""
@@ -24,13 +25,12 @@ class TricycleDrive(RosPlugin):
     <encoderWheelLeftJoint> left_wheel_joint, <encoderWheelRightJoint> right_wheel_joint, <actuatedWheelDiameter> and
     <encoderWheelDiameter> 0.15, <encoderWheelSeparation> 0.5, <wheelAcceleration> 0 (at once) and <wheelDeceleration>
     (the same) [rad/s²], <steeringSpeed> 0 (at once) [rad/s], <wheelTorque> 5, <odometrySource> world or encoder,
-    <updateRate> 100, <commandTopic>, <odometryTopic>, <odometryFrame>, <robotBaseFrame> and <publishWheelJointState>.
-    Encoder odometry turns as the robot does; the original's is mirrored.
+    <updateRate> 100, <commandTopic>, <odometryTopic>, <odometryFrame>, <robotBaseFrame>, <publishWheelJointState> and
+    <publishWheelTF> (frames named by the joints). Encoder odometry turns as the robot does; the original's is mirrored.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        super().__init__(sim, model, node, parameters)
-        namespace = read_namespace(parameters, model.name)
+        names = plugin_names(sim, model, node, parameters)
 
         self._model = model
         self._steering = model.joint(parameters.text("steeringJoint", "front_steering_joint"))
@@ -52,17 +52,16 @@ class TricycleDrive(RosPlugin):
         self._slower = parameters.number("wheelDeceleration", self._faster)
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
         self._from_wheels = parameters.text("odometrySource", "world") in ("encoder", "0")
-        self._command = TwistCommand.from_tag(parameters, namespace, node)
+        self._command = TwistCommand.from_tag(parameters, names)
         variances = (1e-5, 1e-5, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-3)
-        self._odometry = OdometryTopic.from_tag(
-            parameters, namespace, node, variances=variances, with_tf=True, base="base_link"
-        )
+        self._odometry = OdometryTopic.from_tag(parameters, names, variances=variances, with_tf=True, base="base_link")
         states = parameters.flag("publishWheelJointState", default=False)
-        self._states = (
-            node.advertise(join_topic(namespace, "joint_states"), "sensor_msgs/JointState") if states else None
-        )
+        self._states = names.advertise("sensor_msgs/JointState", "joint_states", queue_size=10) if states else None
+        self._frames = None
+        if parameters.flag("publishWheelTF", default=False):
+            joints = (self._steering, self._wheel, *self._encoders)
+            self._frames = WheelFrames(names, model, {joint.name: joint for joint in joints})
         parameters.ignore("wheelSpeedTolerance", "steeringAngleTolerance")
-        parameters.warn_unsupported("publishWheelTF")
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
@@ -79,9 +78,11 @@ class TricycleDrive(RosPlugin):
         self._steering.drive_kinematically((angle - self._steering.position) / (_LAG * dt_s))
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Publish odometry and joint states."""
+        """Publish odometry, joint states and wheel frames."""
         pose, twist = self._integrate_wheels(snapshot.time_ns) if self._from_wheels else ground_truth(self._model)
         self._odometry.publish(snapshot.time_ns, pose, twist)
+        if self._frames is not None:
+            self._frames.send(snapshot.time_ns)
         if self._states is not None and self._states.has_subscribers:
             joints = [self._steering, self._wheel, *self._encoders]
             self._states.publish(

@@ -9,8 +9,7 @@ from trundle.ros import Node
 from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Wrench
 
-from .namespaces import join_topic
-from .ros_plugin import RosPlugin
+from .ros_plugin import RosPlugin, plugin_names
 
 _REACH = 0.05
 """Range between link origins [m]."""
@@ -31,14 +30,14 @@ class VacuumGripper(RosPlugin):
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         super().__init__(sim, model, node, parameters)
-        namespace = parameters.text("robotNamespace", "").strip("/")
+        names = plugin_names(sim, model, node, parameters)
         self._node, self._model = node, model
         self._link = model.link(parameters.text("bodyName"))
         topic = parameters.text("topicName")
         self._is_on = self._holds = False
-        self._topic = node.advertise(join_topic(namespace, topic), "std_msgs/Bool", queue_size=1)
-        node.advertise_service(join_topic(namespace, "on"), "std_srvs/Empty", lambda _: self._switch(on=True))
-        node.advertise_service(join_topic(namespace, "off"), "std_srvs/Empty", lambda _: self._switch(on=False))
+        self._topic = names.advertise("std_msgs/Bool", topic)
+        node.advertise_service(names.topic("on"), "std_srvs/Empty", lambda _: self._switch(on=True))
+        node.advertise_service(names.topic("off"), "std_srvs/Empty", lambda _: self._switch(on=False))
 
     def before_step(self, sim: Simulation) -> None:
         """Attract the near links."""

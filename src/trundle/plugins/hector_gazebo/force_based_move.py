@@ -7,9 +7,9 @@ from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist, Wrench
 
-from ..gazebo_ros.namespaces import rate_to_period_ns, read_namespace
+from ..gazebo_ros.namespaces import rate_to_period_ns
 from ..gazebo_ros.odometry import LARGE_VARIANCE, OdometryTopic
-from ..gazebo_ros.ros_plugin import RosPlugin
+from ..gazebo_ros.ros_plugin import RosPlugin, plugin_names
 from ..gazebo_ros.twist_command import TwistCommand
 
 _VARIANCES = (1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
@@ -33,11 +33,10 @@ class ForceBasedMove(RosPlugin):
     """True if odometry includes sideways motion."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        del sim
-        namespace = read_namespace(parameters, model.name)
+        names = plugin_names(sim, model, node, parameters)
 
         self.model = model
-        self.command = TwistCommand.from_tag(parameters, namespace, node)
+        self.command = TwistCommand.from_tag(parameters, names)
         self._link = model.link(parameters.text("robotBaseFrame", "base_footprint"))
         self._gains = parameters.number("x_velocity_p_gain", 1e4), parameters.number("y_velocity_p_gain", 1e4)
         self._yaw_gain = parameters.number("yaw_velocity_p_gain", 100.0)
@@ -45,8 +44,7 @@ class ForceBasedMove(RosPlugin):
         self._period_ns = rate_to_period_ns(rate_hz) if rate_hz > 0.0 else None
         self._odometry = OdometryTopic.from_tag(
             parameters,
-            namespace,
-            node,
+            names,
             variances=_VARIANCES,
             twist_variances=_TWIST_VARIANCES,
             with_tf=parameters.flag("publishOdometryTf", default=True),

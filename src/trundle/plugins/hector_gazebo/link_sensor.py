@@ -6,8 +6,8 @@ from trundle.parameters import TagParameters
 from trundle.ros import Node
 from trundle.simulation import ModelHandle, Simulation
 
-from ..gazebo_ros.namespaces import join_topic, rate_to_period_ns, read_namespace
-from ..gazebo_ros.ros_plugin import RosPlugin
+from ..gazebo_ros.namespaces import rate_to_period_ns
+from ..gazebo_ros.ros_plugin import RosPlugin, plugin_names
 
 
 class LinkSensor(RosPlugin):
@@ -26,16 +26,16 @@ class LinkSensor(RosPlugin):
         super().__init__(sim, model, node, parameters)
         body = parameters.text("bodyName", "")
         self.link = model.link(body) if body else model.base
-        self.frame = parameters.text("frameId", frame or self.link.name)
+        self._names = plugin_names(sim, model, node, parameters)
+        self.frame = self._names.frame(parameters.text("frameId", frame or self.link.name))
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", rate_hz))
         self.random = np.random.default_rng(sim.seed)
-        self._namespace = read_namespace(parameters, model.name)
         self._last_ns = sim.time_ns
         parameters.ignore("updatePeriod", "randomEngineSeed")
 
     def topic(self, name: str) -> str:
         """Global name of a topic."""
-        return join_topic(self._namespace, name)
+        return self._names.topic(name)
 
     def elapsed_s(self, time_ns: int) -> float:
         """Time since the last call [s]."""

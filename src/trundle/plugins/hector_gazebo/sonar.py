@@ -5,15 +5,14 @@ import numpy as np
 from trundle.diagnostics import UsageError
 from trundle.model import ScanAxis
 from trundle.parameters import TagParameters
-from trundle.ros import Node
 from trundle.sensors import InstrumentSensor, RangeReading, RangeSensor
 
-from ..gazebo_ros.namespaces import read_namespace
-from ..gazebo_ros.sensor_publisher import SensorPublisher, read_topic_name
+from ..gazebo_ros.plugin_names import PluginNames
+from ..gazebo_ros.sensor_publisher import SensorPublisher
 from .error_model import ErrorModel
 
 
-def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
+def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish sensor_msgs/Range.
 
     Parameters: <topicName> sonar, <frameId> /sonar_link, <updateRate> 10; errors by <drift>, <gaussianNoise>, … [m].
@@ -21,10 +20,9 @@ def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> N
     """
     if not isinstance(sensor, RangeSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
-    topic = read_topic_name(parameters, read_namespace(parameters, sensor.model.name), "topicName", "sonar")
-    rate_hz = parameters.number("updateRate", 10.0)
-    frame = parameters.text("frameId", "/sonar_link")
-    outlet = SensorPublisher(node, topic, "sensor_msgs/Range", frame, rate_hz=rate_hz)
+    topic = names.advertise("sensor_msgs/Range", parameters.text("topicName", "sonar"))
+    frame, rate_hz = names.frame(parameters.text("frameId", "/sonar_link")), parameters.number("updateRate", 10.0)
+    outlet = SensorPublisher(topic, frame, rate_hz=rate_hz)
     errors = ErrorModel(parameters, np.random.default_rng(0), axes=1)
     last_ns = 0
 

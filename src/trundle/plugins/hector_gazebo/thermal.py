@@ -3,19 +3,19 @@
 import numpy as np
 
 from trundle.parameters import TagParameters
-from trundle.ros import Node
 from trundle.sensors import CameraReading, CameraSensor
 
 from ..gazebo_ros.camera import attach_images
+from ..gazebo_ros.plugin_names import PluginNames
 
 _HOT = (255, 0, 0)
 _DARKER = 8
 """Divisor of the sum of the three colours."""
 
 
-def attach(sensor: CameraSensor, node: Node, parameters: TagParameters) -> None:
+def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish sensor_msgs/Image in mono8, and camera_info; parameters are those of gazebo_ros' camera."""
-    attach_images(sensor, node, parameters, _grey)
+    attach_images(sensor, parameters, names, _grey)
 
 
 def _grey(reading: CameraReading) -> dict[str, object]:

@@ -10,9 +10,9 @@ from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle, Simulation, Snapshot
 from trundle.spatial import Pose, Twist
 
-from ..gazebo_ros.namespaces import join_topic, rate_to_period_ns, read_namespace
+from ..gazebo_ros.namespaces import rate_to_period_ns
 from ..gazebo_ros.odometry import OdometryTopic
-from ..gazebo_ros.ros_plugin import RosPlugin
+from ..gazebo_ros.ros_plugin import RosPlugin, plugin_names
 from .sensors import KobukiSensors, ModelSensor
 
 if TYPE_CHECKING:
@@ -35,9 +35,8 @@ class Kobuki(RosPlugin):
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
-        del sim
-        names = ("left_wheel_joint_name", "right_wheel_joint_name")
-        self._wheels = [model.joint(parameters.text(name)) for name in names]
+        wheels = ("left_wheel_joint_name", "right_wheel_joint_name")
+        self._wheels = [model.joint(parameters.text(name)) for name in wheels]
         self._drive = DifferentialDrive(
             separation=parameters.number("wheel_separation", above=0.0),
             wheel_radius=parameters.number("wheel_diameter", above=0.0) / 2,
@@ -46,33 +45,30 @@ class Kobuki(RosPlugin):
         self._timeout_s = parameters.number("velocity_command_timeout")
         self.period_ns = rate_to_period_ns(parameters.number("update_rate", 0.0))
         self._node = node
-        namespace = read_namespace(parameters, model.name)
-
-        def topic(name: str) -> str:
-            return join_topic(namespace, name)
-
+        names = plugin_names(sim, model, node, parameters)
         self._odometry = OdometryTopic(
-            node,
-            topic("odom"),
+            names,
+            "odom",
             frame="odom",
             base="base_footprint",
             variances=_POSE_VARIANCES,
             twist_variances=(0.0,) * 6,
             with_tf=parameters.flag("publish_tf", default=False),
         )
-        self._states = node.advertise(topic("joint_states"), "sensor_msgs/JointState", queue_size=1)
-        self._imu = node.advertise(topic(f"{_BASE}/sensors/imu_data"), "sensor_msgs/Imu", queue_size=1)
+        self._states = names.advertise("sensor_msgs/JointState", "joint_states")
+        self._imu = names.advertise("sensor_msgs/Imu", f"{_BASE}/sensors/imu_data")
+        self._frame = names.frame("base_link")
 
         def sensor(name: str) -> ModelSensor:
             return _find_sensor(model, parameters.text(name))
 
-        self._sensors = KobukiSensors(model, node, topic(_BASE), parameters, sensor)
+        self._sensors = KobukiSensors(model, names, _BASE, parameters, sensor)
         self._gyro: Message | None = None
         node.subscribe(sensor("imu_name").topic("imu"), "sensor_msgs/Imu", self._on_imu, queue_size=1)
-        commands = topic(f"{_BASE}/commands")
-        node.subscribe(f"{commands}/velocity", "geometry_msgs/Twist", self._on_command, queue_size=100)
-        node.subscribe(f"{commands}/motor_power", "kobuki_msgs/MotorPower", self._on_motor_power)
-        node.subscribe(f"{commands}/reset_odometry", "std_msgs/Empty", self._reset_odometry)
+        commands = f"{_BASE}/commands"
+        names.subscribe(f"{commands}/velocity", "geometry_msgs/Twist", self._on_command, queue_size=100)
+        names.subscribe(f"{commands}/motor_power", "kobuki_msgs/MotorPower", self._on_motor_power, queue_size=10)
+        names.subscribe(f"{commands}/reset_odometry", "std_msgs/Empty", self._reset_odometry, queue_size=10)
         self.reset()
 
     def before_step(self, sim: Simulation) -> None:
@@ -90,7 +86,7 @@ class Kobuki(RosPlugin):
         if self._gyro is not None and self._imu.has_subscribers:
             self._imu.publish(
                 {
-                    "header": {"stamp": time_ns, "frame_id": "base_link"},
+                    "header": {"stamp": time_ns, "frame_id": self._frame},
                     "orientation": self._gyro.orientation,
                     "orientation_covariance": _GYRO_COVARIANCE,
                     "angular_velocity": self._gyro.angular_velocity,
@@ -112,7 +108,7 @@ class Kobuki(RosPlugin):
         if self._states.has_subscribers:
             self._states.publish(
                 {
-                    "header": {"stamp": time_ns, "frame_id": "base_link"},
+                    "header": {"stamp": time_ns, "frame_id": self._frame},
                     "name": [wheel.name for wheel in self._wheels],
                     "position": [wheel.position for wheel in self._wheels],
                     "velocity": [wheel.velocity for wheel in self._wheels],

@@ -8,8 +8,10 @@ from typing import Any
 from trundle.bridge import sensor_topic
 from trundle.model import Model, Sensor
 from trundle.parameters import TagParameters
-from trundle.ros import Message, Node, Publisher
+from trundle.ros import Message
 from trundle.simulation import ModelHandle
+
+from ..gazebo_ros.plugin_names import Outlet, PluginNames
 
 _SIDES = ("left", "center", "right")
 _BITS = {"left": 4, "center": 2, "right": 1}
@@ -36,7 +38,7 @@ class ModelSensor:
 class _EventPublisher:
     """Switches of one kind; publishes an event when one changes."""
 
-    def __init__(self, publisher: Publisher, field: str, order: Iterable[str]) -> None:
+    def __init__(self, publisher: Outlet, field: str, order: Iterable[str]) -> None:
         self._publisher = publisher
         self._field = field
         self._order = list(order)
@@ -62,7 +64,7 @@ class KobukiSensors:
     def __init__(
         self,
         model: ModelHandle,
-        node: Node,
+        names: PluginNames,
         base: str,
         parameters: TagParameters,
         sensor: Callable[[str], ModelSensor],
@@ -71,8 +73,8 @@ class KobukiSensors:
 
         Args:
             model: of the bumper.
-            node: subscribes and publishes.
-            base: prefix of its topics.
+            names: of the plugin.
+            base: prefix of its topics, in the plugin's namespace.
             parameters: of the plugin.
             sensor: returns the sensor that a parameter names.
         """
@@ -80,16 +82,17 @@ class KobukiSensors:
         self._edge_m = parameters.number("cliff_detection_threshold", 0.0)
 
         def switches(name: str, kind: str, field: str, order: Iterable[str]) -> _EventPublisher:
-            publisher = node.advertise(f"{base}/events/{name}", f"kobuki_msgs/{kind}Event", queue_size=10)
+            publisher = names.advertise(f"kobuki_msgs/{kind}Event", f"{base}/events/{name}", queue_size=10)
             return _EventPublisher(publisher, field, order)
 
         self._bumpers = switches("bumper", "Bumper", "bumper", _SIDES)
         self._cliffs = switches("cliff", "Cliff", "sensor", _SIDES)
         self._drops = switches("wheel_drop", "WheelDrop", "wheel", _DROP_BITS)
-        self._core = node.advertise(f"{base}/sensors/core", "kobuki_msgs/SensorState", queue_size=1)
+        self._core = names.advertise("kobuki_msgs/SensorState", f"{base}/sensors/core")
+        self._frame = names.frame("base_link")
 
         def listen(parameter: str, output: str, kind: str, callback: Callable[[Message], None]) -> None:
-            node.subscribe(sensor(parameter).topic(output), kind, callback, queue_size=1)
+            names.node.subscribe(sensor(parameter).topic(output), kind, callback, queue_size=1)
 
         contacts, scan = ("contacts", "gazebo_msgs/ContactsState"), ("scan", "sensor_msgs/LaserScan")
         listen("bumper_name", *contacts, self._on_bumper)
@@ -114,7 +117,7 @@ class KobukiSensors:
         if not self._core.has_subscribers:
             return
         state: dict[str, Any] = {
-            "header": {"stamp": time_ns, "frame_id": "base_link"},
+            "header": {"stamp": time_ns, "frame_id": self._frame},
             "time_stamp": time_ns // 1_000_000 % _STAMP_MOD_MS,
             "bumper": sum(_BITS[side] for side in self._bumpers.on),
             "cliff": sum(_BITS[side] for side in self._cliffs.on),

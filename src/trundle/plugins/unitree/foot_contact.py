@@ -2,14 +2,14 @@
 
 from trundle.diagnostics import UsageError
 from trundle.parameters import TagParameters
-from trundle.ros import Node
 from trundle.sensors import ContactReading, ContactSensor, InstrumentSensor
 from trundle.spatial import Vector3
 
+from ..gazebo_ros.plugin_names import PluginNames
 from ..gazebo_ros.sensor_publisher import SensorPublisher
 
 
-def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> None:
+def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNames) -> None:
     """Publish geometry_msgs/WrenchStamped on /visual/<sensor>/the_force, zero without contact.
 
     No parameters. The force, in the axes of the sensor's link, is the mean over the contacts since the last message,
@@ -19,7 +19,8 @@ def attach(sensor: InstrumentSensor, node: Node, parameters: TagParameters) -> N
     del parameters
     if not isinstance(sensor, ContactSensor):
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a contact sensor is needed")
-    outlet = SensorPublisher(node, f"/visual/{sensor.name}/the_force", "geometry_msgs/WrenchStamped", sensor.link.name)
+    topic = names.advertise("geometry_msgs/WrenchStamped", f"/visual/{sensor.name}/the_force")
+    outlet = SensorPublisher(topic, sensor.link.name)
 
     def message(reading: ContactReading) -> dict[str, object]:
         force = reading.world_from_link.inverse().transform_vector(_mean_force(reading))
