@@ -1,9 +1,11 @@
 """Damages inputs: bytes, numbers, words, elements; the format's words and parts of other inputs are put in."""
 
+import json
 import re
 import struct
 from collections.abc import Callable, Sequence
 from random import Random
+from typing import Any
 
 _ODD_WORDS = (
     b"", b"0", b"-1", b"1e400", b"nan", b"inf", b"-inf", b"3e38", b"1e308", b"1e-320", b"2147483648",
@@ -14,6 +16,11 @@ _ODD_WORDS = (
 )  # fmt: skip
 _ODD_INTEGERS = (0, 1, -1, 2, 3, 7, 127, 128, 255, 256, 32767, 65535, 65536, 2**24, 2**31 - 1, 2**31, 2**32 - 1, 2**63)
 _ODD_FLOATS = (0.0, -0.0, 1.0, -1.0, 1e-45, 1e38, 3.4e38, float("inf"), float("-inf"), float("nan"))
+_ODD_VALUES: tuple[Any, ...] = (
+    None, True, -1, 0, 1, 2**31, 2**32, 2**64, 10**30, 1e308, -0.5, float("nan"), "", "/", "~", "//", "a b", "é\0",
+    "\ud800", "x" * 2000, [], {}, [[[]]], {"a": {"b": 1}}, "NaN", "std_msgs/Header", "no_msgs/None", "../../etc/passwd",
+)  # fmt: skip
+_DECODER = json.JSONDecoder()
 _WORD = re.compile(rb"[^\s<>\"'=,;{}\[\]()\0]+")
 _TAG = re.compile(rb"<([A-Za-z_:][\w:.-]*)")
 _MAX_EDITS = 4
@@ -162,7 +169,37 @@ def _remove_element(data: bytes, _: Pool, source: Random) -> bytes:
     return data if end < 0 else data[: found.start()] + data[end + len(close) :]
 
 
+def _edit_json(data: bytes, _: Pool, source: Random) -> bytes:
+    """Change a value of a JSON object inside."""
+    start = data.find(b"{", source.randint(0, len(data)))
+    try:
+        value, length = _DECODER.raw_decode(data[start:].decode("latin-1"))
+    except (ValueError, RecursionError):
+        return data
+    return data[:start] + json.dumps(_changed(value, source)).encode() + data[start + length :]
+
+
+def _changed(value: Any, source: Random) -> Any:
+    """Return a JSON value with one part replaced, removed or repeated."""
+    if not value or not isinstance(value, (dict, list)) or source.random() < 0.1:
+        return source.choice(_ODD_VALUES)
+    if isinstance(value, dict):
+        members: dict[str, Any] = dict(value)
+        key = source.choice(sorted(members))
+        if source.random() < 0.1:
+            del members[key]
+            return members
+        return members | {key: _changed(members[key], source)}
+    items: list[Any] = list(value)
+    place = source.randrange(len(items))
+    if source.random() < 0.2:
+        return items[:place] + items[place : place + 1] * source.choice((0, 2, _MAX_COPIES)) + items[place + 1 :]
+    items[place] = _changed(items[place], source)
+    return items
+
+
 _EDITS: tuple[Edit, ...] = (
     _replace_word, _replace_word, _swap_word, _insert_word, _remove, _cut, _repeat, _splice, _overwrite, _flip_bit,
     _write_integer, _add_integer, _write_float, _rename_tag, _repeat_element, _remove_element,
+    _edit_json, _edit_json,
 )  # fmt: skip

@@ -45,7 +45,7 @@ class ProtocolClient:
         self.jsons: list[dict[str, Any]] = []
         """All text messages."""
         self.messages: list[tuple[str, int, bytes]] = []
-        """Topic, time and payload of all messages of channels."""
+        """Topic, time and payload of all messages of channels; no topic: subscribed to by hand."""
         self.binaries: list[bytes] = []
         """Other binary messages but the time."""
         self.times: list[int] = []
@@ -76,7 +76,7 @@ class ProtocolClient:
             self._read_json(json.loads(data))
         elif data[0] == 1:
             number, stamp = struct.unpack_from("<IQ", data, 1)
-            self.messages.append((self._subscribed[number], stamp, data[13:]))
+            self.messages.append((self._subscribed.get(number, ""), stamp, data[13:]))
         elif data[0] == 2:
             self.times.append(struct.unpack_from("<Q", data, 1)[0])
         else:
