@@ -38,7 +38,8 @@ _LINK = """<link name="{name}"><inertial><origin xyz="0 0 0.15"/><mass value="2"
 _JOINT = """<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{next}"/><origin xyz="0 0 0.3"/>
 <axis xyz="{axis}"/><limit lower="-2.9" upper="2.9" effort="200" velocity="3"/><dynamics damping="0.5"/></joint>
 <transmission name="t{i}"><type>transmission_interface/SimpleTransmission</type><joint name="j{i}">
-<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint></transmission>"""
+<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>
+<actuator name="m{i}"/></transmission>"""
 _LIDAR = """<sensor name="scan" type="ray"><pose>0 0 0.5 0 0 0</pose><always_on>1</always_on>
 <update_rate>100</update_rate><ray><scan><horizontal><samples>360</samples><min_angle>-3.1</min_angle>
 <max_angle>3.1</max_angle></horizontal></scan><range><min>0.1</min><max>10</max></range>
