@@ -153,6 +153,16 @@ def test_a_model_slides_as_it_is_told_and_does_not_fall(gazebo: Gazebo) -> None:
     assert 0.0 <= 2.0 - position.z < 0.01 * gazebo.time_s, "a step of gravity moves it by g·dt² before it is set again"
 
 
+def test_a_model_without_its_y_axis_moves_only_ahead(gazebo: Gazebo) -> None:
+    gazebo.spawn(_BOX.format(plugin=_plugin("planar_move", "<enableYAxis>false</enableYAxis>")), "box")
+    gazebo.call("unpause_physics")
+    odometry = gazebo.hear("/odom", ODOMETRY)
+    gazebo.speak("/cmd_vel", TWIST)({"linear": {"x": 0.5, "y": 0.25}})
+    until(lambda: odometry and odometry[-1].pose.pose.position.x > 0.2)
+
+    assert odometry[-1].pose.pose.position.y == pytest.approx(0.0, abs=1e-6)
+
+
 _ARM = f"""<sdf version="1.6"><model name="arm"><pose>0 0 2 0 0 0</pose><link name="base">
 <inertial><mass>2</mass>{_INERTIA}</inertial></link><link name="rod"><pose>0.5 0 0 0 0 0</pose>
 <inertial><mass>1</mass>{_INERTIA}</inertial></link>

@@ -95,7 +95,8 @@ def test_a_sonar_tells_the_nearest(gazebo: Gazebo) -> None:
 
 def test_a_camera_is_where_its_plugin_says(gazebo: Gazebo) -> None:
     parameters = """<robotNamespace>r</robotNamespace><cameraName>front</cameraName><frameName>camera_link</frameName>
-<imageTopicName>image_raw</imageTopicName><hackBaseline>0.07</hackBaseline><distortionK1>0.01</distortionK1>"""
+<imageTopicName>image_raw</imageTopicName><hackBaseline>0.07</hackBaseline><distortionK1>0.01</distortionK1>
+<CxPrime>9</CxPrime><Cy>9</Cy>"""
     _seeing(gazebo, _sensor("camera", _CAMERA, "camera", parameters))
     image = _first(gazebo, "/r/front/image_raw", "sensor_msgs/Image")
     info = _first(gazebo, "/r/front/camera_info", "sensor_msgs/CameraInfo")
@@ -104,6 +105,7 @@ def test_a_camera_is_where_its_plugin_says(gazebo: Gazebo) -> None:
     assert image.header.frame_id == info.header.frame_id == "camera_link"
     focal = 16 / math.tan(0.5)
     assert info.K[0] == pytest.approx(focal)
+    assert (info.K[2], info.K[5], info.P[2], info.P[6]) == (16.5, 9.0, 16.5, 9.0)
     assert info.P[3] == pytest.approx(-0.07 * focal)
     assert list(info.D) == pytest.approx([0.01, 0, 0, 0, 0])
 

@@ -19,7 +19,7 @@ def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) 
     """Publish images and camera_info.
 
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
-    camera_info, <frameName> world, <updateRate> 0 (the sensor's), and for camera_info alone <CxPrime>, <Cx>, <Cy>,
+    camera_info, <frameName> /world, <updateRate> 0 (the sensor's), and for camera_info alone <Cx>, <Cy>,
     <focalLength> 0 (the image's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Without <borderCrop> (true) a
     distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
     one, by default that of the file.
@@ -103,10 +103,8 @@ def read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[st
     found: dict[str, Any] = dict(camera_info_message(sensor))
     k, p = list(found["K"]), list(found["P"])
     focal = parameters.number("focalLength", 0.0)
-    cx, cy = (
-        parameters.number("Cx", 0.0) or parameters.number("CxPrime", 0.0),
-        parameters.number("Cy", 0.0),
-    )
+    cx, cy = parameters.number("Cx", 0.0), parameters.number("Cy", 0.0)
+    parameters.ignore("CxPrime")  # gazebo_ros does not use it
     for index, value in ((0, focal), (4, focal), (2, cx), (5, cy)):
         if value:
             k[index] = value

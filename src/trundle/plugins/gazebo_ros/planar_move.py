@@ -17,13 +17,15 @@ class PlanarMove(RosPlugin):
     """Sets the model's velocity at every step, so that it neither falls nor tilts.
 
     Parameters, with gazebo_ros' defaults: <commandTopic> cmd_vel, <odometryTopic> odom, <odometryFrame> odom,
-    <robotBaseFrame> base_footprint, <odometryRate> 20, <cmdTimeout> −1 [s] (none).
+    <robotBaseFrame> base_footprint, <odometryRate> 20, <cmdTimeout> −1 [s] (none), <enableYAxis> true (false: it does
+    not move sideways).
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         names = plugin_names(sim, model, node, parameters)
         self._model = model
         self._command = TwistCommand.from_tag(parameters, names)
+        self._moves_sideways = parameters.flag("enableYAxis", default=True)
         self._timeout_s = parameters.number("cmdTimeout", -1.0)
         self._publish_period_ns = rate_to_period_ns(parameters.number("odometryRate", 20.0))
         self._published_ns = sim.time_ns
@@ -41,7 +43,7 @@ class PlanarMove(RosPlugin):
             command.stop()
         yaw = self._model.pose.rpy[2]
         cos, sin = math.cos(yaw), math.sin(yaw)
-        forward, sideways = command.forward, command.sideways
+        forward, sideways = command.forward, command.sideways if self._moves_sideways else 0.0
         linear = (cos * forward - sin * sideways, sin * forward + cos * sideways, 0.0)
         self._model.set_twist(Twist(linear, (0.0, 0.0, command.yaw_rate)))
 
