@@ -60,7 +60,7 @@ void rebuild_constraints(const mjModel* m, mjData* d) {
 }
 
 void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
-  start_at_midpoint(laws, m, d);
+  update_midpoints(laws, m, d);
   const bool changed = turn_friction(laws, m, d);
   if (changed) rebuild_constraints(m, d);
   const bool bounced = !laws.restitution.empty() && apply_restitution(laws, m, d);
@@ -95,7 +95,7 @@ void on_control(const mjModel* m, mjData* d) {
   if (LawTables::find(m, laws)) {
     if (laws.on) apply_laws(laws, m, d);
     else if (laws.evaluates) apply_static_laws(laws, m, d);
-    add_springs(laws, d, d->qfrc_passive);
+    add_springs(laws, d);
     apply_midpoint_bias(laws, m, d);
     drive_motors(laws, m, d);
     update_ccd(laws, m, d);

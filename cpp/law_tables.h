@@ -65,11 +65,14 @@ struct MotorRow {    // indexed by tendon
 
 struct ChainRow {  // chain of links
   double tree;
+  double hangs;  // 1: its root is no free body
 };
 
-struct SpringRow {
+struct SpringRow {  // soft spring and damper of a joint
   double dof, qpos;
   double stiffness, reference;  // [N·m/rad or N/m], [rad or m]
+  double damping;               // [N·m·s/rad or N·s/m] half of the damper's, by the velocity before a step; the model
+                                // has the other half, by the velocity after it
 };
 
 enum class MotionKind { kNone = 0, kDirection = 1, kTrack = 2, kWheel = 3 };
@@ -88,8 +91,8 @@ struct LawTables {
   std::span<const SpringRow> springs;
   std::span<const ComplianceRow> compliance;
   std::span<const GeomRow> geoms;
-  // mjData.userdata: each motor's target speed [rad/s or m/s]; 1 for each degree of freedom whose velocity is a
-  // midpoint's; contact groups: of bodies with a surface motion, of pairs of collisions
+  // mjData.userdata: each motor's target speed [rad/s or m/s]; each degree of freedom's VelocityTime; contact groups:
+  // of bodies with a surface motion, of pairs of collisions
   int pair_groups;         // number of the latter
   int motor_equality;      // equality whose solref motors use
   std::uintptr_t stepped;  // address of the mjData that the engine steps; others are evaluated

@@ -26,18 +26,6 @@ bool swings(const mjModel* m, const mjData* d, int tree) {
   return false;
 }
 
-// True if a tree hangs from something fixed and has a ball joint; others keep the velocities that they are given, which
-// are of the start of a step.
-bool has_ball(const mjModel* m, int tree) {
-  const int first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
-  bool found = false;
-  for (int i = first; i < last; ++i) {
-    if (m->jnt_type[m->dof_jntid[i]] == mjJNT_FREE) return false;
-    found |= m->jnt_type[m->dof_jntid[i]] == mjJNT_BALL;
-  }
-  return found;
-}
-
 // Trees in contact, one flag each.
 const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
   thread_local std::vector<char> touching;
@@ -51,19 +39,67 @@ const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
   return touching;
 }
 
-// Degrees of freedom in the air whose velocities are new; they count as midpoints' from now on.
-void find_started(const LawTables& laws, const mjModel* m, mjData* d, std::vector<int>& started) {
-  started.clear();
-  double* known = d->userdata + m->nu;
-  for (const ChainRow& row : laws.chains) {
-    const int tree = static_cast<int>(row.tree), first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
-    if (!has_ball(m, tree)) continue;
-    for (int i = first; i < last; ++i) {
-      if (known[i] != 0.0) continue;
-      known[i] = 1.0;
-      if (!find_touching(m, d)[tree]) started.push_back(i);
+int tree_of(const ChainRow& row) { return static_cast<int>(row.tree); }
+
+VelocityTime time_of(const mjModel* m, const mjData* d, const ChainRow& row) {
+  return static_cast<VelocityTime>(static_cast<int>(d->userdata[m->nu + m->tree_dofadr[tree_of(row)]]));
+}
+
+void set_time(const mjModel* m, mjData* d, const ChainRow& row, VelocityTime time) {
+  std::fill_n(d->userdata + m->nu + m->tree_dofadr[tree_of(row)], m->tree_dofnum[tree_of(row)],
+              static_cast<double>(time));
+}
+
+// Add half a step of the last step's acceleration, times a sign, to a tree's velocities; write what was added.
+void add_half_step(const mjModel* m, mjData* d, int tree, double sign = 1.0, double* added = nullptr) {
+  const int first = m->tree_dofadr[tree], last = first + m->tree_dofnum[tree];
+  for (int i = first; i < last; ++i) {
+    const double change = sign * 0.5 * m->opt.timestep * d->qacc_warmstart[i];
+    d->qvel[i] += change;
+    if (added) added[i] = change;
+  }
+}
+
+constexpr char kDriven = 2;  // of what holds a tree, beside 1: it touches something
+
+// Spread what holds a tree to those that constraints couple to it.
+void spread_held(const mjModel* m, const mjData* d, std::vector<char>& held) {
+  const auto tree_of = [&](int equality, int id) {
+    if (id < 0) return -1;
+    if (m->eq_type[equality] == mjEQ_JOINT) return m->dof_treeid[m->jnt_dofadr[id]];
+    return m->eq_objtype[equality] == mjOBJ_BODY ? m->body_treeid[id] : -1;
+  };
+  for (bool spreads = true; spreads;) {
+    spreads = false;
+    for (int i = 0; i < m->neq; ++i) {
+      const int one = tree_of(i, m->eq_obj1id[i]), other = tree_of(i, m->eq_obj2id[i]);
+      if (!d->eq_active[i] || one < 0 || other < 0 || held[one] == held[other]) continue;
+      held[one] = held[other] = held[one] | held[other];
+      spreads = true;
     }
   }
+}
+
+// What acts on each tree beside gravity, inertia, springs, dampers and joint friction.
+const std::vector<char>& find_held(const LawTables& laws, const mjModel* m, const mjData* d) {
+  thread_local std::vector<char> held;
+  held = find_touching(m, d);
+  const auto hold = [&](int tree) {
+    if (tree >= 0) held[tree] |= kDriven;
+  };
+  for (std::size_t i = 0; i < laws.motors.size(); ++i)
+    if (m->tendon_frictionloss[i] > 0.0) hold(m->dof_treeid[static_cast<int>(laws.motors[i].dof)]);
+  for (int row = d->ne + d->nf; row < d->ne + d->nf + d->nl; ++row)  // limits that a joint reaches within the step
+    if (d->efc_pos[row] + m->opt.timestep * d->efc_vel[row] <= 0.0) hold(m->dof_treeid[m->jnt_dofadr[d->efc_id[row]]]);
+  for (const DampingRow& row : laws.damping) hold(m->body_treeid[static_cast<int>(row.body)]);
+  for (int i = 0; i < m->nv; ++i)
+    if (d->qfrc_applied[i] != 0.0) hold(m->dof_treeid[i]);
+  for (int body = 1; body < m->nbody; ++body) {
+    const double* wrench = d->xfrc_applied + 6 * body;
+    if (std::any_of(wrench, wrench + 6, [](double each) { return each != 0.0; })) hold(m->body_treeid[body]);
+  }
+  spread_held(m, d, held);
+  return held;
 }
 
 // Trees with moving chains; of those in contact, only the ones that swing.
@@ -72,7 +108,7 @@ void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::
   if (laws.chains.empty()) return;
   const std::vector<char>& touching = find_touching(m, d);
   for (const ChainRow& row : laws.chains) {
-    const int tree = static_cast<int>(row.tree);
+    const int tree = tree_of(row);
     const double* speeds = d->qvel + m->tree_dofadr[tree];
     const bool counts = touching[tree] ? swings(m, d, tree) : std::any_of(speeds, speeds + m->tree_dofnum[tree], moves);
     if (counts) chains.push_back(tree);
@@ -90,23 +126,36 @@ void find_driven(const LawTables& laws, const mjModel* m, const mjData* d, std::
 
 }  // namespace
 
-void start_at_midpoint(const LawTables& laws, const mjModel* m, mjData* d) {
-  thread_local std::vector<int> started;
-  thread_local std::vector<double> forces, accelerations;
-  find_started(laws, m, d, started);
-  if (started.empty()) return;
-  forces.assign(d->qfrc_passive, d->qfrc_passive + m->nv);
-  for (int i = 0; i < m->nv; ++i) forces[i] += d->qfrc_applied[i] - d->qfrc_bias[i];
-  add_springs(laws, d, forces.data());
-  for (int body = 1; body < m->nbody; ++body) {
-    const double* wrench = d->xfrc_applied + 6 * body;
-    if (std::any_of(wrench, wrench + 6, [](double each) { return each != 0.0; }))
-      mujoco.mj_applyFT(m, d, wrench, wrench + 3, d->xipos + 3 * body, body, forces.data());
+void update_midpoints(const LawTables& laws, const mjModel* m, mjData* d) {
+  const auto is_settled = [&](const ChainRow& row) {
+    return row.hangs == 0.0 || time_of(m, d, row) == VelocityTime::kPosition || d->tree_asleep[tree_of(row)] >= 0;
+  };
+  if (std::all_of(laws.chains.begin(), laws.chains.end(), is_settled)) return;
+  thread_local std::vector<double> moved;
+  moved.assign(m->nv, 0.0);
+  const std::vector<char>& held = find_held(laws, m, d);
+  bool any = false;
+  for (const ChainRow& row : laws.chains) {
+    if (is_settled(row)) continue;
+    const VelocityTime time = time_of(m, d, row);
+    const char holds = held[tree_of(row)];
+    if (holds) set_time(m, d, row, VelocityTime::kPosition);
+    else set_time(m, d, row, time == VelocityTime::kGiven ? VelocityTime::kStepped : VelocityTime::kMidpoint);
+    // Contact laws take a velocity for that by which a body came as deep as it is.
+    const bool starts = !holds && time == VelocityTime::kStepped;
+    const bool ends = holds == kDriven && time == VelocityTime::kMidpoint;
+    if (starts) add_half_step(m, d, tree_of(row), -1.0, moved.data());
+    if (ends) add_half_step(m, d, tree_of(row));
+    any |= starts || ends;
   }
-  accelerations.resize(m->nv);
-  mujoco.mj_solveM(m, d, accelerations.data(), forces.data(), 1);
-  for (const int i : started) d->qvel[i] -= 0.5 * m->opt.timestep * accelerations[i];
+  if (!any) return;
+  mujoco.mj_integratePos(m, d->qpos, moved.data(), m->opt.timestep);
   mujoco.mj_fwdVelocity(m, d);
+}
+
+void read_velocities(const LawTables& laws, const mjModel* m, mjData* d) {
+  for (const ChainRow& row : laws.chains)
+    if (time_of(m, d, row) == VelocityTime::kMidpoint) add_half_step(m, d, tree_of(row));
 }
 
 void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d) {
@@ -119,9 +168,7 @@ void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d) {
   velocities.assign(d->cvel, d->cvel + 6 * m->nbody);
   axes.assign(d->cdof_dot, d->cdof_dot + 6 * m->nv);
   bias.resize(m->nv);
-  for (const int tree : chains)
-    for (int i = m->tree_dofadr[tree]; i < m->tree_dofadr[tree] + m->tree_dofnum[tree]; ++i)
-      d->qvel[i] += 0.5 * m->opt.timestep * d->qacc_warmstart[i];
+  for (const int tree : chains) add_half_step(m, d, tree);
   for (const int dof : driven) {
     d->qvel[dof] = 0.0;
     const int tree = m->dof_treeid[dof];
@@ -138,9 +185,12 @@ void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d) {
   std::copy(axes.begin(), axes.end(), d->cdof_dot);
 }
 
-void add_springs(const LawTables& laws, const mjData* d, double* forces) {
-  for (const SpringRow& row : laws.springs)
-    forces[static_cast<int>(row.dof)] -= row.stiffness * (d->qpos[static_cast<int>(row.qpos)] - row.reference);
+void add_springs(const LawTables& laws, mjData* d) {
+  for (const SpringRow& row : laws.springs) {
+    const int dof = static_cast<int>(row.dof);
+    d->qfrc_passive[dof] -= row.stiffness * (d->qpos[static_cast<int>(row.qpos)] - row.reference);
+    d->qfrc_passive[dof] -= row.damping * d->qvel[dof];
+  }
 }
 
 }  // namespace trundle

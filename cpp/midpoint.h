@@ -1,24 +1,35 @@
-// Second-order integration (leapfrog) of Coriolis forces and springs.
+// Second-order integration (leapfrog): positions at each step, velocities half a step before.
 //
-// MuJoCo's velocities are those of the midpoint between two steps: q += h v. Coriolis forces at the old velocity and
-// springs at the new position lose or gain energy in every step; at the mean velocity and the position between, they
-// conserve it.
+// MuJoCo's step is q += h v with the new v, which so is the mean velocity between two positions, that of the midpoint.
+// Velocities that are given belong to a position instead. Where a tree moves by itself they are moved to the midpoint
+// before it, and moved back when they are read; Coriolis forces, springs and dampers act at the time of the position.
+// By the velocity of half a step ago or ahead each would lose or gain energy in every step.
 #pragma once
 
 #include "law_tables.h"
 
 namespace trundle {
 
-// Move new velocities of chains with ball joints, which are of the start of this step, to the midpoint before it.
-//
-// mjData.userdata holds 1 for each degree of freedom whose velocity is a midpoint's. A step then reaches the midpoint
-// of the next two, and positions are exact to second order.
-void start_at_midpoint(const LawTables& laws, const mjModel* m, mjData* d);
+// What a degree of freedom's velocity is that of; in mjData.userdata, behind the motors.
+enum class VelocityTime {
+  kGiven = 0,     // the position's: it is new
+  kMidpoint = 1,  // the midpoint before the position
+  kPosition = 2,  // the position's, which is half a step ahead, as ODE has it
+  kStepped = 3,   // the position's, after its first step
+};
+
+// Move the velocities of trees that hang from something fixed to the midpoint before this step, after a first step,
+// whose acceleration that takes; and back once a contact, motor, limit, effort or wrench acts on a tree, until its
+// velocities are given again.
+void update_midpoints(const LawTables& laws, const mjModel* m, mjData* d);
+
+// Move midpoints' velocities to the time of the positions, for reading; d is not stepped afterwards.
+void read_velocities(const LawTables& laws, const mjModel* m, mjData* d);
 
 // Evaluate Coriolis forces of chains of links at this step's mean velocity, without those of kinematic motors.
 void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Add the forces of soft springs, which are not in the mjModel, to those of the degrees of freedom.
-void add_springs(const LawTables& laws, const mjData* d, double* forces);
+// Add the forces of soft springs, which are not in the mjModel, and the half of soft dampers that is not.
+void add_springs(const LawTables& laws, mjData* d);
 
 }  // namespace trundle

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "law_tables.h"
+#include "midpoint.h"
 #include "mujoco_api.h"
 
 namespace trundle {
@@ -67,6 +68,8 @@ bool RowStepper::is_stable(const mjModel* m, const mjData* d) const {
 }
 
 void RowStepper::write_links(const mjModel* m, mjData* d, const WorldRows& rows, std::size_t row) const {
+  LawTables laws;
+  if (LawTables::find(m, laws)) read_velocities(laws, m, d);
   mujoco.mj_kinematics(m, d);
   mujoco.mj_comPos(m, d);
   mujoco.mj_comVel(m, d);

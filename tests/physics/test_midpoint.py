@@ -47,12 +47,11 @@ def _spring(folder: Path, *, inertia: float, stiffness: float, damping: float = 
 
 
 def _energy(engine: Engine) -> float:
-    model = engine.compiled.model
-    data = mujoco.MjData(model)
-    mujoco.mj_setState(model, data, _state(engine), mujoco.mjtState.mjSTATE_PHYSICS)
-    mujoco.mj_forward(model, data)
-    mujoco.mj_energyPos(model, data)
-    mujoco.mj_energyVel(model, data)
+    data = mujoco.MjData(engine.compiled.model)
+    data.qpos[:], data.qvel[:] = engine.reader.state()
+    mujoco.mj_forward(engine.compiled.model, data)
+    mujoco.mj_energyPos(engine.compiled.model, data)
+    mujoco.mj_energyVel(engine.compiled.model, data)
     return float(data.energy.sum())
 
 
@@ -165,8 +164,7 @@ def test_a_pendulum_on_a_ball_joint_follows_the_truth(
     truth, before = _truth(sim.engine, steps=3000), _energy(sim.engine)
     sim.step(3000)
 
-    # At a midpoint's velocity kinetic energy lags by half a step of the power.
-    assert _energy(sim.engine) == pytest.approx(before, abs=0.5e-3 * G * 1.0 * 6.0 * 0.4)
+    assert _energy(sim.engine) == pytest.approx(before, abs=2e-3)
     assert _angle_between(_state(sim.engine)[:4], truth.qpos) < 1e-3
 
 

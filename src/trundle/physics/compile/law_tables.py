@@ -25,8 +25,8 @@ _WIDTHS = {
     "damping": 3,
     "motions": 11,
     "motors": 4,
-    "chains": 1,
-    "springs": 4,
+    "chains": 2,
+    "springs": 5,
     "compliance": 3,
     "geoms": 3,
 }
@@ -44,6 +44,10 @@ _SLOWEST = 3.0
 """Speed in steps of free fall below which a contact rests and does not bounce."""
 _SLOW = 0.25
 """Largest (ω h)² of a spring that is integrated by the midpoint rule, unstable from 4 on; MuJoCo damps stiffer ones."""
+_GENTLE = 1.0
+"""Largest c h / I of a damper that is integrated by the midpoint rule, which overshoots from 2 on; MuJoCo's rule, of
+first order, never does.
+"""
 _STOP_MARGIN = 20.0
 """Speed [rad/s or m/s] up to which joints are stopped at a limit, not beyond; a limit's constraint costs time within
 this speed times the step.
@@ -162,10 +166,8 @@ def _write_geoms(model: mujoco.MjModel, shapes: Sequence[ShapeEntry]) -> None:
         head[9] = max(head[9], float(frictions[0] != frictions[1]))
 
 
-def midpoint_flags(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """Return (nv,) 1 for each degree of freedom whose velocity is a midpoint's, as a writable view; see
-    `cpp/midpoint.h`.
-    """
+def velocity_times(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
+    """Return (nv,) what each degree of freedom's velocity is that of, as a writable view; see `cpp/midpoint.h`."""
     return data.userdata[model.nu : model.nu + model.nv]
 
 
@@ -175,29 +177,49 @@ def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
 
 
 def _center(model: mujoco.MjModel) -> None:
-    """List the jointed trees, and move soft springs from MuJoCo to the midpoint rule."""
+    """List the jointed trees, and move soft springs and half of each soft damper from MuJoCo to the midpoint rule."""
     head, chains, springs = (find_table(model, name) for name in ("laws", "chains", "springs"))
     chained = [tree for tree in range(model.ntree) if not _is_lone(model, tree)]
-    chains[: len(chained), 0] = chained
-    soft = [joint for joint in range(model.njnt) if _is_slow(model, joint)]
+    for row, tree in zip(chains, chained, strict=False):
+        row[:] = tree, not _has_free_root(model, tree)
+    soft = [joint for joint in range(model.njnt) if _is_slow(model, joint) or _is_gentle(model, joint)]
     for row, joint in zip(springs, soft, strict=False):
-        qpos = int(model.jnt_qposadr[joint])
-        row[:] = model.jnt_dofadr[joint], qpos, model.jnt_stiffness[joint], model.qpos_spring[qpos]
-        model.jnt_stiffness[joint] = 0.0
+        dof, qpos = int(model.jnt_dofadr[joint]), int(model.jnt_qposadr[joint])
+        row[:] = dof, qpos, 0.0, model.qpos_spring[qpos], 0.0
+        if _is_slow(model, joint):
+            row[2], model.jnt_stiffness[joint] = model.jnt_stiffness[joint], 0.0
+        if _is_gentle(model, joint):
+            row[4] = model.dof_damping[dof] = model.dof_damping[dof] / 2
     head[0, 4:6] = len(chained), len(soft)
+
+
+def restore_springs(model: mujoco.MjModel) -> None:
+    """Return soft springs and dampers from the midpoint rule to MuJoCo."""
+    rows = find_table(model, "springs")[: int(find_table(model, "laws")[0, 5])]
+    dofs = rows[:, 0].astype(np.intp)
+    model.jnt_stiffness[model.dof_jntid[dofs]] += rows[:, 2]
+    model.dof_damping[dofs] += rows[:, 4]
+
+
+def _has_free_root(model: mujoco.MjModel, tree: int) -> bool:
+    return bool(model.jnt_type[model.dof_jntid[model.tree_dofadr[tree]]] == mujoco.mjtJoint.mjJNT_FREE)
 
 
 def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
     """True if a tree is a single free body, whose gyroscopic forces MuJoCo integrates implicitly."""
-    first = int(model.tree_dofadr[tree])
-    is_free = model.jnt_type[model.dof_jntid[first]] == mujoco.mjtJoint.mjJNT_FREE
-    return bool(is_free and model.tree_dofnum[tree] == 6)
+    return _has_free_root(model, tree) and bool(model.tree_dofnum[tree] == 6)
 
 
 def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
     """True if a joint has a spring soft enough for the midpoint rule."""
     inverse_inertia = float(model.dof_invweight0[model.jnt_dofadr[joint]])
     return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _SLOW
+
+
+def _is_gentle(model: mujoco.MjModel, joint: int) -> bool:
+    """True if a joint has a damper soft enough for the midpoint rule."""
+    dof = int(model.jnt_dofadr[joint])
+    return bool(0.0 < model.dof_damping[dof] * model.dof_invweight0[dof] * model.opt.timestep < _GENTLE)
 
 
 def disable_laws(model: mujoco.MjModel) -> None:

@@ -18,8 +18,10 @@ from ..compile.compiled_world import CompiledWorld
 from ..compile.law_tables import find_table
 from .motors import HOLD_RATE, MotorCommands
 from .sleeping import STATE, SleepPolicy
+from .velocities import midpoints_moved
 
 _Array = NDArray[np.float64]
+_STATE = mujoco.mjtState
 _HUGE = 1e10
 """Effort of a motor without a limit [N·m or N]."""
 
@@ -69,18 +71,18 @@ class Batch:
     @property
     def time_s(self) -> _Array:
         """(rows,) simulation time [s]."""
-        return self._part(mujoco.mjtState.mjSTATE_TIME)[:, 0]
+        return self._part(_STATE.mjSTATE_TIME)[:, 0]
 
     def positions(self, axes: Sequence[int]) -> _Array:
         """Return (rows, axes) positions [rad or m]; not of ball joints."""
         chosen = list(axes)
-        qpos = self._part(mujoco.mjtState.mjSTATE_QPOS)[:, self._compiled.axis_qpos[chosen]]
+        qpos = self._part(_STATE.mjSTATE_QPOS)[:, self._compiled.axis_qpos[chosen]]
         return qpos * self._compiled.axis_sign[chosen]
 
     def velocities(self, axes: Sequence[int]) -> _Array:
         """Return (rows, axes) velocities [rad/s or m/s]."""
         chosen = list(axes)
-        qvel = self._part(mujoco.mjtState.mjSTATE_QVEL)[:, self._compiled.axis_dof[chosen]]
+        qvel = velocities_of(self._compiled.model, self.states)[:, self._compiled.axis_dof[chosen]]
         return qvel * self._compiled.axis_sign[chosen]
 
     def step(self, count: int, *, chosen: NDArray[np.bool_] | None = None) -> None:
@@ -127,8 +129,8 @@ class Batch:
         self, axis: int, *, commands: _Array, most: _Array | float, rate: float = 0.0, efforts: _Array | float = 0.0
     ) -> None:
         dof, actuator = int(self._compiled.axis_dof[axis]), int(self._compiled.axis_actuator[axis])
-        self._part(mujoco.mjtState.mjSTATE_QFRC_APPLIED)[:, dof] = efforts
-        self._part(mujoco.mjtState.mjSTATE_CTRL)[:, actuator] = commands
+        self._part(_STATE.mjSTATE_QFRC_APPLIED)[:, dof] = efforts
+        self._part(_STATE.mjSTATE_CTRL)[:, actuator] = commands
         self._max_efforts[:, actuator] = most
         self._rates[:, actuator] = rate
 
@@ -151,6 +153,13 @@ def part_of(model: mujoco.MjModel, states: _Array, part: mujoco.mjtState) -> _Ar
     """Return a part of (rows, …) states, mjSTATE_INTEGRATION, as a view."""
     first = mujoco.mj_stateSize(model, STATE & (int(part) - 1))
     return states[:, first : first + mujoco.mj_stateSize(model, int(part))]
+
+
+def velocities_of(model: mujoco.MjModel, states: _Array) -> _Array:
+    """Return the velocities (rows, nv) of (rows, …) states, mjSTATE_INTEGRATION, at the time of their positions."""
+    qvel, qacc = (part_of(model, states, part) for part in (_STATE.mjSTATE_QVEL, _STATE.mjSTATE_WARMSTART))
+    times = part_of(model, states, _STATE.mjSTATE_USERDATA)[:, model.nu : model.nu + model.nv]
+    return midpoints_moved(qvel, times, qacc, 0.5 * model.opt.timestep)
 
 
 def _make_worker(compiled: CompiledWorld) -> tuple[mujoco.MjModel, mujoco.MjData]:

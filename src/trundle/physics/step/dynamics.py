@@ -15,6 +15,7 @@ from trundle.spatial import Vector3
 from ..compile.compiled_world import CompiledWorld
 from .engine_snapshot import ScratchEngine
 from .state_writer import StateWriter
+from .velocities import Velocities
 
 _Array = NDArray[np.float64]
 
@@ -84,7 +85,8 @@ class Dynamics:
 
     def _set_state(self, model: mujoco.MjModel, data: mujoco.MjData, state: JointState, of: Coordinates) -> _Array:
         """Load a state into the scratch data; return the (nv, n) matrix from generalized to MuJoCo's velocities."""
-        data.qpos[:], data.qvel[:] = state.qpos, state.qvel
+        data.qpos[:] = state.qpos
+        Velocities(model, data).set_velocities(state.qvel)
         if state.axis_positions is not None:
             writer = StateWriter(self._compiled, data, wake=lambda _: None, changed=lambda: None)
             writer.set_axis_positions(of.axes, state.axis_positions)

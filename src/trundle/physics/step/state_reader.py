@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from trundle.spatial import Vector3
 
 from ..compile.compiled_world import CompiledWorld
+from .velocities import Velocities
 
 
 class StateReader:
@@ -16,6 +17,7 @@ class StateReader:
         self._compiled = compiled
         self._model = compiled.model
         self._data = data
+        self._velocities = Velocities(compiled.model, data)
         self._roots = self._model.body_rootid[compiled.link_bodies]
         self._balls = [(range(b, b + 3), int(compiled.axis_qpos[b])) for b in compiled.ball_joints]
         self._ball_starts = frozenset(compiled.ball_joints)
@@ -27,13 +29,14 @@ class StateReader:
         """Cached results for the current state."""
 
     def set_state(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
-        """Set positions and velocities; time and forces stay."""
-        self._data.qpos[:], self._data.qvel[:] = qpos, qvel
+        """Set positions and velocities of one time; time and forces stay."""
+        self._data.qpos[:] = qpos
+        self._velocities.set_velocities(qvel)
         self.invalidate()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return copies of qpos and qvel, as `set_state` takes them."""
-        return self._data.qpos.copy(), self._data.qvel.copy()
+        """Return copies of positions and velocities of one time, as `set_state` takes them."""
+        return self._data.qpos.copy(), self._velocities.read()
 
     def invalidate(self) -> None:
         """Clear the cache after a change of the state."""
@@ -63,7 +66,8 @@ class StateReader:
         if self._twists is None:
             self.link_poses()
             mujoco.mj_comPos(self._model, self._data)
-            mujoco.mj_comVel(self._model, self._data)
+            with self._velocities.shown():
+                mujoco.mj_comVel(self._model, self._data)
             self._twists = self._read_twists()
         return self._twists
 
@@ -108,8 +112,8 @@ class StateReader:
 
     def velocities_of(self, axes: range) -> list[float]:
         """Return the velocities of a joint's axes [rad/s or m/s]."""
-        qvel, dofs, signs = self._data.qvel, self._dofs, self._signs
-        return [qvel.item(dofs[axis]) * signs[axis] for axis in axes]
+        dofs, signs, read = self._dofs, self._signs, self._velocities.read_one
+        return [read(dofs[axis]) * signs[axis] for axis in axes]
 
     def efforts_of(self, axes: range) -> list[float]:
         """Return the efforts of motors and commands on a joint's axes [N·m or N]."""

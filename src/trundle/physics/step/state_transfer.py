@@ -5,7 +5,7 @@ from typing import Protocol
 
 import mujoco
 
-from ..compile.law_tables import find_table, midpoint_flags
+from ..compile.law_tables import find_table, velocity_times
 
 _ON = " on "
 _POSITIONS = {int(mujoco.mjtJoint.mjJNT_FREE): 7, int(mujoco.mjtJoint.mjJNT_BALL): 4}
@@ -26,7 +26,7 @@ def transfer_state(
     """
     (old_model, old_data), (new_model, new_data) = old, new
     new_data.time = old_data.time
-    old_flags, new_flags = midpoint_flags(old_model, old_data), midpoint_flags(new_model, new_data)
+    old_times, new_times = velocity_times(old_model, old_data), velocity_times(new_model, new_data)
     for a, b in _matches(_names(old_model.njnt, old_model.joint, renamed), _names(new_model.njnt, new_model.joint)):
         kind = int(new_model.jnt_type[b])
         if kind != int(old_model.jnt_type[a]):
@@ -38,7 +38,7 @@ def transfer_state(
         n = _SPEEDS.get(kind, 1)
         for name in ("qvel", "qacc_warmstart", "qfrc_applied", "qfrc_actuator"):
             getattr(new_data, name)[q : q + n] = getattr(old_data, name)[p : p + n]
-        new_flags[q : q + n] = old_flags[p : p + n]
+        new_times[q : q + n] = old_times[p : p + n]
     old_rates, new_rates = (find_table(model, "motors")[:, 1] for model in (old_model, new_model))
     old_names, new_names = _names(old_model.nu, old_model.actuator, renamed), _names(new_model.nu, new_model.actuator)
     actuators = list(_matches(old_names, new_names))

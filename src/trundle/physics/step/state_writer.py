@@ -10,7 +10,7 @@ from trundle.diagnostics import UsageError
 from trundle.spatial import Pose, Twist
 
 from ..compile.compiled_world import CompiledWorld
-from ..compile.law_tables import midpoint_flags
+from .velocities import Velocities
 
 _SIZES = {int(mujoco.mjtJoint.mjJNT_FREE): (7, 6), int(mujoco.mjtJoint.mjJNT_BALL): (4, 3)}
 """Numbers of a joint's position and velocity, by its type; all others have one each."""
@@ -35,7 +35,7 @@ class StateWriter:
         self._data = data
         self._wake = wake
         self._changed = changed
-        self._midpoint_flags = midpoint_flags(compiled.model, data)
+        self._velocities = Velocities(compiled.model, data)
         self._balls = frozenset(compiled.ball_joints)
         self.was_teleported = True
         """True if anything was teleported, and may penetrate something."""
@@ -52,6 +52,7 @@ class StateWriter:
         """
         for axis, position in zip(axes, positions, strict=True):
             address, dof = int(self._compiled.axis_qpos[axis]), int(self._compiled.axis_dof[axis])
+            self._velocities.synchronize(dof)
             if axis in self._balls:
                 first = axis - axes.start
                 self._set_ball(address, positions[first : first + 3], sign=float(self._compiled.axis_sign[axis]))
@@ -74,9 +75,9 @@ class StateWriter:
             velocities: (axes,)
         """
         for axis, velocity in zip(axes, velocities, strict=True):
-            dof = self._compiled.axis_dof[axis]
+            dof = int(self._compiled.axis_dof[axis])
+            self._velocities.synchronize(dof)
             self._data.qvel[dof] = velocity * self._compiled.axis_sign[axis]
-            self._midpoint_flags[dof] = 0.0
         self._changed()
 
     def set_tree_pose(self, link: int, pose: Pose) -> None:
@@ -88,6 +89,7 @@ class StateWriter:
         joint = self._free_joint(link)
         first = int(self._model.jnt_qposadr[joint])
         dof = int(self._model.jnt_dofadr[joint])
+        self._velocities.synchronize(dof)
         turned = pose.quaternion
         spin = np.empty(3)
         mujoco.mju_rotVecQuat(spin, self._data.qvel[dof + 3 : dof + 6], self._data.qpos[first + 3 : first + 7])
@@ -107,6 +109,7 @@ class StateWriter:
         joint = self._free_joint(link)
         first, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
         w, x, y, z = self._data.qpos[first + 3 : first + 7].tolist()
+        self._velocities.synchronize(dof)
         self._data.qvel[dof : dof + 3] = twist.linear
         self._data.qvel[dof + 3 : dof + 6] = Pose(quaternion=(w, x, y, z)).inverse().transform_vector(twist.angular)
         self._wake(dof)
@@ -119,9 +122,9 @@ class StateWriter:
         for joint in np.flatnonzero(np.isin(self._model.jnt_bodyid, bodies)):
             address, dof = int(self._model.jnt_qposadr[joint]), int(self._model.jnt_dofadr[joint])
             positions, velocities = _SIZES.get(int(self._model.jnt_type[joint]), (1, 1))
+            self._velocities.synchronize(dof)
             self._data.qpos[address : address + positions] = initial[address : address + positions]
             self._data.qvel[dof : dof + velocities] = 0.0
-            self._midpoint_flags[dof : dof + velocities] = 0.0
             self.was_teleported |= self._tree_has_shapes[self._model.dof_treeid[dof]]
             self._wake(dof)
         self._changed()

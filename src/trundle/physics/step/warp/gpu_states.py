@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ..batch import part_of
+from ..batch import part_of, velocities_of
 
 if TYPE_CHECKING:
     from .stepper import GpuStepper
@@ -60,6 +60,7 @@ def advance(
         (rows,) a `StepOutcome` for each; without meaning for those that were not chosen.
     """
     inputs = {name: part_of(model, states, part) for name, part in _INPUTS.items()}
+    inputs["qvel"] = velocities_of(model, states)
     inputs["xfrc_applied"] = inputs["xfrc_applied"].reshape(len(states), -1, 6)
     after, crowded = stepper.step(count, inputs, max_efforts, rates)
     slow = (np.abs(after["qvel"]) < max_speed).all(axis=1)
@@ -68,5 +69,6 @@ def advance(
     stable = chosen & (outcomes == StepOutcome.STABLE)
     for name, values in after.items():
         part_of(model, states, _INPUTS[name])[stable] = values[stable]
+    part_of(model, states, mujoco.mjtState.mjSTATE_USERDATA)[stable, model.nu : model.nu + model.nv] = 0.0
     part_of(model, states, mujoco.mjtState.mjSTATE_TIME)[stable] += count * model.opt.timestep
     return outcomes.astype(np.int8)

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from ...compile.compiled_world import CompiledWorld
-from ...compile.law_tables import find_table
+from ...compile.law_tables import find_table, restore_springs
 
 _MOST = 3
 """Names that a sentence lists."""
@@ -55,8 +55,8 @@ def _names(names: list[str]) -> str:
 def gpu_model(model: mujoco.MjModel) -> None:
     """Change a copy of a model, in which nothing sleeps, to what MuJoCo on Warp takes.
 
-    Soft springs return from the midpoint rule to MuJoCo; a flag against resets and one for thin bodies have no effect.
-    What just touches would not be found in single precision.
+    Soft springs and dampers return from the midpoint rule to MuJoCo; a flag against resets and one for thin bodies have
+    no effect. What just touches would not be found in single precision.
     """
     option, disabled = model.opt, mujoco.mjtDisableBit
     model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_AUTO_NEVER)
@@ -65,5 +65,4 @@ def gpu_model(model: mujoco.MjModel) -> None:
     option.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
     for margins in (model.pair_margin, model.geom_margin):
         margins[:] = np.maximum(margins, _MARGIN)
-    springs = find_table(model, "springs")[: int(find_table(model, "laws")[0, 5])]
-    model.jnt_stiffness[model.dof_jntid[springs[:, 0].astype(np.intp)]] = springs[:, 2]
+    restore_springs(model)
