@@ -64,6 +64,7 @@ class _Joints:
             self.follow(*points, **more)
         assert self.paths is before
         assert caught.value.code == GoalError.INVALID_GOAL
+        assert caught.value.is_late == str(caught.value).startswith("Dropping all")
         return str(caught.value)
 
     def sample(self, time_s: float, joint: int = 0) -> tuple[float, float, float]:

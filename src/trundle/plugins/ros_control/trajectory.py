@@ -138,7 +138,7 @@ class TrajectoryController:
         try:
             self._begin(trajectory, None, NO_GOAL)
         except GoalError as error:
-            self._node.log.error(str(error))
+            self._log_refused(error)
             return
         self._settle("preempted", 0, "a trajectory came on the topic")
 
@@ -153,6 +153,9 @@ class TrajectoryController:
             return
         next_ns = self._time_ns + self._period_ns
         self._paths = self._reader.read(trajectory, self._paths, next_ns, tolerances, goal)
+
+    def _log_refused(self, error: GoalError) -> None:
+        (self._node.log.warn if error.is_late else self._node.log.error)(str(error))
 
     def _hold(self, goal: int = NO_GOAL) -> None:
         """Hold the current positions; with a stop_trajectory_duration, slow down to rest."""
@@ -194,7 +197,7 @@ class TrajectoryController:
             try:
                 self._begin_goal(goal)
             except GoalError as error:
-                self._node.log.error(str(error))
+                self._log_refused(error)
                 settle(_outcome("rejected", error.code, str(error)))
                 return
             self._settle("preempted", 0, "another goal came")

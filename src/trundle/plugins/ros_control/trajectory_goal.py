@@ -33,9 +33,11 @@ class GoalError(ValueError):
     INVALID_GOAL, INVALID_JOINTS = -1, -2
     PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED = -4, -5
 
-    def __init__(self, text: str, code: int = INVALID_GOAL) -> None:
+    def __init__(self, text: str, code: int = INVALID_GOAL, *, is_late: bool = False) -> None:
         super().__init__(text)
         self.code = code
+        self.is_late = is_late
+        """True if it came too late, which is a warning only: streams of commands do at times."""
 
 
 class PathSegment(Struct, frozen=True):
@@ -166,7 +168,8 @@ class PathReader:
             late_s = (now_ns - times[-1]) / 1e9
             raise GoalError(
                 f"Dropping all {dropped} trajectory point(s), as they occur before the current time.\n"
-                f"Last point is {late_s:.6f}s in the past."
+                f"Last point is {late_s:.6f}s in the past.",
+                is_late=True,
             )
         if dropped == 0 or (dropped == 1 and times[0] == now_ns and not stamped):
             return
