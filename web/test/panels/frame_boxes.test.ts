@@ -23,6 +23,15 @@ test("a loop of parents is an error", () => {
   expect(captions([frame("a", "b"), frame("b", "a")], "a")).toEqual({ a: "error|loop of parents", b: "error|loop of parents" });
 });
 
+test("names that are properties of every object are names", () => {
+  const names = ["__proto__", "constructor", "toString", "odom"];
+  const boxes = names.map((id) => ({ id, width: 80, height: 26 }));
+  const { boxes: placed, paths } = layered(boxes, names.map((to) => ({ from: "odom", to })), "LR");
+  expect([...placed.keys()]).toEqual(names);
+  expect(paths.every((path) => path.startsWith("M"))).toBe(true);
+  expect(Object.keys(Object.prototype)).toEqual([]);
+});
+
 test("layers follow the arrows, without overlaps, loops too", () => {
   const boxes = ["a", "b", "c"].map((id) => ({ id, width: 80, height: 26 }));
   const { boxes: placed, paths } = layered(boxes, [{ from: "a", to: "b" }, { from: "b", to: "c" }, { from: "c", to: "a" }, { from: "a", to: "a" }], "LR");

@@ -54,17 +54,20 @@ function arranged(boxes: readonly Box[], arrows: readonly Arrow[], direction: "L
   const graph = new Graph({ multigraph: true });
   graph.setGraph({ rankdir: direction, nodesep: BETWEEN, ranksep: 44, edgesep: 8, marginx: MARGIN, marginy: MARGIN });
   graph.setDefaultEdgeLabel(() => ({}));
-  for (const { id, width, height } of boxes) graph.setNode(id, { width, height });
-  arrows.forEach(({ from, to }, index) => graph.setEdge(from, to, {}, String(index)));
+  const names = new Set([...boxes.map(({ id }) => id), ...arrows.flatMap(({ from, to }) => [from, to])]);
+  const ids = new Map([...names].map((name, index) => [name, String(index)])); // dagre's are keys of objects: no __proto__
+  const node = (id: string): string => ids.get(id) ?? "";
+  for (const { id, width, height } of boxes) graph.setNode(node(id), { width, height });
+  arrows.forEach(({ from, to }, index) => graph.setEdge(node(from), node(to), {}, String(index)));
   if (boxes.length > 0) layout(graph);
   const centres = new Map(
     boxes.map(({ id }) => {
-      const { x = 0, y = 0 } = graph.node(id) as { x?: number; y?: number };
+      const { x = 0, y = 0 } = graph.node(node(id)) as { x?: number; y?: number };
       return [id, [x, y] as const];
     }),
   );
   const paths = arrows.map(({ from, to }, index) => {
-    const { points = [] } = graph.edge(from, to, String(index)) as { points?: readonly { x: number; y: number }[] };
+    const { points = [] } = graph.edge(node(from), node(to), String(index)) as { points?: readonly { x: number; y: number }[] };
     return curve(points.map(({ x, y }) => [x, y] as const));
   });
   const { width = 0, height = 0 } = graph.graph() as { width?: number; height?: number };
