@@ -125,7 +125,7 @@ def subscribe(url: str, topic: str, least: int) -> Callable[[int], None]:
     host, port = str(urlsplit(url).hostname), int(urlsplit(url).port or 0)
     sock = socket.create_connection((host, port))
     sock.sendall(
-        f"GET / HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"GET /?{urlsplit(url).query} HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
         f"Sec-WebSocket-Key: {_KEY}\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: trundle.v1\r\n\r\n".encode()
     )
     stream = sock.makefile("rb")
