@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import socket
 from collections.abc import Coroutine, Mapping
 from typing import Any
 from weakref import WeakSet
@@ -48,7 +49,7 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         server = await creating
         try:
             for listening in server.sockets:
-                with listening.dup() as same:
+                with socket.fromfd(listening.fileno(), listening.family, listening.type) as same:
                     same.listen(backlog)
         except OSError:
             server.close()
@@ -117,8 +118,8 @@ async def close_server(server: asyncio.Server) -> None:
     socket.
     """
     loop = asyncio.get_running_loop()
-    for socket in server.sockets:
-        loop.remove_reader(socket.fileno())
+    for listening in server.sockets:
+        loop.remove_reader(listening.fileno())
     await _passes()
     server.close()
 
