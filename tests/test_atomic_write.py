@@ -1,13 +1,14 @@
 """Output files are written whole or not at all, and never replace a device."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from trundle.atomic_write import write_atomically
+from trundle.atomic_write import replaced_atomically, write_atomically
 from trundle.cli import main
 from trundle.diagnostics import UsageError
 
@@ -81,3 +82,51 @@ def test_a_full_disk_is_one_sentence(model: str) -> None:
     assert done.stderr.splitlines()[-1] == "trundle check: error: the output cannot be written: No space left on device"
     assert drawn.stderr.splitlines()[-1] == "trundle check: error: cannot write /dev/full: No space left on device"
     assert "Traceback" not in done.stderr + drawn.stderr
+
+
+def _fail(half: Path) -> None:
+    half.write_text("bad")
+    assert half.suffix == ".png"
+    raise OSError("full")
+
+
+def test_a_file_of_a_library_replaces_another_at_its_end_only(tmp_path: Path) -> None:
+    file, link = tmp_path / "a.png", tmp_path / "link.png"
+    link.symlink_to(file)
+    file.write_text("good")
+    file.chmod(0o600)
+    with pytest.raises(OSError, match="full"), replaced_atomically(link) as half:
+        _fail(half)
+    assert file.read_text() == "good"
+    with replaced_atomically(link) as half:
+        half.write_text("better")
+    assert (file.read_text(), file.stat().st_mode & 0o777, link.is_symlink()) == ("better", 0o600, True)
+    assert {path.name for path in tmp_path.iterdir()} == {"a.png", "link.png"}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="this system limits no file's size")
+@pytest.mark.parametrize("name", ["a.png", "a.gif"])
+def test_a_picture_that_does_not_fit_leaves_the_last_one(tmp_path: Path, name: str) -> None:
+    shape = "<visual name='v'><geometry><box><size>1 1 1</size></box></geometry></visual>"
+    (tmp_path / "m.sdf").write_text(MODEL.replace('<link name="l"/>', f'<link name="l">{shape}</link>'))
+    (tmp_path / name).write_text("good")
+    words = [sys.executable, "-m", "trundle", "render", "m.sdf", "-o", name]
+    words += ["--duration", "0.08", "--size", "320x240"] if name.endswith(".gif") else ["--size", "320x240"]
+    limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh", *words]  # blocks of 512 bytes, or of 1024
+    done = subprocess.run(limited, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr.splitlines()[-1]) == (
+        1,
+        f"trundle render: error: cannot write {name}: File too large",
+    )
+    assert (tmp_path / name).read_text() == "good"
+    assert {path.name for path in tmp_path.iterdir()} == {"m.sdf", name}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="this system limits no file's size")
+@pytest.mark.parametrize(("words", "code"), [("new robot cart", 1), ("--as catkin_create_pkg cart", 2)])
+def test_new_files_that_do_not_fit_are_one_sentence(tmp_path: Path, words: str, code: int) -> None:
+    limited = ["sh", "-c", 'ulimit -f 0; exec "$@"', "sh", sys.executable, "-m", "trundle", *words.split()]
+    done = subprocess.run(limited, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == code
+    assert re.search(r"error: cannot write \S*cart[/.]\S+: File too large$", done.stderr), done.stderr
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []

@@ -2,6 +2,8 @@
 
 import os
 import shutil
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
@@ -32,6 +34,32 @@ def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool =
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
+@contextmanager
+def replaced_atomically(path: Path) -> Generator[Path]:
+    """Yield a file of the same suffix to write to, which replaces the one at `path` at the end, but not after an error.
+
+    Pipes and devices are yielded themselves.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    if path.exists() and not path.is_file():
+        yield path
+        return
+    path = path.resolve()
+    half = path.with_name(f".{path.stem}.part{path.suffix}")
+    half.unlink(missing_ok=True)
+    half.open("xb").close()  # no link that another user placed
+    try:
+        yield half
+        if path.exists():
+            shutil.copymode(path, half)
+        os.replace(half, path)
+    except BaseException:
+        half.unlink(missing_ok=True)
+        raise
+
+
 def _write(path: Path, content: str | bytes | Path, *, replace: bool) -> None:
     half = path.with_name(f".{path.name}.part")
     try:
@@ -54,7 +82,7 @@ def _fill(file: BinaryIO, content: str | bytes | Path) -> None:
         with content.open("rb") as source:
             shutil.copyfileobj(source, file)
     else:
-        file.write(content if isinstance(content, bytes) else content.encode())
+        file.write(content if isinstance(content, bytes) else content.encode(errors="surrogateescape"))
 
 
 def _move_new(half: Path, path: Path) -> None:

@@ -158,6 +158,17 @@ def test_letters_that_a_terminal_lacks_are_written_by_number(
     assert shown in done.stdout
 
 
+def test_files_are_utf_8_whatever_the_terminal_is(tmp_path: Path) -> None:
+    """In the C locale, Python writes ASCII unless told otherwise."""
+    env = {**os.environ, "PYTHONUTF8": "0", "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"}
+    words = [sys.executable, "-m", "trundle", "--as", "catkin_create_pkg", "cart", "-D", "für Rüben", "--author", "Zoë"]
+
+    done = subprocess.run(words, env=env, cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    assert done.returncode == 0, done.stderr
+    assert "für Rüben" in (tmp_path / "cart/package.xml").read_text(encoding="utf-8")
+
+
 def test_without_its_script_it_says_which_is_missing_and_what_to_do(beside: Path) -> None:
     done = _run(beside, "--version")
 

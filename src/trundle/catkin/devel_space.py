@@ -5,6 +5,7 @@ import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 
 from .workspace import Workspace
@@ -32,7 +33,7 @@ def write_devel_space(workspace: Workspace, environment: Mapping[str, str]) -> b
         if not is_originals:
             for name, text in _files(workspace, environment).items():
                 path = devel / name
-                path.write_text(text)
+                write_atomically(path, text)
                 path.chmod(0o755 if name.endswith((".sh", ".bash", ".zsh")) else 0o644)
     except OSError as error:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
@@ -42,7 +43,7 @@ def write_devel_space(workspace: Workspace, environment: Mapping[str, str]) -> b
 def _mark(space: Path) -> None:
     """Note the tool that made a space, as catkin's tools do for one another."""
     marker = space / ".built_by"
-    tool = marker.read_text().strip() if marker.is_file() else _TOOL
+    tool = marker.read_text(encoding="utf-8", errors="replace").strip() if marker.is_file() else _TOOL
     if tool != _TOOL:
         raise UsageError(
             f"The {space.name} space at '{space}' was previously built by '{tool}'. Please remove the {space.name} "
@@ -59,7 +60,7 @@ def _files(workspace: Workspace, environment: Mapping[str, str]) -> dict[str, st
     }
     files = {".catkin": str(workspace.source), ".rosinstall": f"- setup-file: {{local-name: {devel}/setup.sh}}\n"}
     for name in ("setup.sh", "setup.bash", "setup.zsh", "env.sh"):
-        text = (_SETUP_FILES / name).read_text()
+        text = (_SETUP_FILES / name).read_text(encoding="utf-8")
         for variable, value in values.items():
             text = text.replace(variable, value)
         files[name] = text

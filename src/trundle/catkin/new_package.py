@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape, quoteattr
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 
 _CONVENTION = re.compile(r"[a-z][a-z0-9_-]*")
@@ -50,8 +51,7 @@ def create_package(parent: Path, package: NewPackage) -> Iterator[str]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
-            with (folder / name).open("x") as file:
-                file.write(text)
+            write_atomically(folder / name, text, replace=False)
             yield f"Created file {package.name}/{name}"
         for name in folders:
             (folder / name).mkdir(parents=True, exist_ok=True)

@@ -38,6 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Render an image or a video."""
+    from trundle.atomic_write import replaced_atomically
     from trundle.bringup.picture.render import PictureOptions, PictureRenderer
     from trundle.bringup.picture.video import VIDEO_SUFFIXES, simulated_frames, turntable, write_video
     from trundle.diagnostics import Diagnostics, UsageError
@@ -68,9 +69,10 @@ def main(args: argparse.Namespace) -> int:
         write_video(frames, args.output, report_progress=_print_progress)
         return 0
     try:
-        studio.render().save(args.output)
+        with replaced_atomically(args.output) as file:
+            studio.render().save(file)
     except (OSError, ValueError) as error:
-        raise UsageError(f"cannot write {args.output}: {error}") from None
+        raise UsageError(f"cannot write {args.output}: {getattr(error, 'strerror', None) or error}") from None
     return 0
 
 

@@ -1,6 +1,7 @@
 """Policy: an action for an observation, by a small network."""
 
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Self
 from zipfile import BadZipFile
 
@@ -8,6 +9,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from trundle.atomic_write import replaced_atomically
 from trundle.diagnostics import UsageError
 
 from .networks import evaluate
@@ -48,7 +50,7 @@ class MlpPolicy(Struct, frozen=True, eq=False):
     def save(self, file: str | PathLike[str]) -> None:
         """Write a .npz file."""
         layers = {f"layer_{number}": each for number, each in enumerate(self.parameters)}
-        with open(file, "wb") as stream:
+        with replaced_atomically(Path(file)) as half, half.open("wb") as stream:
             np.savez(stream, **layers, **{name: getattr(self, name) for name in _PARTS})
 
     @classmethod

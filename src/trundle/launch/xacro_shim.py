@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 
+from trundle.atomic_write import write_atomically
+
 XACRO = ("xacro", "xacro.py")
 """Names of the executable."""
 
@@ -26,7 +28,7 @@ def provide_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tupl
     with TemporaryDirectory(prefix="trundle-xacro-") as folder:
         for name in XACRO:
             program = Path(folder, name)
-            program.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -P -m trundle xacro "$@"\n')
+            write_atomically(program, f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -P -m trundle xacro "$@"\n')
             program.chmod(0o755)
         words = [str(Path(folder, PurePath(word).name)) if _is_missing(word) else word for word in argv[1:]]
         path = os.pathsep.join([env.get("PATH", os.defpath), folder])

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 
 _TEMPLATES = Path(__file__).with_name("templates")
@@ -105,7 +106,7 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
     _check_name(name, is_camel_case=scaffold.is_camel_case)
     values = {"@NAME@": name, "@PACKAGE@": package, "@CLASS@": "".join(part.title() for part in name.split("_"))}
     texts = {
-        folder / _filled(path, values): _filled((_TEMPLATES / f"{template}.in").read_text(), values)
+        folder / _filled(path, values): _filled((_TEMPLATES / f"{template}.in").read_text(encoding="utf-8"), values)
         for path, template in scaffold.files.items()
     }
     for path in texts:
@@ -114,8 +115,7 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
     try:
         for path, text in texts.items():
             path.parent.mkdir(parents=True, exist_ok=True)
-            with path.open("x") as file:
-                file.write(text)
+            write_atomically(path, text, replace=False)
             if text.startswith("#!") and path.suffix in _EXECUTABLE:
                 path.chmod(0o755)
     except OSError as error:

@@ -9,6 +9,8 @@ from tempfile import mkdtemp
 
 from argcomplete.shell_integration import shellcode
 
+from trundle.atomic_write import write_atomically
+
 _FISH = "fish"
 
 
@@ -29,7 +31,7 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
     for name in (*names, "trundle"):
         file = commands / name
         words = "" if name == "trundle" else f" --as {name}"
-        file.write_text(f'#!/bin/sh\nexec {program}{words} "$@"\n')
+        write_atomically(file, f'#!/bin/sh\nexec {program}{words} "$@"\n')
         file.chmod(0o755)
     completed = [*names, "trundle"]
     values = {
@@ -38,8 +40,8 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
         "@NAMES@": shlex.join([*completed, *functions]),
     }
     for name, shell in (("activate.sh", "bash"), ("activate.fish", _FISH)):
-        text = _filled(Path(__file__).with_name(name).read_text(), values)
-        (folder / name).write_text(f"{text}\n{_completion(completed, shell)}")
+        text = _filled(Path(__file__).with_name(name).read_text(encoding="utf-8"), values)
+        write_atomically(folder / name, f"{text}\n{_completion(completed, shell)}")
     return folder
 
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeAlias
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 
 from .activation import write_activation
@@ -77,7 +78,7 @@ def _start(shell: str, folder: Path, command: str | None) -> tuple[list[str], di
     match kind:
         case "bash":
             start = folder / "bashrc"
-            start.write_text(f"[ -f ~/.bashrc ] && . ~/.bashrc\n{sourced}\n")
+            write_atomically(start, f"[ -f ~/.bashrc ] && . ~/.bashrc\n{sourced}\n")
             return [shell, "--rcfile", str(start), "-i"], {}
         case "zsh":
             _write_zsh_files(folder, sourced)
@@ -91,11 +92,11 @@ def _start(shell: str, folder: Path, command: str | None) -> tuple[list[str], di
 def _write_zsh_files(folder: Path, sourced: str) -> None:
     """Write start files that read the user's, from ZDOTDIR or the home folder."""
     own = "${_TRUNDLE_ZDOTDIR:-$HOME}"
-    (folder / ".zshenv").write_text(f"[ -f {own}/.zshenv ] && . {own}/.zshenv\n")
+    write_atomically(folder / ".zshenv", f"[ -f {own}/.zshenv ] && . {own}/.zshenv\n")
     ends = 'if [ -n "$_TRUNDLE_ZDOTDIR" ]; then ZDOTDIR="$_TRUNDLE_ZDOTDIR"; else unset ZDOTDIR; fi\n'
     compinit = "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit -D }\n"
     text = f"[ -f {own}/.zshrc ] && . {own}/.zshrc\n{compinit}{sourced}\n{ends}unset _TRUNDLE_ZDOTDIR\n"
-    (folder / ".zshrc").write_text(text)
+    write_atomically(folder / ".zshrc", text)
 
 
 def _ignore(_number: int, _frame: object) -> None:

@@ -126,7 +126,7 @@ class ProcessJob:
         with contextlib.ExitStack() as stack:
             log: IO[str] | None = None
             if not to_screen and self._command.log_file is not None:
-                log = stack.enter_context(self._command.log_file.open("a", errors="replace"))
+                log = stack.enter_context(self._command.log_file.open("a", encoding="utf-8", errors="replace"))
             rest = ""
             while chunk := await stream.read(_CHUNK_BYTES):
                 *lines, rest = (rest + chunk.decode(errors="replace")).split("\n")

@@ -71,7 +71,7 @@ class Results:
         if not path.exists():
             write_atomically(path, json.dumps({**now, "device": device, "text": text}))
             return
-        found = json.loads(path.read_text())
+        found = json.loads(path.read_text(encoding="utf-8"))
         if {key: value for key, value in found.items() if key in now} != now:
             what = "has the results of another plan, or the plan or its world has changed since"
             raise UsageError(f"{self.folder} {what}; give another folder with -o, or delete this one")

@@ -115,7 +115,7 @@ def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
         except TrundleError as error:
             return str(error)
         except OSError as error:
-            return f"{error.filename}: {error.strerror}"
+            return f"{error.filename or path}: {error.strerror}"  # a write names no file
         return ""
 
     return write

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import yaml
 
-from trundle.diagnostics import DescriptionError
+from trundle.atomic_write import write_atomically
+from trundle.diagnostics import DescriptionError, UsageError
 from trundle.launch import LaunchParam, LaunchPlan
 from trundle.ros import Node, ParameterError
 
@@ -23,9 +24,9 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
                 await node.params.delete(step.name)
             continue
         try:
-            Path(step.file).write_text(yaml.safe_dump(await node.params.get(step.name, {})))
-        except OSError as error:
-            raise DescriptionError(step.at, f"rosparam dump to {step.file!r}: {error.strerror}") from None
+            write_atomically(Path(step.file), yaml.safe_dump(await node.params.get(step.name, {})))
+        except UsageError as error:
+            raise DescriptionError(step.at, f"rosparam dump: {error}") from None
     for namespace in plan.clear_params:
         if await node.params.has(namespace):
             await node.params.delete(namespace)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import DescriptionError, UsageError
 from trundle.xmlnode import XmlNode, read_xml
 
@@ -90,9 +91,9 @@ def write_junit(file: Path, suites: Sequence[SuiteResult]) -> None:
     ET.indent(root)
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(ET.tostring(root, encoding="unicode") + "\n", encoding="utf-8")
     except OSError as error:
         raise UsageError(f"results cannot be written to {file}: {error.strerror}") from None
+    write_atomically(file, ET.tostring(root, encoding="unicode") + "\n")
 
 
 def _printable(text: str) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from trundle.atomic_write import replaced_atomically
 from trundle.diagnostics import UsageError
 
 from .render import PictureRenderer
@@ -48,12 +49,13 @@ def write_video(frames: Iterator[Image.Image], output: Path, *, report_progress:
         UsageError: it cannot be written, or its package is not installed.
     """
     try:
-        if output.suffix.lower() == ".mp4":
-            _write_mp4(frames, output, report_progress)
-        else:
-            _write_pillow(frames, output, report_progress)
+        with replaced_atomically(output) as file:
+            if output.suffix.lower() == ".mp4":
+                _write_mp4(frames, file, report_progress)
+            else:
+                _write_pillow(frames, file, report_progress)
     except (OSError, ValueError) as error:
-        raise UsageError(f"cannot write {output}: {error}") from None
+        raise UsageError(f"cannot write {output}: {getattr(error, 'strerror', None) or error}") from None
 
 
 def _write_pillow(frames: Iterator[Image.Image], output: Path, report_progress: Callable[[int], None]) -> None:

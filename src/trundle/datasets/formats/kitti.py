@@ -42,7 +42,7 @@ class KittiFormat(DatasetFormat):
         depth = base / picture_path("depth_2", number)
         depth.write_bytes(png(depth_pixels(picture.depth, _DEPTH_SCALE)))
         labels = "".join(label_line(each, annotation.camera) + "\n" for each in annotation.objects)
-        (base / picture_path("label_2", number, "txt")).write_text(labels)
+        (base / picture_path("label_2", number, "txt")).write_text(labels, encoding="utf-8")
         (base / picture_path("calib", number, "txt")).write_text(calibration(annotation))
         if picture.cloud is not None:
             (base / picture_path("velodyne", number, "bin")).write_bytes(picture.cloud.points.astype("<f4").tobytes())

@@ -28,7 +28,8 @@ class YoloFormat(DatasetFormat):
         annotation = picture.annotation
         path = folder / picture_path("labels", annotation.number, "txt")
         path.parent.mkdir(exist_ok=True)
-        path.write_text("".join(_line(plan, annotation, each) + "\n" for each in annotation.objects))
+        text = "".join(_line(plan, annotation, each) + "\n" for each in annotation.objects)
+        path.write_text(text, encoding="utf-8")
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
         """Write the list of classes."""

@@ -11,6 +11,7 @@ import yaml
 from numpy.typing import NDArray
 from PIL import Image
 
+from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.files import read_file
 from trundle.meshes import why_undecoded
@@ -130,13 +131,12 @@ def write_map(file: Path, grid: OccupancyGrid, *, occupied: int, free: int) -> N
     shades = np.full(cells.shape, 205, dtype=np.uint8)
     shades[(cells >= 0) & (cells <= free)] = 254
     shades[cells >= occupied] = 0
-    picture = file.with_name(f"{file.name}.pgm")
+    picture, pixels = file.with_name(f"{file.name}.pgm"), io.BytesIO()
+    Image.fromarray(shades).save(pixels, format="PPM")
+    write_atomically(picture, pixels.getvalue())
     x, y, yaw = grid.origin
-    try:
-        Image.fromarray(shades).save(picture, format="PPM")
-        file.with_name(f"{file.name}.yaml").write_text(
-            f"image: {picture.name}\nresolution: {grid.resolution_m:f}\norigin: [{x:f}, {y:f}, {yaw:f}]\n"
-            "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n"
-        )
-    except OSError as error:
-        raise UsageError(f"map {file}: {error.strerror}") from None
+    write_atomically(
+        file.with_name(f"{file.name}.yaml"),
+        f"image: {picture.name}\nresolution: {grid.resolution_m:f}\norigin: [{x:f}, {y:f}, {yaw:f}]\n"
+        "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n",
+    )
