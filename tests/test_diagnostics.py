@@ -44,3 +44,14 @@ def test_an_error_that_ends_nothing_is_said_once_and_where_it_is() -> None:
         "b.urdf:3: warning: no mesh; it is left out",
         "a.urdf:1: warning: plugin 'p': no joint; it is left out",
     ]
+
+
+def test_a_name_out_of_a_file_neither_breaks_the_line_nor_commands_the_terminal() -> None:
+    name = "a\nx.sdf:1: error: forged\x1b[2J\x9b2J\u202e é"
+    report = Diagnostics()
+    report.warn(Source("x\n.sdf", 2), f"no model {name}")
+    error = DescriptionError(Source("x.sdf", 1), f"no model {name}")
+
+    shown = r"no model a\nx.sdf:1: error: forged\x1b[2J\x9b2J\u202e é"
+    assert report.warnings == [rf"x\n.sdf:2: warning: {shown}"]
+    assert str(error) == f"x.sdf:1: error: {shown}"

@@ -13,9 +13,17 @@ from collections.abc import Collection, Iterable
 from typing import Literal, NamedTuple, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
+_CONTROLS = (*range(0x20), *range(0x7F, 0xA0), 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A))
+"""Line breaks, terminals' commands, and marks that change the order in which text is shown."""
+_ESCAPES = {code: repr(chr(code))[1:-1] for code in _CONTROLS}
 _NAMED = 3
 """Most further lines listed for one message."""
 _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
+
+
+def printable(text: str) -> str:
+    """Return a text on one line, control characters as Python writes them; names out of files may have any."""
+    return text.translate(_ESCAPES)
 
 
 class Source(NamedTuple):
@@ -25,7 +33,8 @@ class Source(NamedTuple):
     line: int | None = None
 
     def __str__(self) -> str:
-        return self.file if self.line is None else f"{self.file}:{self.line}"
+        file = printable(self.file)
+        return file if self.line is None else f"{file}:{self.line}"
 
 
 class TrundleError(Exception):
@@ -53,7 +62,7 @@ class DescriptionError(TrundleError):
         """State the error, and further ones in `more`."""
         self.missing_packages = missing_packages
         self.at = at
-        self.what = what
+        self.what = what = printable(what)
         self.more = tuple(more)
         super().__init__("\n".join([f"{at}: error: {what}", *map(str, self.more)]))
 
@@ -140,6 +149,7 @@ class Diagnostics:
             self._add(finding)
 
     def _add(self, finding: Diagnostic) -> None:
+        finding = finding._replace(what=printable(finding.what))
         if finding not in self._seen:
             self._seen.add(finding)
             self.findings.append(finding)
