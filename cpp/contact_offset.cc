@@ -146,6 +146,20 @@ thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Ac
 
 }  // namespace
 
+namespace {
+
+// Depth whose spring carries what Gazebo's ODE carries at rest at a depth. There a correction of rate · depth is capped
+// at max_vel, so points sink until the next steps correct as much: physics/compile/compliance.py, rest_depth.
+//
+// With gravity · h = w, at rest depth = x (1 + (rate x − max_vel) / w) where that exceeds the spring's own x.
+double carrying_depth(const ComplianceRow& row, double depth, double w) {
+  if (row.rate <= 0 || row.rate * depth <= row.max_vel) return depth;
+  const double linear = w - row.max_vel;
+  return (std::sqrt(linear * linear + 4 * row.rate * w * depth) - linear) / (2 * row.rate);
+}
+
+}  // namespace
+
 double slip_decay(const mjContact& contact, double h) {
   const bool own = contact.solreffriction[0] != 0 || contact.solreffriction[1] != 0;
   const double damping = spring(own ? contact.solreffriction : contact.solref, contact.solimp[1]).damping;
@@ -154,6 +168,7 @@ double slip_decay(const mjContact& contact, double h) {
 
 void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d) {
   if (laws.compliance.empty()) return;
+  const double fall = std::sqrt(dot(m->opt.gravity, m->opt.gravity)) * m->opt.timestep;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.efc_address < 0) continue;
@@ -161,7 +176,7 @@ void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d) {
     if (!row) continue;
     double& margin = d->efc_margin[contact.efc_address];
     if (row->depth > 0) margin = std::max(contact.dist, -row->depth);
-    margin = contact.dist - row->factor * (contact.dist - margin);
+    margin = contact.dist + row->factor * carrying_depth(*row, margin - contact.dist, fall);
   }
 }
 

@@ -1,9 +1,11 @@
-// Shifts of contact margins: sliding contacts do not lift off; SDF's min_depth, kp and kd.
+// Shifts of contact margins: sliding contacts do not lift off; SDF's min_depth, max_vel, kp and kd.
 //
 // MuJoCo's convex friction cone lifts a contact that slides at v by μ times what friction would take of v, far more
 // than it sinks in under its load, so it hops. SDF's min_depth is a depth up to which a contact stops bodies without
 // pushing them out. MuJoCo's springs act on the depth at the end of the step, which damps; a spring with little damping
-// acts on a multiple of the depth instead. All shift the depth at which a contact begins to push.
+// acts on a multiple of the depth instead. ODE's cap on depth correction stops recoil, and bodies rest deeper than
+// their springs alone would have it: such a spring has ODE's damping and a softer law of depth. All shift the depth at
+// which a contact begins to push.
 #pragma once
 
 #include "law_tables.h"

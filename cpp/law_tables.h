@@ -36,8 +36,10 @@ struct DampingRow {
 
 struct ComplianceRow {
   double pair;
-  double depth;   // [m] up to which a contact stops bodies without pushing them out
-  double factor;  // from the stiffness in the model to the contact's
+  double depth;    // [m] up to which a contact stops bodies without pushing them out
+  double factor;   // from the stiffness in the model to the contact's
+  double rate;     // [1/s] at which ODE corrects a depth, by at most max_vel; 0: not capped
+  double max_vel;  // [m/s]
 };
 
 struct GeomRow {

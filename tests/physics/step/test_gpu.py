@@ -67,7 +67,7 @@ def box(tmp_path: Path) -> Callable[..., Simulation]:
         (
             "<contact><ode><min_depth>0.01</min_depth></ode></contact>",
             "",
-            "contacts are soft at first (<min_depth>, <kp>, <kd>): ",
+            "contacts yield (<min_depth>, <max_vel>, <kp>, <kd>): ",
         ),
         (
             "",

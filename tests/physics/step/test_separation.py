@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.physics.ode_contact import ode_rest_depth
 from tests.physics.quasistatic import GRAVITY, Vehicle
 
 import trundle
@@ -80,3 +81,50 @@ def test_a_robot_that_is_spawned_in_the_ground_stands_upright_on_it(
     assert sim["vehicle"].pose.position == pytest.approx((0, 0, 0), abs=1e-3)
     assert sim["vehicle"].pose.rpy == pytest.approx((0, 0, 0), abs=1e-3)
     assert speed(sim, "vehicle") < 1e-2
+
+
+SLAB = """<model name="floor"><static>true</static><pose>0 0 -1 0 0 0</pose><link name="l"><collision name="c">
+<geometry><box><size>20 20 2</size></box></geometry></collision></link></model>"""
+
+
+# Gazebo's positions follow its uncapped correction: what is hard is out in a step, what is soft within some 0.1 s.
+@pytest.mark.parametrize("ground", [FLOOR, SLAB])
+@pytest.mark.parametrize(
+    ("contact", "depth", "speed"),
+    [
+        ("", 0.0, 0.01),
+        ("<kp>1e6</kp><kd>100</kd><max_vel>1</max_vel>", 0.0, 0.05),
+        ("<kp>2e5</kp><kd>25</kd>", ode_rest_depth(25.0 * 9.8 / 6, kp=2e5, kd=26.0), 0.2),
+    ],
+)
+@pytest.mark.parametrize(
+    "vehicle",
+    [
+        Vehicle(wheels=((0, 0.15), (0, -0.15)), balls=((0.15, 0), (-0.15, 0))),
+        Vehicle(wheels=((0.25, 0.3), (-0.25, 0.3), (0.25, -0.3), (-0.25, -0.3)), mass=10.0, wheel_mass=2.0),
+    ],
+)
+def test_a_robot_that_is_spawned_30_cm_in_the_ground_is_out_at_once_and_settles(
+    tmp_path: Path, ground: str, contact: str, depth: float, speed: float, vehicle: Vehicle
+) -> None:
+    surface = f"<contact><ode>{contact}</ode></contact></surface>"
+    model = vehicle.sdf().replace('<link name="chassis">', '<pose>0 0 -0.3 0 0 0.3</pose><link name="chassis">', 1)
+    file = tmp_path / "w.world"
+    inside = f"<gravity>0 0 -9.8</gravity>{ground}{model.replace('</surface>', surface)}"
+    file.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
+    sim = trundle.load(str(file))
+
+    speeds: list[float] = []
+    heights: list[float] = []
+    for _ in range(1000):
+        sim.step()
+        speeds += [math.hypot(*link.twist.linear) for link in sim["vehicle"].links]
+        heights.append(sim["vehicle"].pose.position[2])
+    assert heights[0] == pytest.approx(0.0, abs=1e-3)
+    assert max(heights) < 1e-3
+    assert max(speeds) < speed
+    assert sim["vehicle"].pose.position[:2] == pytest.approx((0.0, 0.0), abs=1e-3)
+    assert sim["vehicle"].pose.rpy == pytest.approx((0.0, 0.0, 0.3), abs=1e-3)
+    assert speeds[-1] < 1e-3
+    if len(vehicle.wheels) == 2:  # of two points each, and two balls
+        assert heights[-1] == pytest.approx(-depth, rel=0.1, abs=2e-4)

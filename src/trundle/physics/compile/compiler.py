@@ -124,13 +124,13 @@ class Compiler:
         """
         world, shapes = world or self.world, self.shapes if shapes is None else shapes
         choose_jacobian(model)
-        factors = set_compliance(model, pair_params)
+        yields = set_compliance(model, pair_params)
         if like is None:
             collisions = {shape.name: shape.collision for shape in self.shapes}
             like = index_world(world, self.tree, self.joints.axes, collisions, model)
             start = initial_positions(model, self.tree, self.joints.axes, self.report)
             like = replace(like, initial_qpos=start)
-        fill_tables(model, pair_params, shapes, like.link_bodies.tolist(), world, factors)
+        fill_tables(model, pair_params, shapes, like.link_bodies.tolist(), world, yields)
         enable_ccd(model, shapes)
         return replace(like, world=world, model=model)
 
@@ -250,21 +250,23 @@ class Compiler:
             for geom, meets in add_shape(
                 self.spec, body, part, part_name, self.report, fixed=fixed, decomposition=self.decomposition
             ):
-                self._add_shape_entry(geom, geom.name, node, collision, meets & on, points)
+                has_tread = tread is not None and points != TREAD_POINTS
+                self._add_shape_entry(geom, node, collision, meets & on, points, has_tread=has_tread)
 
     def _add_shape_entry(
         self,
         geom: mujoco.MjsGeom,
-        name: str,
         node: LinkNode,
         collision: Collision,
         meets: CollidesWith,
         points: int,
+        *,
+        has_tread: bool,
     ) -> None:
         self.shapes.append(
             ShapeEntry(
                 geom,
-                name,
+                geom.name,
                 collision=f"{node.name}::{collision.name}",
                 model=node.model,
                 link=node.name,
@@ -272,6 +274,7 @@ class Compiler:
                 surface=collision.surface,
                 collides_with=meets,
                 points=points,
+                has_tread=has_tread,
             )
         )
 

@@ -4,9 +4,11 @@ Gazebo uses the smaller friction of two surfaces, MuJoCo the larger, so each pai
 joint never collide, links of one model only with <self_collide>.
 
 ODE and MuJoCo differ: ODE's friction pyramid becomes a cone where mu = mu2, and max_vel, which limits ODE's depth
-correction, is ignored: initial penetration is resolved at once (see `separation`), impacts are corrected slowly.
+correction, acts on what yields only (see `compliance`): elsewhere initial penetration is resolved at once (see
+`separation`), impacts are corrected slowly.
 """
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations, product
 
@@ -15,11 +17,12 @@ import mujoco
 from trundle.diagnostics import Diagnostics
 from trundle.model import Model
 
-from .compliance import is_soft, pair_name
+from .compliance import pair_name, surface_gives
 from .contact_params import ContactParams, bitmasks_match, combine_surfaces, friction_of, frictions_of, is_plain
 from .kinematic_tree import KinematicTree
 from .shape_entry import CollidesWith, ShapeEntry
 from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solref
+from .wheels import BESIDE_TREAD
 
 MAX_PAIRS = 2000
 """Most pairs of a fixed and a moving shape. Beyond, MuJoCo's broad phase finds contacts: a pair costs about 10 ns per
@@ -48,7 +51,7 @@ def add_contacts(
     fixed = [shape for shape in shapes if shape.fixed]
     moving = [shape for shape in shapes if not shape.fixed]
     solid = [shape for shape in moving if shape.collides_with & CollidesWith.MOVING]
-    special = _needs_pairs(shapes, models, tree, h=spec.option.timestep, report=report)
+    special = _needs_pairs(spec, shapes, models, tree, report)
     if len(fixed) * len(moving) > MAX_PAIRS:
         # Planes, under most bodies, keep their pairs: only a pair's solreffriction keeps sliding bodies from hopping.
         found = [shape for shape in fixed if shape.name not in special and shape.kind is CollidesWith.STANDING]
@@ -77,16 +80,21 @@ def add_contacts(
 
 
 def _needs_pairs(
-    shapes: Sequence[ShapeEntry], models: Sequence[Model], tree: KinematicTree, *, h: float, report: Diagnostics
+    spec: mujoco.MjSpec,
+    shapes: Sequence[ShapeEntry],
+    models: Sequence[Model],
+    tree: KinematicTree,
+    report: Diagnostics,
 ) -> frozenset[str]:
     """Return the names of shapes that need explicit pairs, because of their surface or compliance."""
+    h, gravity = spec.option.timestep, math.hypot(*spec.option.gravity)
     odd = {shape.name for shape in shapes if not is_plain(shape.surface)}
     heaviest = max((tree.links[shape.link].link.inertial.mass for shape in shapes if not shape.fixed), default=0.0)
 
     def gives(shape: ShapeEntry) -> bool:
         mass = heaviest if shape.fixed else tree.links[shape.link].link.inertial.mass
-        is_deep = shape.surface.min_depth > 0 and not shape.fixed
-        return is_deep or (mass > 0 and is_soft(shape.surface.kp, 1 / mass, h))
+        is_held = shape.surface.min_depth > 0 and not shape.fixed
+        return is_held or (mass > 0 and surface_gives(shape.surface, mass, h=h, gravity=gravity))
 
     giving = [shape for shape in shapes if shape.name not in odd and gives(shape)]
     if len(giving) * len(shapes) <= MAX_SOFT_PAIRS:
@@ -124,7 +132,7 @@ def _add_pairs(
 ) -> None:
     for a, b in pairs:
         if rules.can_collide(a, b):
-            points = max(a.points, b.points)
+            points = BESIDE_TREAD if a.has_tread and b.fixed else max(a.points, b.points)
             params = pair_params[a.name, b.name] = combine_surfaces(
                 a.surface, b.surface, b_stands=b.fixed, points=points
             )

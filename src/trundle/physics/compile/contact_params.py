@@ -11,6 +11,8 @@ INFINITE_FRICTION = 100.0
 """Friction coefficient for SDF's negative mu (infinite)."""
 _LEAST = 1e-4
 """Smallest ratio between the two friction coefficients; MuJoCo's solver does not take zero."""
+_MAX_CORRECTING_VEL = 100.0
+"""Gazebo's default of a world's contact_max_correcting_vel [m/s]."""
 _MAX_SLIP = 1e9
 """Upper bound of slip [m/s/N, rad/s/(N·m)], practically without friction."""
 _OF_PAIRS = (
@@ -49,17 +51,21 @@ class ContactParams(Struct, frozen=True, kw_only=True):
     """[N·s/m]"""
     min_depth: float
     """Penetration without correction [m]."""
+    max_vel: float
+    """Largest speed of depth correction [m/s]."""
     restitution: float
     threshold: float
     """[m/s]"""
     has_force: bool
     """False if the contact is detected without a force."""
-    points: int = 1
+    points: float = 1
     """Number of ODE contact points that one contact stands for."""
 
 
-def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: int = 1) -> ContactParams:
-    """Combine two surfaces: smaller friction, springs in series, dampers and slips added, the first's min_depth.
+def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: float = 1) -> ContactParams:
+    """Combine two surfaces: smaller friction, springs in series, dampers and slips added.
+
+    min_depth and max_vel are those of what moves, the smaller of two.
 
     As Gazebo's `ODEPhysics::Collide`, which computes the fdir1 of the second surface and never uses it; ODE's second
     geom is the larger, as a rule the fixed one. Slip does not depend on the number of contact points.
@@ -88,7 +94,8 @@ def combine_surfaces(a: Surface, b: Surface, *, b_stands: bool = False, points: 
         patch=patch,
         kp=kp,
         kd=max(a.kd, 0.0) + max(b.kd, 0.0),
-        min_depth=max(a.min_depth, 0.0),
+        min_depth=max(a.min_depth if b_stands else min(a.min_depth, b.min_depth), 0.0),
+        max_vel=_max_vel(a) if b_stands else min(_max_vel(a), _max_vel(b)),
         restitution=min(max(min(a.restitution, b.restitution), 0.0), 1.0),
         threshold=min(a.bounce_threshold, b.bounce_threshold),
         has_force=not (a.collide_without_contact or b.collide_without_contact),
@@ -105,6 +112,11 @@ def is_plain(surface: Surface) -> bool:
     """True if a geom's own parameters can express the surface's hard contacts: friction and bitmasks only."""
     default = Surface()
     return all(getattr(surface, name) == getattr(default, name) for name in _OF_PAIRS)
+
+
+def _max_vel(surface: Surface) -> float:
+    """Return a surface's max_vel, bounded by Gazebo's contact_max_correcting_vel, which a negative one stands for."""
+    return min(surface.max_vel, _MAX_CORRECTING_VEL) if surface.max_vel >= 0.0 else _MAX_CORRECTING_VEL
 
 
 def _friction(mu: float) -> float:

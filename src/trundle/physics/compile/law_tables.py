@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from trundle.model import Link, World
 from trundle.spatial import ZERO
 
-from .compliance import has_compliance
+from .compliance import Yield, has_compliance
 from .contact_params import ContactParams, frictions_of
 from .shape_entry import ShapeEntry
 
@@ -27,7 +27,7 @@ _WIDTHS = {
     "motors": 4,
     "chains": 2,
     "springs": 5,
-    "compliance": 3,
+    "compliance": 5,
     "geoms": 3,
 }
 """Columns of each table.
@@ -115,7 +115,7 @@ def fill_tables(
     shapes: Sequence[ShapeEntry],
     bodies: Sequence[int],
     world: World,
-    factors: Mapping[tuple[int, int], float],
+    yields: Mapping[tuple[int, int], Yield],
 ) -> None:
     """Write the tables of a compiled model.
 
@@ -125,7 +125,7 @@ def fill_tables(
         shapes: all shapes.
         bodies: body id of each link, in the order of the world's links.
         world: without nested models.
-        factors: of `set_compliance`.
+        yields: of `set_compliance`.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
     named = _groups(pair_params, shapes)
@@ -143,15 +143,7 @@ def fill_tables(
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
     _center(model)
     model.jnt_margin[model.jnt_limited > 0] = _STOP_MARGIN * model.opt.timestep
-    _write(
-        model,
-        "compliance",
-        (
-            (_key(model, a, b), params.min_depth, factors.get((a, b), 1.0))
-            for a, b, params in pairs
-            if has_compliance(params, model.opt.timestep)
-        ),
-    )
+    _write(model, "compliance", _compliance(model, pairs, yields))
     _write_geoms(model, shapes)
 
 
@@ -298,6 +290,15 @@ def _friction(model: mujoco.MjModel, pairs: Sequence[_Pair], groups: Mapping[int
             key = _key(model, a, b)
             geom = -1 if params.fdir1 == ZERO else (a, b)[params.fdir1_shape]
             yield key, geom, *params.fdir1, *params.slip, params.patch, groups.get(key, -1)
+
+
+def _compliance(
+    model: mujoco.MjModel, pairs: Sequence[_Pair], yields: Mapping[tuple[int, int], Yield]
+) -> Iterator[tuple[float, ...]]:
+    for a, b, params in pairs:
+        if has_compliance(params, model.opt.timestep):
+            given = yields.get((a, b), Yield())
+            yield _key(model, a, b), params.min_depth, given.factor, given.rate, given.max_vel
 
 
 def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:

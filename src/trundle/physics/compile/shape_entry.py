@@ -34,6 +34,8 @@ class ShapeEntry(Struct, frozen=True):
     collides_with: CollidesWith = CollidesWith.ALL
     points: int = 1
     """Number of ODE contact points that each of its contacts stands for."""
+    has_tread: bool = False
+    """True for the cylinder of a wheel, whose tread carries it on what is fixed."""
 
     @property
     def kind(self) -> CollidesWith:

@@ -16,6 +16,8 @@ TREAD = 1e-4
 """Difference of radius between tread and cylinder [m]."""
 TREAD_POINTS = 2
 """ODE contact points of a cylinder: its two edges."""
+BESIDE_TREAD = 0.01
+"""Part of an ODE contact point that each edge of the cylinder stands for, where the tread has sunk in."""
 _SMALLEST = 1e-3
 """Smallest radius of a wheel [m]."""
 

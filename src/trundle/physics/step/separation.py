@@ -62,27 +62,39 @@ def _depths(data: mujoco.MjData) -> NDArray[np.float64]:
     return data.contact.includemargin - data.contact.dist
 
 
-@np.errstate(over="ignore")  # extreme masses and gravity overflow to an infinite depth
+@np.errstate(over="ignore", invalid="ignore")  # extreme masses and gravity overflow to an infinite depth
 def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
     """Return (contacts,) static depth of soft contacts under the whole tree's weight [m]; 0 for hard ones. See
     `compliance`.
+
+    Where correction is capped, the weight is shared, as depth grows by its square.
     """
     contacts = data.contact
     bodies = model.geom_bodyid[contacts.geom]
     fixed = model.body_weldid[bodies] == 0
-    masses = np.where(fixed, 0.0, model.body_subtreemass[model.body_rootid[bodies]]).max(axis=1)
+    roots = np.where(fixed, 0, model.body_rootid[bodies])
+    masses = np.where(fixed, 0.0, model.body_subtreemass[roots]).max(axis=1)
     stiffnesses = -contacts.solref[:, 0] / np.maximum(model.body_invweight0[bodies, 0].sum(axis=1), 1e-12)
-    weights = _HEAVY * masses * float(np.linalg.norm(model.opt.gravity))
+    gravity = float(np.linalg.norm(model.opt.gravity))
     held = _held_pairs(model)
     geoms = np.sort(contacts.geom, axis=1).tolist()
-    depths, factors = np.array([held.get((a, b), (0.0, 1.0)) for a, b in geoms]).reshape(-1, 2).T
-    return depths + np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses * factors, 1e-12), 0.0)
+    rows = np.array([held.get((a, b), _PLAIN) for a, b in geoms]).reshape(-1, 4)
+    depths, factors, rates, max_vels = rows.T
+    shares = np.bincount(roots.max(axis=1), minlength=model.nbody)[roots.max(axis=1)]
+    weights = _HEAVY * masses * gravity / np.where(rates > 0.0, shares, 1)
+    springs = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses * factors, 1e-12), 0.0)
+    sinking = np.maximum(rates * springs - max_vels, 0.0) / (gravity * model.opt.timestep)
+    return depths + np.where(rates > 0.0, springs * (1.0 + sinking), springs)
 
 
-def _held_pairs(model: mujoco.MjModel) -> dict[tuple[int, int], tuple[float, float]]:
-    """Return min_depth [m] and factor of stiffness of the pairs of geoms that have them."""
+_PLAIN = (0.0, 1.0, 0.0, 0.0)
+"""A row of `_held_pairs` for all other pairs."""
+
+
+def _held_pairs(model: mujoco.MjModel) -> dict[tuple[int, int], tuple[float, ...]]:
+    """Return min_depth [m], factor of stiffness, rate [1/s] and max_vel [m/s] of the pairs of geoms that have them."""
     rows = find_table(model, "compliance").tolist()
-    return {(int(key) // model.ngeom, int(key) % model.ngeom): (depth, factor) for key, depth, factor in rows}
+    return {(int(key) // model.ngeom, int(key) % model.ngeom): tuple(row) for key, *row in rows}
 
 
 def _without_forces(model: mujoco.MjModel, deep: set[tuple[int, int]]) -> mujoco.MjModel:
@@ -95,7 +107,7 @@ def _without_forces(model: mujoco.MjModel, deep: set[tuple[int, int]]) -> mujoco
     still.pair_dim[:] = still.geom_condim[:] = 1
     eager = (_EAGER[0] * model.opt.timestep, _EAGER[1])
     still.geom_solref[:] = eager
-    held = {pair for pair, (depth, _) in _held_pairs(model).items() if depth > 0.0}
+    held = {pair for pair, (depth, *_) in _held_pairs(model).items() if depth > 0.0}
     for i, geoms in enumerate(zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)):
         pair = (min(geoms), max(geoms))
         gives = model.pair_solref[i, 0] < 0.0 or pair in held

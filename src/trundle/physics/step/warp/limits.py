@@ -23,12 +23,14 @@ def _limits(compiled: CompiledWorld) -> Iterator[str]:
     friction = find_table(compiled.model, "friction")
     slips, patches = friction[:, 5:8].any(axis=1), friction[:, 8] > 0.0
     two_ways = ~slips & ~patches
+    compliance = find_table(compiled.model, "compliance")
+    yielding = (compliance[:, 1:4] != (0.0, 1.0, 0.0)).any(axis=1)
     pairs = (
         ("bounce (<restitution_coefficient>)", find_table(compiled.model, "restitution")[:, 0]),
         ("slip under load (<slip1>, <slip2>)", friction[slips, 0]),
         ("have friction about the normal that grows with the load (<torsional>)", friction[patches & ~slips, 0]),
         ("have two different frictions (<mu>, <mu2>)", friction[two_ways, 0]),
-        ("are soft at first (<min_depth>, <kp>, <kd>)", find_table(compiled.model, "compliance")[:, 0]),
+        ("yield (<min_depth>, <max_vel>, <kp>, <kd>)", compliance[yielding, 0]),
     )
     for law, keys in pairs:
         if len(keys):
