@@ -152,17 +152,23 @@ def test_half_the_step_is_a_quarter_of_the_error(arms: tuple[Arm, ...], tmp_path
 
 
 def test_a_screw_pendulum_accelerates_by_its_weight(tmp_path: Path) -> None:
-    """x = −θ / pitch, and θ'' = m g / pitch / (I + m / pitch²), of an upright screw that falls and turns from rest."""
-    pitch, seconds = 5.0, 1.0
-    text = _sdf((Arm("screw", (0.0, 0.0, 0.0), (0.0,), axes=((0.0, 0.0, 1.0),)),), 0.001)
+    """x = −θ / pitch, and θ'' = m g / pitch / (I + m / pitch²), of an upright screw that falls and turns."""
+    pitch, start, speed, seconds = 5.0, 0.5, 2.0, 1.0
+    text = _sdf((Arm("screw", (0.0, 0.0, 0.0), (speed,), axes=((0.0, 0.0, 1.0),)),), 0.001)
     (tmp_path / "w.sdf").write_text(text.replace("<parent>", f"<thread_pitch>{pitch}</thread_pitch><parent>"))
     sim = trundle.load(str(tmp_path / "w.sdf"))
-    joint = sim["m"].joint("j0")
+    joint, link = sim["m"].joint("j0"), sim["m"].link("l0")
+    joint.set_position(start)
+    joint.set_velocity(speed)
+    assert link.pose.position[2] == pytest.approx(2.0 - start / pitch)
+    assert link.twist.linear[2] == pytest.approx(-speed / pitch)
     sim.run(seconds)
 
     acceleration = G / pitch / (MOMENTS[2] + 1 / pitch**2)
-    assert joint.position == pytest.approx(acceleration / 2 * seconds**2, abs=1e-3)
-    assert joint.velocity == pytest.approx(acceleration * seconds, abs=1e-3)
+    turned = start + speed * seconds + acceleration / 2 * seconds**2
+    assert joint.position == pytest.approx(turned, abs=1e-3)
+    assert joint.velocity == pytest.approx(speed + acceleration * seconds, abs=1e-3)
+    assert link.pose.position[2] == pytest.approx(2.0 - turned / pitch, abs=1e-4)
 
 
 @pytest.mark.parametrize("name", ["revolute", "ball", "two balls", "two hinges"])

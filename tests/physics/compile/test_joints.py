@@ -151,6 +151,10 @@ def test_a_mimic_follows_its_leader(load: Load) -> None:
         gravity=0.0,
     )
     lead, follow = sim["m"].joint("lead"), sim["m"].joint("follow")
+    lead.set_position(0.3)
+    assert follow.position == pytest.approx(-2 * (0.3 - 0.05) + 0.1)
+    sim.run(0.1)
+    assert lead.position == pytest.approx(0.3, abs=1e-4)
     lead.command_effort(0.05)
     sim.run(1.0)
     assert lead.velocity == pytest.approx(0.05 / (0.01 + 4 * 0.01), rel=1e-2)

@@ -37,6 +37,7 @@ class StateWriter:
         self._changed = changed
         self._velocities = Velocities(compiled.model, data)
         self._balls = frozenset(compiled.ball_joints)
+        self._followers = _find_followers(compiled.model)
         self.was_teleported = True
         """True if anything was teleported, and may penetrate something."""
         self._tree_has_shapes: list[bool] = np.isin(
@@ -44,7 +45,7 @@ class StateWriter:
         ).tolist()
 
     def set_axis_positions(self, axes: range, positions: Sequence[float] | NDArray[np.float64]) -> None:
-        """Set the positions of axes [rad or m]; velocities stay.
+        """Set the positions of axes [rad or m], and of those that follow them; velocities stay.
 
         Args:
             axes: of whole joints; a ball joint's three take a rotation vector.
@@ -58,6 +59,7 @@ class StateWriter:
                 self._set_ball(address, positions[first : first + 3], sign=float(self._compiled.axis_sign[axis]))
             elif self._compiled.axis_actuator[axis] >= 0:
                 self._data.qpos[address] = position
+                self._move_followers(int(self._model.dof_jntid[dof]))
             self._wake(dof)
         self._changed()
 
@@ -68,7 +70,7 @@ class StateWriter:
         mujoco.mju_axisAngle2Quat(self._data.qpos[address : address + 4], axis, angle)
 
     def set_axis_velocities(self, axes: range, velocities: Sequence[float] | NDArray[np.float64]) -> None:
-        """Set the velocities of axes [rad/s or m/s] once.
+        """Set the velocities of axes [rad/s or m/s], and of those that follow them, once.
 
         Args:
             axes: of one joint or several.
@@ -78,7 +80,23 @@ class StateWriter:
             dof = int(self._compiled.axis_dof[axis])
             self._velocities.synchronize(dof)
             self._data.qvel[dof] = velocity * self._compiled.axis_sign[axis]
+            self._speed_up_followers(int(self._model.dof_jntid[dof]))
         self._changed()
+
+    def _move_followers(self, joint: int) -> None:
+        """Set the positions of the joints that follow one, as their constraints have them."""
+        model, qpos = self._model, self._data.qpos
+        for leader, follower, offset, ratio in self._followers.get(joint, ()):
+            at, to = model.jnt_qposadr[[leader, follower]]
+            self._velocities.synchronize(int(model.jnt_dofadr[follower]))
+            qpos[to] = model.qpos0[to] + offset + ratio * (qpos[at] - model.qpos0[at])
+
+    def _speed_up_followers(self, joint: int) -> None:
+        """Set the velocities of the joints that follow one."""
+        for leader, follower, _, ratio in self._followers.get(joint, ()):
+            dof = int(self._model.jnt_dofadr[follower])
+            self._velocities.synchronize(dof)
+            self._data.qvel[dof] = ratio * self._data.qvel[self._model.jnt_dofadr[leader]]
 
     def set_tree_pose(self, link: int, pose: Pose) -> None:
         """Teleport a free link with its tree; velocities stay in world axes.
@@ -139,3 +157,21 @@ class StateWriter:
             name = self._compiled.link_names[link]
             raise UsageError(f"link {name!r} cannot be moved: it has a parent joint or is fixed to the world")
         return int(self._model.body_jntadr[self._compiled.link_bodies[link]])
+
+
+def _find_followers(model: mujoco.MjModel) -> dict[int, list[tuple[int, int, float, float]]]:
+    """Return joint → leader, follower, offset and ratio of each tie of a screw, mimic or gearbox below it, in order."""
+    ties: dict[int, list[tuple[int, int, float, float]]] = {}
+    for tie in np.flatnonzero((model.eq_type == mujoco.mjtEq.mjEQ_JOINT) & model.eq_active0.astype(np.bool_)):
+        follower, leader = int(model.eq_obj1id[tie]), int(model.eq_obj2id[tie])
+        offset, ratio = model.eq_data[tie, :2].tolist()
+        ties.setdefault(leader, []).append((leader, follower, offset, ratio))
+    found: dict[int, list[tuple[int, int, float, float]]] = {}
+    for first in ties:
+        reached, below = {first}, list(ties[first])
+        for tie in below:  # grows
+            if tie[1] not in reached:
+                reached.add(tie[1])
+                below += ties.get(tie[1], [])
+        found[first] = [tie for tie in below if tie[1] != first]
+    return found
