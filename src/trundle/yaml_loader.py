@@ -4,6 +4,7 @@ A few lines of `&a [*b, *b]` can expand to billions of values.
 """
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 import yaml
@@ -12,23 +13,29 @@ MAX_VALUES = 500_000
 """Most values with aliases expanded."""
 _MAX_NODES = 250_000
 """Most nodes as written; each takes half a kilobyte while reading."""
+_MAX_OTHER_KEYS = 2_000
+"""Most keys of one mapping that are not text: a file can choose them so that their hashes collide."""
 _MAX_CHARACTERS = 16 * 1024 * 1024
 
 
 class BoundedLoader(yaml.SafeLoader):
     """Loader of plain data; every fault is a YAMLError."""
 
-    def __init__(self, stream: str) -> None:
+    def __init__(self, stream: str, count: Callable[[int], None] | None = None) -> None:
+        """Start at a text; `count` is called with the number of further values, as written and as aliases."""
         if len(stream) > _MAX_CHARACTERS:
             raise yaml.YAMLError(f"{len(stream)} characters of YAML; the most read is {_MAX_CHARACTERS}")
         super().__init__(stream)  # checks every character
         self._nodes = 0
+        self._count = count
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         """Compose a node, up to the limit."""
         self._nodes += 1
         if self._nodes > _MAX_NODES:
             raise yaml.YAMLError(f"more than {_MAX_NODES} values")
+        if self._count is not None:
+            self._count(1)
         return super().compose_node(parent, index)
 
     def compose_scalar_node(self, anchor: Any) -> Any:
@@ -45,11 +52,22 @@ class BoundedLoader(yaml.SafeLoader):
         """Compose a document, with a limit on expanded aliases."""
         try:
             node = super().compose_document()
-            if node is not None and _expanded_size(node, {}) > MAX_VALUES:
+            size = 0 if node is None else _expanded_size(node, {})
+            if size > MAX_VALUES:
                 raise yaml.YAMLError(f"its aliases stand for more than {MAX_VALUES} values")
+            if self._count is not None:
+                self._count(max(size - self._nodes, 0))
         except RecursionError:
             raise yaml.YAMLError("nested too deeply") from None
         return node
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
+        """Construct a mapping, with a limit on keys that are not text."""
+        others = sum(key.tag != "tag:yaml.org,2002:str" for key, _ in node.value)
+        if others > _MAX_OTHER_KEYS:
+            line = node.start_mark.line + 1
+            raise yaml.YAMLError(f"line {line}: more than {_MAX_OTHER_KEYS} keys of a mapping that are not text")
+        return super().construct_mapping(node, deep)
 
     def construct_document(self, node: yaml.Node) -> object:
         """Construct the values."""
@@ -63,13 +81,19 @@ class BoundedLoader(yaml.SafeLoader):
             raise yaml.YAMLError(str(error)) from None
 
 
-def load_yaml(text: str, loader: type[BoundedLoader] = BoundedLoader) -> object:
-    """Load one document.
+def load_yaml(
+    text: str, loader: type[BoundedLoader] = BoundedLoader, count: Callable[[int], None] | None = None
+) -> object:
+    """Load one document; `count` as in the loader.
 
     Raises:
         yaml.YAMLError: not YAML, too large, or not plain data.
     """
-    return yaml.load(text, loader)
+    opened = loader(text, count)
+    try:
+        return opened.get_single_data()
+    finally:
+        opened.dispose()
 
 
 def one_line(error: yaml.YAMLError) -> str:

@@ -266,7 +266,7 @@ def test_exponentially_nested_includes_are_stopped(tmp_path: Path) -> None:
         inside = parts.format(*[f"size{i + 1}"] * 10) if i < 11 else "<link name='l'/>"
         (folder / "model.sdf").write_text(f"<sdf version='1.9'><model name='m'>{inside}</model></sdf>")
 
-    with pytest.raises(DescriptionError, match=r"model\.sdf:1: error: more than 5000 <include>s in total"):
+    with pytest.raises(DescriptionError, match=r"model\.sdf:1: error: .* takes more than (5000 files|the time)"):
         read(tmp_path, '<world name="w"><include><uri>model://size0</uri></include></world>')
 
 

@@ -11,7 +11,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics, Source, UnknownAr
 from trundle.files import is_stream, read_stream, read_text
 from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_ros2, refuse_ros2_language, refuse_template
-from trundle.xmlnode import XmlNode, parse_xml, read_xml
+from trundle.xmlnode import ReadBudget, XmlNode, parse_xml, read_xml
 
 from .loaded import LoadedDescription
 from .sdf import DEEPEST
@@ -69,7 +69,9 @@ def load(
         if is_xacro:
             text = _expanded(path, packages, report, arguments=arguments)
         return load_urdf(text, str(path), path, packages, report)
-    return load_sdf(root, path, packages, report, seed=seed)
+    budget = ReadBudget()
+    budget.add_file(path, os.stat(path).st_size, root.at)
+    return load_sdf(root, path, packages, report, seed=seed, budget=budget)
 
 
 def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: int) -> LoadedDescription:
@@ -107,8 +109,16 @@ def load_text(
     return load_urdf(text, name, folder / name, packages, report)
 
 
-def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedDescription:
-    """Read a parsed SDF file located at `path`, with `seed` for random placement.
+def load_sdf(
+    root: XmlNode,
+    path: Path,
+    packages: Packages,
+    report: Diagnostics,
+    *,
+    seed: int = 0,
+    budget: ReadBudget | None = None,
+) -> LoadedDescription:
+    """Read a parsed SDF file located at `path`, with `seed` for random placement; `budget` is for what it includes.
 
     Raises:
         DescriptionError: not an SDF.
@@ -143,6 +153,7 @@ def load_sdf(root: XmlNode, path: Path, packages: Packages, report: Diagnostics,
         including=(path.resolve(),),
         read_urdf=read_urdf,
         seed=seed,
+        budget=budget or ReadBudget(),
     )
     world, has_world = read_root(root, context)
     return LoadedDescription(kind="world" if has_world else "model", world=world)

@@ -7,6 +7,9 @@ from .scope import Scope
 from .substitution import Substitution
 from .values import read_flag
 
+_NODES_OF_AN_ELEMENT = 5
+"""Nodes that take as long as a substituted element."""
+
 
 class Attributes:
     """Attributes of one element; unknown ones are reported and ignored."""
@@ -18,6 +21,7 @@ class Attributes:
         self.at: Source = node.at
         self._scope = scope
         self._substitution = substitution
+        self.count_values(_NODES_OF_AN_ELEMENT)
         self.is_active = self._evaluate_if_unless()
         """True if `if` and `unless` keep the element; otherwise none of its other attributes may be read."""
         if self.is_active:
@@ -37,6 +41,14 @@ class Attributes:
             raise DescriptionError(
                 self.at, f"<{self.node.tag}> {'unless' if wanted is None else 'if'}: {error}"
             ) from None
+
+    def count_values(self, count: int) -> None:
+        """Count what is read for this element.
+
+        Raises:
+            ReadBudgetError: there is too much in all.
+        """
+        self._substitution.files.budget.add_nodes(count, self.at)
 
     def text(self, name: str) -> str | None:
         """Attribute after substitution; None if absent."""

@@ -1,12 +1,13 @@
 """Files that a launch reads: launch files and those that their attributes name."""
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
 from trundle import files
 from trundle.diagnostics import Source
+from trundle.xmlnode import ReadBudget
 
 
 class ReadCheck(Protocol):
@@ -27,6 +28,7 @@ class LaunchFiles:
 
     check_readable: ReadCheck | None = None
     """None: every file may be read."""
+    budget: ReadBudget = field(default_factory=ReadBudget)
 
     def check(self, name: str, at: Source) -> None:
         """Check a file before anything is known about it.
@@ -48,6 +50,8 @@ class LaunchFiles:
         if not os.path.exists(name):
             raise ValueError(f"no file {name!r}")
         try:
-            return files.read_file(name)
+            data = files.read_file(name)
         except OSError as error:
             raise ValueError(f"{name!r} cannot be read: {error.strerror}") from None
+        self.budget.add_file(name, len(data), at)
+        return data

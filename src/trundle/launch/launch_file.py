@@ -4,17 +4,19 @@ from pathlib import Path
 
 from trundle.diagnostics import Diagnostics, Source
 from trundle.packages import refuse_ros2, refuse_ros2_language
-from trundle.xmlnode import XmlNode, parse_xml, read_xml
+from trundle.xmlnode import ReadBudget, XmlNode, parse_xml, read_xml
 
 
-def read_launch_file(file: Path, report: Diagnostics) -> XmlNode:
-    """Parse a launch file.
+def read_launch_file(
+    file: Path, report: Diagnostics, budget: ReadBudget | None = None, at: Source | None = None
+) -> XmlNode:
+    """Parse a launch file; `budget` and `at` as in `read_xml`.
 
     Raises:
         DescriptionError: the file cannot be parsed, or is for ROS 2.
     """
     refuse_ros2_language(file, is_launch=True)
-    root = read_xml(file)
+    root = read_xml(file, budget=budget, at=at)
     if root.is_declared_late:
         report.warn(Source(str(file), 1), "blank lines before <?xml …?>, for which roslaunch refuses the file")
     refuse_ros2(root)

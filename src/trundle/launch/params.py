@@ -48,9 +48,9 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
     try:
         match source:
             case "value":
-                return name, convert_value(text.strip(), kind)
+                return name, convert_value(text.strip(), kind, attributes.count_values)
             case "textfile":
-                return name, convert_value(attributes.read_file(text).decode(), kind)
+                return name, convert_value(attributes.read_file(text).decode(), kind, attributes.count_values)
             case "binfile":
                 return name, attributes.read_file(text)
             case _:
@@ -100,7 +100,8 @@ def _load(attributes: Attributes, builder: PlanBuilder, name: str, file: str | N
     at = attributes.at
     try:
         text = attributes.read_file(file).decode() if file is not None else attributes.node.raw_text
-        data = load_yaml(attributes.resolve(text) if attributes.flag("subst_value") else text)
+        text = attributes.resolve(text) if attributes.flag("subst_value") else text
+        data = load_yaml(text, attributes.count_values)
     except UnicodeDecodeError:
         raise DescriptionError(at, f"rosparam: {file!r} is not a text file") from None
     except ValueError as error:

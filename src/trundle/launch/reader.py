@@ -7,7 +7,7 @@ from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.names import anonymous_name, canonical_name
-from trundle.xmlnode import XmlNode
+from trundle.xmlnode import ReadBudgetError, XmlNode
 
 from .attributes import Attributes
 from .command_line import CommandLine
@@ -186,8 +186,8 @@ class _Reader:
                     self._report.warn(error.at, f"{error.what}; {element_name(node)} is left out")
                 elif not self._goes_on:
                     raise
-            except DescriptionError:
-                if not self._goes_on:
+            except DescriptionError as error:
+                if not self._goes_on or isinstance(error, ReadBudgetError):
                     raise
 
     def _child(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
@@ -287,7 +287,8 @@ class _Reader:
         if not os.path.exists(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
         try:
-            self._launch(read_launch_file(Path(file), self._report), passed, depth=depth + 1)
+            root = read_launch_file(Path(file), self._report, self._files.budget, node.at)
+            self._launch(root, passed, depth=depth + 1)
         except DescriptionError as error:
             way = f"; included at {node.at}"
             if depth >= _MAX_INCLUDES_IN_ERROR or error.what.endswith(way):

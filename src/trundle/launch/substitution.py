@@ -84,7 +84,9 @@ class Substitution:
             before = match[0][: match[0].index("$(")]
             # As in roslaunch, text after a folder up to a blank is a path in it, with or without a slash.
             between = "/" if words[0] == "find" and match.string[match.end() :][:1] not in ("", " ", "/", "\\") else ""
-            return before + self._command(words[0], words[1:], body, scope, at) + between
+            found = before + self._command(words[0], words[1:], body, scope, at) + between
+            self.files.budget.add_octets(len(found), at)
+            return found
 
         return _COMMAND.sub(value, text)
 

@@ -3,6 +3,7 @@
 import datetime
 import math
 import re
+from collections.abc import Callable
 from typing import Any
 
 import yaml
@@ -14,8 +15,8 @@ from trundle.yaml_loader import load_yaml as load_plain_yaml
 from .plan import ParamType, ParamValue
 
 
-def convert_value(text: str, kind: ParamType) -> ParamValue:
-    """Convert a parameter's text to its type.
+def convert_value(text: str, kind: ParamType, count: Callable[[int], None] | None = None) -> ParamValue:
+    """Convert a parameter's text to its type; `count` as in `load_yaml`.
 
     Raises:
         ValueError: the text does not fit the type.
@@ -32,7 +33,7 @@ def convert_value(text: str, kind: ParamType) -> ParamValue:
         case "bool":
             return read_flag(text)
         case "yaml":
-            return load_yaml(text)
+            return load_yaml(text, count)
 
 
 def _number(read: type[int] | type[float], text: str, what: str) -> int | float:
@@ -73,8 +74,8 @@ def read_flag(text: str) -> bool:
 class _Loader(BoundedLoader):
     """YAML loader for plain data and rosparam's angles, without Python objects."""
 
-    def __init__(self, stream: str) -> None:
-        super().__init__(stream)
+    def __init__(self, stream: str, count: Callable[[int], None] | None = None) -> None:
+        super().__init__(stream, count)
         self.interpreter = Interpreter()
 
 
@@ -102,14 +103,18 @@ _Loader.add_implicit_resolver("!radians", re.compile(r"rad\([^)]*\)$"), ["r"])
 _Loader.add_implicit_resolver("!degrees", re.compile(r"deg\([^)]*\)$"), ["d"])
 
 
-def load_yaml(text: str) -> ParamValue:
+def load_yaml(text: str, count: Callable[[int], None] | None = None) -> ParamValue:
     """Parse YAML as rosparam does; dates become text.
+
+    Args:
+        text: one document.
+        count: is called with the number of further values, with aliases expanded.
 
     Raises:
         ValueError: the text is invalid, too large, or contains more than plain data.
     """
     try:
-        return _plain(load_plain_yaml(text, _Loader))
+        return _plain(load_plain_yaml(text, _Loader, count))
     except yaml.YAMLError as error:
         raise ValueError(f"invalid YAML: {one_line(error)}") from None
 

@@ -4,3 +4,9 @@ from .node import XmlNode as XmlNode
 from .numbers import parse_numbers as parse_numbers
 from .parse import parse_xml as parse_xml
 from .parse import read_xml as read_xml
+from .ranges import MAX_LENGTH as MAX_LENGTH
+from .ranges import MAX_MASS as MAX_MASS
+from .ranges import MAX_NUMBER as MAX_NUMBER
+from .ranges import is_within as is_within
+from .read_budget import ReadBudget as ReadBudget
+from .read_budget import ReadBudgetError as ReadBudgetError

@@ -11,6 +11,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.spatial import Pose, Vector3
 
 from .numbers import parse_numbers, shorten
+from .ranges import MAX_LENGTH, MAX_NUMBER, is_within
 
 _PLACEHOLDER = "__default__"
 """Placeholder for a missing value in libsdformat 1."""
@@ -97,6 +98,10 @@ class XmlNode:
             ]
         return self._children
 
+    def count_elements(self) -> int:
+        """Count this element and all below."""
+        return sum(1 for _ in self._element.iter())
+
     def all(self, tag: str) -> list["XmlNode"]:
         """Return the children with a tag."""
         self._read_tags.add(tag)
@@ -141,10 +146,10 @@ class XmlNode:
         child = self.find(tag)
         return default if child is None else child.text
 
-    def number(self, tag: str, *, default: float) -> float:
-        """Return a child's number, or the default with a warning if it is invalid."""
+    def number(self, tag: str, *, default: float, limit: float = MAX_NUMBER) -> float:
+        """Return a child's number, or the default with a warning if it is invalid or beyond the limit."""
         child = self.find(tag)
-        return default if child is None else child.as_number(default=default)
+        return default if child is None else child.as_number(default=default, limit=limit)
 
     def flag(self, tag: str, *, default: bool) -> bool:
         """Return a child's boolean: true, false, 1 or 0."""
@@ -163,17 +168,17 @@ class XmlNode:
         value = child.as_number(default=float(default))
         return int(value)
 
-    def vector(self, tag: str, *, default: Vector3) -> Vector3:
-        """Return a child's three numbers."""
+    def vector(self, tag: str, *, default: Vector3, limit: float = MAX_NUMBER) -> Vector3:
+        """Return a child's three numbers, or the default with a warning if one is invalid or beyond the limit."""
         child = self.find(tag)
         if child is None:
             return default
-        values = child.as_numbers(3)
+        values = child.as_numbers(3, limit=limit)
         return default if values is None else (values[0], values[1], values[2])
 
-    def as_number(self, *, default: float) -> float:
+    def as_number(self, *, default: float, limit: float = MAX_NUMBER) -> float:
         """Return the text as one finite number."""
-        values = self.as_numbers(1, fallback=f"{default:g} is used")
+        values = self.as_numbers(1, fallback=f"{default:g} is used", limit=limit)
         return default if values is None else values[0]
 
     def as_flag(self, *, default: bool) -> bool:
@@ -189,8 +194,10 @@ class XmlNode:
         )
         return default
 
-    def as_numbers(self, count: int, *, fallback: str = "the default is used") -> list[float] | None:
-        """Return the text as exactly `count` finite numbers, or None with a warning."""
+    def as_numbers(
+        self, count: int, *, fallback: str = "the default is used", limit: float = MAX_NUMBER
+    ) -> list[float] | None:
+        """Return the text as exactly `count` finite numbers up to the limit, or None with a warning."""
         values = parse_numbers(self.text)
         if values is None or len(values) != count:
             wanted = "one number" if count == 1 else f"{count} numbers"
@@ -199,13 +206,17 @@ class XmlNode:
         if not all(map(math.isfinite, values)):
             self.report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}")
             return None
+        if not is_within(values, limit):
+            what = f"{shorten(self.text)} is not within ±{limit:g}"
+            self.report.warn(self.at, f"<{self.tag}>: {what}; {fallback}")
+            return None
         return values
 
     def as_pose(self) -> Pose:
         """Return the text as a pose x y z roll pitch yaw [m, rad]; empty text is the identity."""
         if not self.text:
             return Pose()
-        values = self.as_numbers(6, fallback="the identity is used")
+        values = self.as_numbers(6, fallback="the identity is used", limit=MAX_LENGTH)
         return Pose() if values is None else Pose.from_rpy(*values)
 
     def attributes_to_children(self, kept: frozenset[str], texts: Mapping[str, str]) -> None:

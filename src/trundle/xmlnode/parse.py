@@ -13,6 +13,7 @@ from trundle.files import read_file
 
 from .faults import place_fault
 from .node import XmlNode
+from .read_budget import ReadBudget
 from .tinyxml import rewrite_as_xml
 
 _MAX_BYTES = 64 * 1024 * 1024
@@ -144,11 +145,23 @@ def _recovered(data: bytes) -> etree._Element | None:  # pyright: ignore[reportP
     return root if all(entry.type in _PREFIXES for entry in parser.error_log) else None
 
 
-def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
+def read_xml(
+    path: Path,
+    *,
+    report: Diagnostics | None = None,
+    deepest: int = _DEEPEST,
+    budget: ReadBudget | None = None,
+    at: Source | None = None,
+) -> XmlNode:
     """Parse a file; `report` and `deepest` as in `parse_xml`.
+
+    Args:
+        budget: counts the file and its elements.
+        at: the element that includes the file.
 
     Raises:
         DescriptionError: as `parse_xml`, or the file cannot be read.
+        ReadBudgetError: the budget is exhausted.
     """
     try:
         data = read_file(path, max_bytes=_MAX_BYTES)
@@ -156,4 +169,10 @@ def read_xml(path: Path, *, report: Diagnostics | None = None, deepest: int = _D
         raise DescriptionError(Source(str(path)), "no such file") from None
     except OSError as error:
         raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
-    return parse_xml(data, name=str(path), report=report, deepest=deepest)
+    if budget is None:
+        return parse_xml(data, name=str(path), report=report, deepest=deepest)
+    at = at or Source(str(path))
+    budget.add_file(path, len(data), at)
+    root = parse_xml(data, name=str(path), report=report, deepest=deepest)
+    budget.add_nodes(root.count_elements(), at)
+    return root

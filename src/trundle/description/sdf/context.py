@@ -1,8 +1,7 @@
 """Shared context of reading one SDF file."""
 
-import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from msgspec import Struct, field
@@ -12,7 +11,7 @@ from trundle.diagnostics import Diagnostics, Source
 from trundle.model import EVERY_BIT, Model
 from trundle.packages import Packages
 from trundle.spatial import Pose
-from trundle.xmlnode import XmlNode
+from trundle.xmlnode import MAX_LENGTH, ReadBudget, XmlNode
 
 from .version import Version
 
@@ -30,8 +29,8 @@ class Context(Struct, frozen=True, kw_only=True):
     report: Diagnostics
     including: tuple[Path, ...] = ()
     """Including files, outermost first, to detect cycles."""
-    included: Iterator[int] = field(default_factory=itertools.count)
-    """Counter of all <include>s opened, across files, to bound exponential growth."""
+    budget: ReadBudget = field(default_factory=ReadBudget)
+    """Of the file and all that it includes."""
     read_urdf: Callable[[Path, XmlNode], Model] | None = None
     """Reads a <robot> found by an <include>, given its file."""
     seed: int = 0
@@ -83,7 +82,7 @@ def read_pose(node: XmlNode, context: Context) -> RawPose:
 def _numbers(child: XmlNode, context: Context) -> Pose:
     degrees = (child.attribute("degrees") or "").strip().lower() in ("true", "1")
     if child.attribute("rotation_format") == "quat_xyzw":
-        values = child.as_numbers(7, fallback="the identity is used")
+        values = child.as_numbers(7, fallback="the identity is used", limit=MAX_LENGTH)
         if values is None:
             return Pose()
         x, y, z, qx, qy, qz, qw = values
@@ -94,7 +93,7 @@ def _numbers(child: XmlNode, context: Context) -> Pose:
         return Pose((x, y, z), (qw / length, qx / length, qy / length, qz / length))
     if not degrees:
         return child.as_pose()
-    values = child.as_numbers(6, fallback="the identity is used")
+    values = child.as_numbers(6, fallback="the identity is used", limit=MAX_LENGTH)
     if values is None:
         return Pose()
     x, y, z, *turns = values

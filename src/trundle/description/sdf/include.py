@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from trundle.diagnostics import DescriptionError, UsageError
 from trundle.model import Model, model_from_joint
 from trundle.packages import model_file
-from trundle.xmlnode import XmlNode, read_xml
+from trundle.xmlnode import ReadBudgetError, XmlNode, read_xml
 
 from .context import DEEPEST, Context, RawPose, read_pose
 from .frames import MODEL, FrameGraph
@@ -20,8 +20,6 @@ from .unplaced_model import UnplacedModel
 from .version import read_version
 
 _DEEPEST_INCLUDE = 16
-_MAX_INCLUDES = 5_000
-"""Most files opened for one description; the largest published world has 89."""
 ReadModel: TypeAlias = Callable[[XmlNode, Context], UnplacedModel]
 
 
@@ -29,10 +27,8 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
     """Return the root element of an included file; None with a warning if it is missing, as in Gazebo.
 
     Raises:
-        DescriptionError: too many includes.
+        ReadBudgetError: too much is included in all.
     """
-    if next(context.included) >= _MAX_INCLUDES:
-        raise DescriptionError(node.at, f"more than {_MAX_INCLUDES} <include>s in total")
     report = context.report
     uri = node.string("uri") or (node.attribute("filename") or "")
     if not uri:
@@ -42,6 +38,8 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
         path = context.packages.resolve(uri, beside=context.folder, at=node.at)
         file = model_file(path, report) if path.is_dir() else path
         return _root(file, node, context)
+    except ReadBudgetError as error:
+        raise error.through(map(str, context.including)) from None
     except (DescriptionError, UsageError) as error:
         elsewhere = isinstance(error, DescriptionError) and error.at != node.at
         report.warn_error(error, node.at, f"the <include>{f' on line {node.at.line}' if elsewhere else ''} is left out")
@@ -88,7 +86,7 @@ def _with_overrides(part: UnplacedModel, node: XmlNode, context: Context) -> Unp
 def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context]:
     if file.resolve() in context.including or len(context.including) > _DEEPEST_INCLUDE:
         raise DescriptionError(node.at, f"{file} includes itself")
-    root = read_xml(file, report=context.report, deepest=DEEPEST)
+    root = read_xml(file, report=context.report, deepest=DEEPEST, budget=context.budget, at=node.at)
     if root.tag == "robot":
         return root, context.for_include(file.resolve(), context.version)
     if root.tag != "sdf":

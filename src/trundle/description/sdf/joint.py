@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 from trundle.model import UNLIMITED, Joint, JointAxis, JointType, Mimic
 from trundle.spatial import Pose, Vector3, normalized
-from trundle.xmlnode import XmlNode
+from trundle.xmlnode import MAX_NUMBER, XmlNode, parse_numbers
 
 from .context import Context
 from .frames import FrameGraph
@@ -170,6 +170,9 @@ def _number(node: XmlNode, tag: str, default: float) -> float:
     child = node.find(tag)
     if child is not None and child.text.lower() in ("inf", "+inf", "-inf", "infinity", "-infinity"):
         return float(child.text)
+    values = None if child is None else parse_numbers(child.text)
+    if values is not None and len(values) == 1 and abs(values[0]) > MAX_NUMBER:  # sdformat writes infinity as 1.8e308
+        return math.copysign(math.inf, values[0])
     return node.number(tag, default=default)
 
 

@@ -20,6 +20,8 @@ from .unplaced_model import UnplacedModel
 
 _MOST = 1_000
 """Most models of one population."""
+_NODES_OF_A_MODEL = 20
+"""Elements that take as long as a model."""
 _SAMPLES = 10_000
 _SPACING = 0.1
 """Spacing of the samples for a uniform distribution [m]."""
@@ -41,6 +43,7 @@ def read_population(
     region = _Region(node, context)
     places = region.places(random.Random(f"{context.seed} {name}"))
     node.report_unread(report)
+    context.budget.add_nodes(_NODES_OF_A_MODEL * len(places), node.at)
     if isinstance(places, str):
         report.warn(node.at, f"<population> {name!r}: {places}; it is left out")
         return []

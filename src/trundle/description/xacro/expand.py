@@ -21,8 +21,10 @@ from trundle.diagnostics import DescriptionError, Diagnostics, Source, UnknownAr
 from trundle.expressions import PYTHON_NAMES, Budget
 from trundle.files import read_file
 from trundle.packages import Packages, refuse_ros2_language
+from trundle.xmlnode import ReadBudget, ReadBudgetError
 
 from ..xacro_places import Cursor, parse_with_lines, place_of
+from .dom import replace_node
 from .error import description_error
 from .missing_packages import MissingPackageError, skip_missing_packages
 from .symbols import SubstitutedNames, install_symbols, new_interpreter
@@ -71,7 +73,11 @@ substitution_args._collect_args = _collect_args_for(substitution_args._collect_a
 
 
 _MAX_ELEMENTS = 50_000
-"""Most elements after expansion; the largest published robot has some 5,000."""
+"""Most elements after expansion; the largest published file makes 45,667, the PR2 3,000."""
+_CPU_S = 10.0
+"""Processor time, more than other formats have: macros make much of little, as in one file published that takes 3 s."""
+_NODES_OF_A_CALL = 10
+"""Elements that take as long as a call of a macro."""
 _LONG = 200
 """Length from which a text counts against the memory budget each time it is inserted."""
 _LOCK = threading.Lock()
@@ -126,14 +132,16 @@ def expand_xacro(
             data = read_file(path)
         except OSError as error:
             raise DescriptionError(Source(str(path)), str(error.strerror)) from None
-    cursor = Cursor(Source(str(path)))
-    with _LOCK, _patched(packages, report, path, data, cursor):
+    cursor, budget = Cursor(Source(str(path))), ReadBudget(cpu_s=_CPU_S)
+    with _LOCK, _patched(packages, report, path, data, cursor, budget):
         try:
             mappings = _Arguments(arguments)
             document: Any = xacro.process_file(str(path), mappings=mappings, verbosity=0)
             if needs_all:
                 mappings.check_used(arguments, path)
             return str(document.toprettyxml(indent="  "))
+        except ReadBudgetError as error:
+            raise error.through(map(str, xacro.filestack)) from None
         except DescriptionError:
             raise
         except RecursionError:
@@ -168,7 +176,9 @@ class _Arguments(dict[str, str]):
 
 
 @contextmanager
-def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor) -> Generator[None]:
+def _patched(
+    packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor, budget: ReadBudget
+) -> Generator[None]:
     """Replace functions of the official package while one file is expanded."""
     stood_in: set[str] = set()
 
@@ -198,16 +208,17 @@ def _patched(packages: Packages, report: Diagnostics, path: Path, data: bytes, c
     package, arguments, interpreter = xacro, substitution_args, new_interpreter(xacro)
     names = (
         "parse", "eval_all", "handle_macro_call", "reqd_attrs", "warning", "print_location", "safe_eval", "eval_text",
-        "process_doc", "process_include", "get_include_files",
+        "process_doc", "process_include", "get_include_files", "replace_node",
     )  # fmt: skip
     kept = {name: getattr(package, name) for name in names}
     own_find = arguments._eval_find
-    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor)
-    package.eval_all = _eval_all_for(kept["eval_all"], cursor)
-    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor)
+    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor, budget)
+    package.eval_all = _eval_all_for(kept["eval_all"], cursor, budget)
+    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor, budget)
     if packages.is_lenient:
         skip_missing_packages(package, packages, report)
     cursor.follow(package)
+    package.replace_node = replace_node
     package.safe_eval = interpreter.evaluate
     package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
     package.warning = warn
@@ -240,7 +251,12 @@ def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[
 
 
 def _parse_for(
-    original: Callable[..., Any], packages: Packages, report: Diagnostics, known: Mapping[str, bytes], cursor: Cursor
+    original: Callable[..., Any],
+    packages: Packages,
+    report: Diagnostics,
+    known: Mapping[str, bytes],
+    cursor: Cursor,
+    budget: ReadBudget,
 ) -> Callable[..., Any]:
     """Return a parser with our checks; contents of `known` files are given by name."""
 
@@ -251,7 +267,8 @@ def _parse_for(
             packages.check_readable(Path(filename), cursor.at, name="xacro:include")
             _expect_stand_in(Path(filename), packages, cursor.at)
         data = known[filename] if filename in known else _data(filename)
-        document = _parsed(data, filename, report)
+        budget.add_file(filename, len(data), cursor.at)
+        document = _parsed(data, filename, report, budget)
         if any(start in data for start in _BARE):
             _prefix_core_tags(document, report)
         _drop_unnamed(document, report)
@@ -260,13 +277,13 @@ def _parse_for(
     return parse
 
 
-def _parsed(data: bytes, filename: str, report: Diagnostics) -> Any:
+def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget) -> Any:
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
         raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
     if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
         report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
     try:
-        return parse_with_lines(data, filename)
+        return parse_with_lines(data, filename, budget)
     except ExpatError as error:
         from trundle.xmlnode import parse_xml  # slow to load, and most files are well-formed
 
@@ -312,24 +329,29 @@ def _drop_unnamed(document: Any, report: Diagnostics) -> None:
             report.warn(place_of(element), f"a property named {name!r} cannot be referenced; it is left out")
 
 
-def _eval_all_for(original: Callable[..., None], cursor: Cursor) -> Callable[..., None]:
+def _eval_all_for(original: Callable[..., None], cursor: Cursor, budget: ReadBudget) -> Callable[..., None]:
     """Count every element, macro and block each time it is expanded."""
     elements = itertools.count()
 
     def eval_all(node: Any, macros: Any, symbols: Any) -> None:
         if next(elements) > _MAX_ELEMENTS:
             raise DescriptionError(cursor.at, f"macros and blocks that expand to more than {_MAX_ELEMENTS} elements")
+        budget.add_nodes(1, cursor.at)
         original(node, macros, symbols)
 
     return eval_all
 
 
-def _call_for(original: Callable[..., bool], report: Diagnostics, cursor: Cursor) -> Callable[..., bool]:
+def _call_for(
+    original: Callable[..., bool], report: Diagnostics, cursor: Cursor, budget: ReadBudget
+) -> Callable[..., bool]:
     def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
         name = str(node.tagName)
         if ":" not in name and name not in _URDF and name in macros:
             report.warn(cursor.at, f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
             node.tagName = node.nodeName = f"xacro:{name}"
+        if node.tagName.startswith("xacro:"):
+            budget.add_nodes(_NODES_OF_A_CALL, cursor.at)
         return original(node, macros, symbols)
 
     return handle_macro_call

@@ -5,10 +5,11 @@ from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
 from typing import Any
 
-from trundle.expressions import Caller, Function, Interpreter, is_method, known_keys, wrap_function
+from trundle.expressions import Budget, Caller, Function, Interpreter, is_method, known_keys, wrap_function
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
 """Functions callable without their namespace, with a warning."""
+_STEPS_OF_A_YAML_VALUE = 20
 
 
 def install_symbols(package: Any) -> None:
@@ -69,7 +70,7 @@ def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]
     return [item for item in items if item] if skip_empty else items
 
 
-def _yaml_of(text: str, name: str, package: Any) -> Any:
+def _yaml_of(text: str, name: str, package: Any, budget: Budget) -> Any:
     """Load YAML with xacro's units, such as `!degrees 90`."""
     from yaml import YAMLError  # slow to load, and most robots have none
 
@@ -81,7 +82,7 @@ def _yaml_of(text: str, name: str, package: Any) -> Any:
     for unit in package.ConstructUnits:
         Loader.add_constructor(unit.value.tag, unit.constructor)
     try:
-        return load_yaml(text, Loader)
+        return load_yaml(text, Loader, lambda count: budget.spend(_STEPS_OF_A_YAML_VALUE * count))
     except YAMLError as error:
         raise package.XacroException(f"{name}: {one_line(error)}") from None
 
@@ -95,7 +96,7 @@ def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, 
         caller.budget.spend(len(text))
         package.filestack.append(name)
         try:
-            return package.YamlListWrapper.wrap(_yaml_of(text, name, package))
+            return package.YamlListWrapper.wrap(_yaml_of(text, name, package, caller.budget))
         finally:
             package.filestack.pop()
             package.all_includes.append(name)

@@ -1,0 +1,18 @@
+"""Ranges of numbers in files.
+
+What is beyond them is a damaged file or an attack: its square or cube overflows later, where nobody knows the line.
+"""
+
+from collections.abc import Iterable
+
+MAX_LENGTH = 1e9
+"""Of coordinates, sizes and scales [m]: a million kilometres."""
+MAX_MASS = 1e12
+"""[kg]"""
+MAX_NUMBER = 1e18
+"""Of gains, limits, rates and all others: 1e16 is SDF's unlimited, 1e12 ODE's stiffness of contacts."""
+
+
+def is_within(values: Iterable[float], limit: float) -> bool:
+    """True if all numbers are finite and no further from 0 than `limit`."""
+    return all(-limit <= value <= limit for value in values)
