@@ -5,6 +5,7 @@ RestrictedPython leaves every bound to its caller. Both lists go by names alone,
 what is harmless.
 """
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
@@ -21,6 +22,7 @@ _OCTETS_PER_NODE = 250
 _STEPS_PER_CALL = 5
 _OCTETS_PER_CALL = 80
 """Memory of a call's result that is not counted where it is created, and of an attribute lookup."""
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 _SHORT = frozenset({str, int, float, bool})
 """Types whose size needs no traversal."""
 
@@ -70,9 +72,11 @@ class Interpreter:
             value = compiled.code(Evaluation(self, names), None)
             if value.__class__ not in _SHORT:
                 self.budget.spend_traversal(value)
-            elif value.__class__ is str and not value.isascii():
+            elif value.__class__ is str and not value.isprintable():
                 self.budget.spend(len(value) >> 6)
                 value.encode()
+                if found := _FORBIDDEN.search(value):
+                    raise ExpressionError(f"a text with the character {found[0]!a}, which XML forbids")
             return value
         except UnicodeEncodeError:
             raise ExpressionError("a text with half of a surrogate pair, which no file can hold") from None

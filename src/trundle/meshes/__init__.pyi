@@ -2,6 +2,7 @@ from .cache import cache_folder as cache_folder
 from .cache import load_parts as load_parts
 from .cache import save_parts as save_parts
 from .heightmap_image import read_heights as read_heights
+from .load import check_vertices as check_vertices
 from .load import load_mesh as load_mesh
 from .mesh import Mesh as Mesh
 from .mesh import MeshError as MeshError

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.files import read_file
+from trundle.xmlnode import MAX_LENGTH
 
 from . import cache
 from .mesh import Mesh, MeshError, MeshPart, Rgba
@@ -153,8 +154,7 @@ def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
     vertices = np.concatenate([part.vertices for part in parts])
     first_vertex = np.cumsum([0, *(len(part.vertices) for part in parts)])
     faces = np.concatenate([part.faces + first for part, first in zip(parts, first_vertex, strict=False)])
-    if not np.isfinite(vertices).all() or np.abs(vertices).max() > np.finfo(np.float32).max:
-        raise MeshError("vertices that are not finite")
+    check_vertices(vertices)
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise MeshError(f"a face names vertex {faces.max()} of {len(vertices)}")
     if center:
@@ -168,6 +168,19 @@ def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
         normals=_joined_corners([part.normals for part in parts], parts, 3),
         parts=described,
     )
+
+
+def check_vertices(vertices: NDArray[np.floating]) -> None:
+    """Refuse vertices (N, 3) that are not finite, or so far away that their products overflow.
+
+    Raises:
+        MeshError: one is; the message has its number, counted from 0.
+    """
+    are_near = (np.abs(vertices) <= MAX_LENGTH).all(axis=1)  # false for nan
+    if not are_near.all():
+        number = int(np.argmin(are_near))
+        place = " ".join(f"{value:g}" for value in vertices[number])
+        raise MeshError(f"vertex {number} is at {place}, which is not within ±{MAX_LENGTH:g}")
 
 
 def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:

@@ -7,6 +7,8 @@ import math
 import re
 from typing import SupportsFloat
 
+from trundle.xmlnode import MAX_NUMBER, is_within
+
 _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]{1,16}")
 _LONGEST = 40
@@ -22,6 +24,8 @@ def number(value: object) -> float:
         raise ValueError(f": {_shorten(value)} is not a number")
     if not math.isfinite(found):
         raise ValueError(f": {_shorten(value)} is not a finite number")
+    if not is_within([found], MAX_NUMBER):
+        raise ValueError(f": {_shorten(value)} is not within ±{MAX_NUMBER:g}")
     return found
 
 

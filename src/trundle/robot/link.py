@@ -3,7 +3,7 @@
 from typing import cast
 
 from trundle.diagnostics import Diagnostics
-from trundle.xmlnode import XmlNode
+from trundle.xmlnode import MAX_LENGTH, MAX_MASS, XmlNode
 
 from .materials import Materials, RobotMaterial
 from .robot import RobotBox, RobotCylinder, RobotGeometry, RobotInertial, RobotLink, RobotMesh, RobotShape, RobotSphere
@@ -44,7 +44,7 @@ def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[Robot
     if node is None:
         return None, True
     mass_node, inertia = node.find("mass"), node.find("inertia")
-    mass = None if mass_node is None else read_number(mass_node, "value", report)
+    mass = None if mass_node is None else read_number(mass_node, "value", report, limit=MAX_MASS)
     if mass is None:
         report.warn(node.at, f"link {name!r}: <inertial> without a <mass value=…> is dropped")
         return None, False
@@ -90,20 +90,24 @@ def _read_geometry(owner: XmlNode, report: Diagnostics) -> RobotGeometry | None:
     node.find(shape.tag)
     match shape.tag:
         case "box":
-            size = read_vector(shape, "size", report)
+            size = read_vector(shape, "size", report, limit=MAX_LENGTH)
             return None if size is None else RobotBox(size)
         case "cylinder":
-            radius, length = read_number(shape, "radius", report), read_number(shape, "length", report)
+            radius, length = (
+                read_number(shape, "radius", report, limit=MAX_LENGTH),
+                read_number(shape, "length", report, limit=MAX_LENGTH),
+            )
             return None if radius is None or length is None else RobotCylinder(radius, length)
         case "sphere":
-            radius = read_number(shape, "radius", report)
+            radius = read_number(shape, "radius", report, limit=MAX_LENGTH)
             return None if radius is None else RobotSphere(radius)
         case "mesh":
             uri = shape.attribute("filename")
             if not uri:
                 report.warn(shape.at, "<mesh> without a filename; it is left out")
                 return None
-            scale = (1.0, 1.0, 1.0) if shape.attribute("scale") is None else read_vector(shape, "scale", report)
+            is_scaled = shape.attribute("scale") is not None
+            scale = read_vector(shape, "scale", report, limit=MAX_LENGTH) if is_scaled else None
             return RobotMesh(uri, scale or (1.0, 1.0, 1.0))
         case other:
             report.warn(shape.at, f"<{other}> is not a URDF shape; this <{owner.tag}> is left out")

@@ -21,7 +21,7 @@ from trundle.model import (
 )
 from trundle.packages import is_stand_in
 from trundle.spatial import normalized
-from trundle.xmlnode import XmlNode
+from trundle.xmlnode import MAX_LENGTH, XmlNode
 
 from .context import Context, warn_ignored
 
@@ -55,7 +55,7 @@ def read_geometry(owner: XmlNode, context: Context) -> Geometry:
 
 
 def _box(shape: XmlNode, _context: Context) -> Box:
-    return Box(shape.vector("size", default=(1.0, 1.0, 1.0)))
+    return Box(shape.vector("size", default=(1.0, 1.0, 1.0), limit=MAX_LENGTH))
 
 
 def _cylinder(shape: XmlNode, _context: Context) -> Cylinder:
@@ -71,25 +71,26 @@ def _capsule(shape: XmlNode, _context: Context) -> Capsule:
 
 
 def _radius_length(shape: XmlNode, radius: float) -> tuple[float, float]:
-    return shape.number("radius", default=radius), shape.number("length", default=1.0)
+    length = shape.number("length", default=1.0, limit=MAX_LENGTH)
+    return shape.number("radius", default=radius, limit=MAX_LENGTH), length
 
 
 def _sphere(shape: XmlNode, _context: Context) -> Sphere:
-    return Sphere(shape.number("radius", default=1.0))
+    return Sphere(shape.number("radius", default=1.0, limit=MAX_LENGTH))
 
 
 def _ellipsoid(shape: XmlNode, _context: Context) -> Ellipsoid:
-    return Ellipsoid(shape.vector("radii", default=(1.0, 1.0, 1.0)))
+    return Ellipsoid(shape.vector("radii", default=(1.0, 1.0, 1.0), limit=MAX_LENGTH))
 
 
 def _plane(shape: XmlNode, context: Context) -> Plane:
-    written = shape.vector("normal", default=(0.0, 0.0, 1.0))
+    written = shape.vector("normal", default=(0.0, 0.0, 1.0), limit=MAX_LENGTH)
     normal = normalized(written)
     if normal is None:
         context.report.warn(shape.at, "<plane> with a normal of zero length; 0 0 1 is used")
         normal = (0.0, 0.0, 1.0)
     size = shape.find("size")
-    values = None if size is None else size.as_numbers(2, fallback="1 1 is used")
+    values = None if size is None else size.as_numbers(2, fallback="1 1 is used", limit=MAX_LENGTH)
     return Plane(normal, (1.0, 1.0) if values is None else (values[0], values[1]))
 
 
@@ -98,7 +99,7 @@ def _mesh(shape: XmlNode, context: Context) -> Geometry:
     if not uri:
         context.report.warn(shape.at, "<mesh> without <uri>; it has no shape")
         return Empty()
-    scale = shape.vector("scale", default=(1.0, 1.0, 1.0))
+    scale = shape.vector("scale", default=(1.0, 1.0, 1.0), limit=MAX_LENGTH)
     part = shape.find("submesh")
     name = part.string("name") if part is not None else None
     center = part.flag("center", default=False) if part is not None else False
@@ -120,8 +121,8 @@ def _heightmap(shape: XmlNode, context: Context) -> Geometry:
     return Heightmap(
         path=_path(uri, shape, context, "the terrain is left out"),
         uri=uri,
-        size=shape.vector("size", default=(1.0, 1.0, 1.0)),
-        position=shape.vector("pos", default=(0.0, 0.0, 0.0)),
+        size=shape.vector("size", default=(1.0, 1.0, 1.0), limit=MAX_LENGTH),
+        position=shape.vector("pos", default=(0.0, 0.0, 0.0), limit=MAX_LENGTH),
         sampling=shape.integer("sampling", default=1 if context.version >= (1, 8) else 2),
         layers=_layers(shape, context),
     )
@@ -135,11 +136,11 @@ def _layers(shape: XmlNode, context: Context) -> tuple[TerrainLayer, ...]:
     for number, node in enumerate(shape.all("texture")):
         blend = blends[number - 1] if 0 < number <= len(blends) else None
         layer = TerrainLayer(
-            size=node.number("size", default=10.0),
+            size=node.number("size", default=10.0, limit=MAX_LENGTH),
             diffuse=_image(node.find("diffuse"), context),
             normal=_image(node.find("normal"), context),
-            from_height=0.0 if blend is None else blend.number("min_height", default=0.0),
-            fade=0.0 if blend is None else blend.number("fade_dist", default=0.0),
+            from_height=0.0 if blend is None else blend.number("min_height", default=0.0, limit=MAX_LENGTH),
+            fade=0.0 if blend is None else blend.number("fade_dist", default=0.0, limit=MAX_LENGTH),
         )
         layers.append(layer)
         node.report_unread(report)
@@ -161,9 +162,9 @@ def _polyline(shapes: list[XmlNode], context: Context) -> Geometry:
     outlines: list[tuple[tuple[float, float], ...]] = []
     heights: list[float] = []
     for shape in shapes:
-        corners = [point.as_numbers(2) for point in shape.all("point")]
+        corners = [point.as_numbers(2, limit=MAX_LENGTH) for point in shape.all("point")]
         outlines.append(tuple((corner[0], corner[1]) for corner in corners if corner is not None))
-        heights.append(shape.number("height", default=1.0))
+        heights.append(shape.number("height", default=1.0, limit=MAX_LENGTH))
         shape.report_unread(context.report)
     return Polyline(tuple(outlines), heights[0])
 

@@ -1,7 +1,7 @@
 """Reader of <inertial>."""
 
 from trundle.model import Inertial
-from trundle.xmlnode import XmlNode
+from trundle.xmlnode import MAX_MASS, XmlNode
 
 from .context import Context, read_pose, warn_ignored
 
@@ -12,7 +12,7 @@ def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
     if node is None:
         return Inertial()
     report = context.report
-    mass = node.number("mass", default=1.0)
+    mass = node.number("mass", default=1.0, limit=MAX_MASS)
     inertia = node.find("inertia")
     pose = read_pose(node, context).pose  # always in the link frame, whatever the file says
     warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics
-from trundle.meshes import Mesh, MeshError, load_mesh
+from trundle.meshes import Mesh, MeshError, check_vertices, load_mesh
 from trundle.model import Collision, MeshFile
 
 from ..convex.hulls import hull_of
@@ -120,4 +120,6 @@ def _mesh_of(collision: Collision) -> Mesh | None:
     if not isinstance(geometry, MeshFile) or geometry.path is None:
         return None
     mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
-    return mesh.scaled(geometry.scale)
+    scaled = mesh.scaled(geometry.scale)
+    check_vertices(scaled.vertices)
+    return scaled
