@@ -314,6 +314,7 @@ class PageServer:
         if self._link_file is not None:
             with contextlib.suppress(OSError):
                 self._link_file.unlink(missing_ok=True)
+                self._link_file.parent.rmdir()  # if no other page runs
         if self._uploads is not None:  # the server removes it, unless it was killed
             shutil.rmtree(self._uploads.parent, ignore_errors=True)
 
