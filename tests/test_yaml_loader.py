@@ -50,6 +50,14 @@ def test_many_values_are_refused_before_they_are_made(monkeypatch: pytest.Monkey
         load_yaml("[" + "0, " * 200 + "0]")
 
 
+def test_keys_whose_hashes_may_collide_are_few() -> None:
+    """As multiples of 2**61 - 1, of which 100,000 would take minutes."""
+    many = "\n".join(f"{number * (2**61 - 1)}: 1" for number in range(2001))
+    with pytest.raises(yaml.YAMLError, match="line 1: more than 2000 keys of a mapping that are not text"):
+        load_yaml(many)
+    assert len(load_yaml("\n".join(f"k{number}: 1" for number in range(2001)))) == 2001  # pyright: ignore[reportArgumentType]
+
+
 def test_plain_data_and_aliases_are_loaded() -> None:
     assert load_yaml("a: &a [1, 2.5, x, null, true]\nb: *a\nc: {<<: {d: 1}}") == {
         "a": [1, 2.5, "x", None, True],

@@ -111,7 +111,7 @@ _REPEATS = ("2", "100", "10**6")
 
 @cache
 def names() -> dict[str, Any]:
-    """Names: functions; texts `t0` …, numbers `n0` …, keys with one hash `a0` …, others `g0` …"""
+    """Names of the expressions: functions; texts `t0` …, numbers `n0` …, keys with one hash `a0` …, others `g0` …"""
     return {**NAMES, **{name: eval(text, {**NAMES}) for name, text in _sources().items()}}
 
 

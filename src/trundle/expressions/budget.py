@@ -32,6 +32,7 @@ VIEWS = (type({}.keys()), type({}.items()))
 _KEYED = (set, frozenset, *VIEWS)
 _GROUPS = (list, tuple, type({}.values()), *_KEYED)
 _SMALL = 1 << 61
+"""Bound below which an integer is its own hash."""
 _LENGTH_OF_A_FLOAT = 8
 """Usual length; writing one takes as long as traversing three values."""
 
