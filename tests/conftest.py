@@ -14,6 +14,11 @@ from trundle import packages
 _SHARED = Path(__file__).resolve().parents[2] / "shared"
 _VARIABLES = ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", packages.ALLOW_OUTSIDE, packages.LENIENT)
 """A user's shell may have set them, and commands that run in this process set them."""
+_INSTALLED_PACKAGES = {
+    "trundle.packages.ros_packages._INSTALLED": Path("/nowhere"),
+    "trundle.ros.messages.definition_search.DEBIAN_SHARE": "",
+}
+"""Folders of Debian's packages of ROS, which are searched last, and what hides them."""
 _CHROMIUM = Path("/usr/bin/chromium")
 _SOFTWARE_GL = (
     "--no-sandbox",
@@ -43,6 +48,14 @@ def pytest_configure() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+@pytest.fixture(autouse=True)
+def _no_installed_packages(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+    """Hide the machine's packages of ROS, their message definitions and rules, from tests without its tools."""
+    if request.node.get_closest_marker("real_ros") is None:
+        for name, nothing in _INSTALLED_PACKAGES.items():
+            monkeypatch.setattr(name, nothing)
 
 
 @pytest.fixture(autouse=True)

@@ -36,7 +36,7 @@ def test_every_sum_is_that_of_debians_rospy(messages: Messages) -> None:
     done = subprocess.run(["/usr/bin/python3", "-c", _DEBIANS_SUMS], capture_output=True, text=True, timeout=100)
     theirs = [line.split() for line in done.stdout.splitlines()]
     assert done.returncode == 0, done.stderr
-    assert len(theirs) > 50
+    assert len(theirs) > 30  # std_msgs alone has 34
     assert [
         (name, messages.service(name).md5sum if kind == "srv" else messages.md5(name)) for kind, name, _ in theirs
     ] == [(name, md5) for _, name, md5 in theirs]

@@ -70,7 +70,10 @@ def fill(kind, depth=1):
 out = {}
 for kind in sys.argv[1:]:
     buffer = io.BytesIO()
-    fill(kind).serialize(buffer)
+    try:
+        fill(kind).serialize(buffer)
+    except ImportError:  # its package, or one of a field, is not installed
+        continue
     out[kind] = buffer.getvalue().hex()
 print(json.dumps(out))
 """
@@ -134,8 +137,9 @@ def _filled(messages: Messages, kind: str, depth: int = 1) -> Any:
 @pytest.mark.real_ros
 def test_bytes_are_those_of_the_original_serialiser(messages: Messages, tmp_path: Path) -> None:
     real = _real_python(tmp_path, FILLED, *SHOWN)
-    for kind in SHOWN:
-        assert bytes(messages.serialize(messages.new(kind, _filled(messages, kind)))).hex() == real[kind], kind
+    assert "std_msgs/Duration" in real
+    for kind, data in real.items():
+        assert bytes(messages.serialize(messages.new(kind, _filled(messages, kind)))).hex() == data, kind
 
 
 @pytest.mark.parametrize("kind", SHOWN)
