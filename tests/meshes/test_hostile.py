@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 
-from trundle.meshes import MeshError, load_mesh
+from trundle.meshes import MeshError, load_mesh, mean_colour
 
 from .test_parts import MTL, OBJ, collada
 
@@ -40,6 +41,24 @@ def test_an_stl_that_counts_more_than_it_holds(tmp_path: Path) -> None:
     path = tmp_path / "a.stl"
     path.write_bytes(b"x" + stl(4_000_000_000, TRIANGLE)[1:])
     assert "declares 4000000000 triangles and contains 1" in refused(path)
+
+
+def test_a_signalling_nan_is_refused_as_any_other(tmp_path: Path) -> None:
+    """Casts of one make numpy warn."""
+    path = tmp_path / "a.stl"
+    whole = stl(1, TRIANGLE)
+    path.write_bytes(whole[:-26] + bytes.fromhex("0100807f") + whole[-22:])  # x of the second corner
+    assert refused(path).endswith("vertices that are not finite")
+
+
+def test_what_pillow_warns_of_is_decoded_without_a_word(tmp_path: Path) -> None:
+    path = tmp_path / "a.jpg"
+    exif = Image.Exif()
+    exif[0x010F] = "maker's name, which is long"
+    Image.new("RGB", (8, 8), (255, 0, 0)).save(path, exif=exif)
+    path.write_bytes(path.read_bytes().replace(b"\0\0\0\x1c", b"\x7f\0\0\x1c", 1))  # the length of that name
+
+    assert mean_colour(path) == pytest.approx((1.0, 0.0, 0.0, 1.0), abs=0.02)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])

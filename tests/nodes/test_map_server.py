@@ -8,7 +8,7 @@ from PIL import Image
 from tests.nodes.conftest import PATIENCE_S
 
 from trundle.diagnostics import UsageError
-from trundle.nodes.map_server.occupancy_grid import read_map
+from trundle.nodes.map_server.occupancy_grid import read_cells, read_map
 
 _KEYS = "resolution: 0.05\norigin: [-1.0, -2.0, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
 
@@ -38,6 +38,13 @@ def test_negated_maps_and_modes(picture: Path) -> None:
 
     picture.write_text(f"image: map.pgm\nmode: raw\n{_KEYS}")
     assert read_map(picture).cells.tolist() == [[-2, -2, -2], [0, -51, -1]]  # shades as signed bytes
+
+
+def test_a_picture_that_ends_in_its_header_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    """Pillow's decoders have exceptions of any kind."""
+    (tmp_path / "map.pgm").write_bytes(b"P5")
+    with pytest.raises(UsageError, match=r"map\.pgm: Reached EOF"):
+        read_cells(tmp_path / "map.pgm", negate=False, occupied=0.65, free=0.196)
 
 
 @pytest.mark.parametrize(

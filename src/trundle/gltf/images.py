@@ -6,7 +6,7 @@ from io import BytesIO
 import numpy as np
 from msgspec import Struct
 
-from trundle.meshes import Texture, image_file
+from trundle.meshes import Texture, ignored_decoder_warnings, image_file
 from trundle.render import LARGEST_TEXTURE_PX, load_texture
 
 _KEPT = {"PNG": "image/png", "JPEG": "image/jpeg"}
@@ -38,7 +38,7 @@ def _encode(texture: Texture, _changed_ns: int) -> EncodedImage | None:
 
     file = image_file(texture)
     try:
-        with Image.open(file) as image:
+        with ignored_decoder_warnings(), Image.open(file) as image:
             if image.format in _KEPT and max(image.size) <= LARGEST_TEXTURE_PX:
                 return EncodedImage(file.getvalue(), _KEPT[image.format])
     except Exception:  # every decoder of Pillow has its own exceptions

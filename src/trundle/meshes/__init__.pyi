@@ -20,6 +20,7 @@ from .skins import load_skin as load_skin
 from .solid_meshes import cone_mesh as cone_mesh
 from .solid_meshes import prism_mesh as prism_mesh
 from .solid_meshes import terrain_mesh as terrain_mesh
+from .texture import ignored_decoder_warnings as ignored_decoder_warnings
 from .texture import image_file as image_file
 from .texture import mean_colour as mean_colour
 from .texture import png_of as png_of

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import MeshError
-from .texture import image_file, why_undecoded
+from .texture import ignored_decoder_warnings, image_file, why_undecoded
 
 _MAX_PIXELS = 4096
 """Largest side of an image [px]."""
@@ -28,7 +28,7 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> N
     from PIL import Image  # slow to load, and few worlds have terrain
 
     try:
-        with Image.open(image_file(path)) as image:
+        with ignored_decoder_warnings(), Image.open(image_file(path)) as image:
             if max(image.size) > _MAX_PIXELS or min(image.size) < 2:
                 raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MAX_PIXELS} are possible")
             deep = image.mode in ("I", "F") or image.mode.startswith("I;")

@@ -54,7 +54,8 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
 def faults_of(path: Path) -> Generator[None]:
     """Convert every exception of a reader to a MeshError that starts with the file's name."""
     try:
-        yield
+        with np.errstate(all="ignore"):  # of damaged numbers, which are refused once all are read
+            yield
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
     except OSError as error:

@@ -2,6 +2,9 @@
 
 import io
 import os
+import warnings
+from collections.abc import Generator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,6 +46,14 @@ def image_file(texture: Texture) -> io.BytesIO:
     return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, max_bytes=_MAX_BYTES))
 
 
+@contextmanager
+def ignored_decoder_warnings() -> Generator[None]:
+    """Keep what Pillow's decoders say of damaged files off the terminal; what they refuse is reported by us."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
 def why_undecoded(error: Exception) -> str:
     """Return the reason for a failed decoding; every decoder of Pillow has its own exceptions."""
     from PIL import UnidentifiedImageError
@@ -64,7 +75,7 @@ def mean_colour(texture: Texture) -> Rgba | None:
 def _mean(texture: Texture, _changed_ns: int) -> Rgba:
     from PIL import Image
 
-    with Image.open(image_file(texture)) as image:
+    with ignored_decoder_warnings(), Image.open(image_file(texture)) as image:
         _check_size(image)
         image.draft("RGB", (64, 64))
         pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
@@ -78,7 +89,7 @@ def png_of(texture: Texture) -> bytes | None:
     from PIL import Image
 
     try:
-        with Image.open(image_file(texture)) as image:
+        with ignored_decoder_warnings(), Image.open(image_file(texture)) as image:
             return as_png(image)
     except Exception:  # every decoder of Pillow has its own exceptions
         return None

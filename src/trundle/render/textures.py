@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.diagnostics import Diagnostics, Source
-from trundle.meshes import Texture, image_file, why_undecoded
+from trundle.meshes import Texture, ignored_decoder_warnings, image_file, why_undecoded
 
 from .scene import Scene
 
@@ -21,7 +21,7 @@ def load_texture(texture: Texture) -> NDArray[np.uint8] | str:
     from PIL import Image  # slow to load, and robots of plain shapes have no textures
 
     try:
-        with Image.open(image_file(texture)) as image:
+        with ignored_decoder_warnings(), Image.open(image_file(texture)) as image:
             if image.width * image.height > _MAX_PIXELS:
                 return f"it has {image.width} x {image.height} pixels, more than {_MAX_PIXELS}"
             if max(image.size) > LARGEST_TEXTURE_PX:

@@ -14,7 +14,7 @@ from PIL import Image
 from trundle.atomic_write import write_atomically
 from trundle.diagnostics import UsageError
 from trundle.files import read_file
-from trundle.meshes import why_undecoded
+from trundle.meshes import ignored_decoder_warnings, why_undecoded
 from trundle.yaml_loader import load_yaml
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
@@ -92,14 +92,16 @@ def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mod
 def _pixels(picture: Path) -> NDArray[np.float64]:
     """Pixels (height, width, channels) 0 … 255; the last of two or four channels is alpha."""
     try:
-        with Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
+        with ignored_decoder_warnings(), Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
             if image.width * image.height > _LARGEST_PIXELS:
                 raise UsageError(
                     f"{picture}: {image.width} × {image.height} pixels exceed the limit of {_LARGEST_PIXELS} for maps"
                 )
             plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
             pixels = np.asarray(plain, dtype=np.float64)
-    except (OSError, Image.DecompressionBombError) as error:
+    except UsageError:
+        raise
+    except Exception as error:  # every decoder of Pillow has its own exceptions
         raise UsageError(f"{picture}: {why_undecoded(error)}") from None
     return pixels[:, :, None] if pixels.ndim == 2 else pixels
 
