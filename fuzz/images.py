@@ -1,12 +1,13 @@
-"""Pictures: textures of meshes, and heights of terrain."""
+"""Pictures: textures of meshes, heights of terrain, and maps."""
 
 from pathlib import Path
 
 from trundle.meshes import mean_colour, png_of, read_heights
+from trundle.nodes.map_server.occupancy_grid import read_cells
 from trundle.render import load_texture
 
 from .seeds import picture
-from .target import Open, Target, reads_file
+from .target import Open, Target, reads_file, try_each
 
 
 def _textures(name: str) -> Open:
@@ -17,6 +18,11 @@ def _textures(name: str) -> Open:
         png_of(data)
 
     return reads_file(name, read)
+
+
+def _read_terrain(file: Path) -> None:
+    """Read heights, and the cells of a map."""
+    try_each(lambda: read_heights(file), lambda: read_cells(file, negate=False, occupied=0.65, free=0.196))
 
 
 TARGETS = {
@@ -41,7 +47,7 @@ TARGETS = {
         words=(b"II*\0", b"MM\0*", b"II+\0", b"\x01\x01", b"\x53\x01", b"\x03\x01"),
     ),
     "dem": Target(
-        open=reads_file("h.png", read_heights),
+        open=reads_file("h.png", _read_terrain),
         seeds=lambda: [
             picture("PNG", "L"), picture("PNG", "I;16"), picture("TIFF", "F"), picture("TIFF", "I;16"),
             picture("PPM", "L"),
