@@ -104,7 +104,7 @@ def pair_name(a: str, b: str) -> str:
 
 
 class Yield(Struct, frozen=True):
-    """How a pair of geoms departs from its spring in the model; see `cpp/contact_offset.h`."""
+    """Spring of a pair of geoms as far as the model does not have it; see `cpp/contact_offset.h`."""
 
     factor: float = 1.0
     """From its stiffness in the model to kp."""

@@ -83,7 +83,7 @@ def _rest_depths(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float
     shares = np.bincount(roots.max(axis=1), minlength=model.nbody)[roots.max(axis=1)]
     weights = _HEAVY * masses * gravity / np.where(rates > 0.0, shares, 1)
     springs = np.where(stiffnesses > 0.0, weights / np.maximum(stiffnesses * factors, 1e-12), 0.0)
-    sinking = np.maximum(rates * springs - max_vels, 0.0) / (gravity * model.opt.timestep)
+    sinking = np.maximum(rates * springs - max_vels, 0.0) / max(gravity * model.opt.timestep, 1e-12)
     return depths + np.where(rates > 0.0, springs * (1.0 + sinking), springs)
 
 
