@@ -62,13 +62,15 @@ def advance(
     inputs = {name: part_of(model, states, part) for name, part in _INPUTS.items()}
     inputs["qvel"] = velocities_of(model, states)
     inputs["xfrc_applied"] = inputs["xfrc_applied"].reshape(len(states), -1, 6)
-    after, crowded = stepper.step(count, inputs, max_efforts, rates)
+    laws = part_of(model, states, mujoco.mjtState.mjSTATE_USERDATA)  # see law_tables.h
+    targets = laws[:, : model.nu].copy()
+    after, crowded = stepper.step(count, inputs, max_efforts, rates, targets)
     slow = (np.abs(after["qvel"]) < max_speed).all(axis=1)
     outcomes = np.where(np.isfinite(after["qpos"]).all(axis=1) & slow, StepOutcome.STABLE, StepOutcome.UNSTABLE)
     outcomes[crowded] = StepOutcome.CROWDED
     stable = chosen & (outcomes == StepOutcome.STABLE)
     for name, values in after.items():
         part_of(model, states, _INPUTS[name])[stable] = values[stable]
-    part_of(model, states, mujoco.mjtState.mjSTATE_USERDATA)[stable, model.nu : model.nu + model.nv] = 0.0
+    laws[stable, : model.nu], laws[stable, model.nu : model.nu + model.nv] = targets[stable], 0.0
     part_of(model, states, mujoco.mjtState.mjSTATE_TIME)[stable] += count * model.opt.timestep
     return outcomes.astype(np.int8)

@@ -15,6 +15,7 @@ from ...compile.compiled_world import CompiledWorld
 from ...compile.law_tables import find_table
 from .kernels import drive
 from .limits import gpu_limits, gpu_model
+from .sliding import Sliding
 from .varied_numbers import GRAVITY
 
 _Array = NDArray[np.float64]
@@ -72,6 +73,7 @@ class GpuStepper:
             self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
             self._rates = wp.zeros((worlds, model.ntendon), dtype=float)
             self._h = float(model.opt.timestep)
+            self._sliding = Sliding(model, self._model, self._data, self._rates)
             self._model.callback.control = self._drive
             mujoco_warp.step(self._model, self._data)
             with wp.ScopedCapture() as capture:
@@ -86,6 +88,7 @@ class GpuStepper:
                 getattr(self._model, name).assign(values.astype(np.float32))
 
     def _drive(self, _model: object, data: "mujoco_warp.Data") -> None:
+        self._sliding.launch()
         efc = data.efc
         rows = [efc.type, efc.id, efc.pos, efc.margin, efc.vel]
         wp.launch(
@@ -96,7 +99,7 @@ class GpuStepper:
         )
 
     def step(
-        self, count: int, before: dict[str, _Array], max_efforts: _Array, rates: _Array
+        self, count: int, before: dict[str, _Array], max_efforts: _Array, rates: _Array, targets: _Array
     ) -> tuple[dict[str, _Array], NDArray[np.bool_]]:
         """Step all worlds.
 
@@ -105,6 +108,7 @@ class GpuStepper:
             before: (worlds, …) qpos, qvel, qacc_warmstart, ctrl, qfrc_applied, and (worlds, bodies, 6) xfrc_applied.
             max_efforts: (worlds, motors)
             rates: (worlds, motors)
+            targets: (worlds, motors) target speeds of the step before; those of the last step afterwards.
 
         Returns:
             qpos, qvel and qacc_warmstart afterwards; (worlds,) True where contacts were left out for want of room.
@@ -112,6 +116,7 @@ class GpuStepper:
         with wp.ScopedDevice(self._device):
             self._model.tendon_frictionloss.assign(max_efforts.astype(np.float32))
             self._rates.assign(rates.astype(np.float32))
+            self._sliding.last_targets.assign(targets.astype(np.float32))
             for name, values in before.items():
                 getattr(self._data, name).assign(values.astype(np.float32))
             self._data.overflow.zero_()
@@ -119,6 +124,7 @@ class GpuStepper:
                 wp.capture_launch(self._graph)
             after = {name: getattr(self._data, name).numpy() for name in ("qpos", "qvel", "qacc_warmstart")}
             overflow = self._data.overflow.numpy()
+            targets[:] = self._sliding.last_targets.numpy()
         crowded = overflow & sum(int(mujoco_warp.OverflowType[name]) for name in _OVERFLOWS) != 0
         return {name: values.astype(np.float64) for name, values in after.items()}, crowded
 
