@@ -12,9 +12,9 @@ namespace trundle {
 // clang-format off
 #define TRUNDLE_MUJOCO_FUNCTIONS(X)                                                               \
   X(_mjPRIVATE_setTlsLogHandler) X(mj_applyFT) X(mj_comPos) X(mj_comVel) X(mj_contactForce)       \
-  X(mj_fwdVelocity) X(mj_getState) X(mj_integratePos) X(mj_isSparse) X(mj_island) X(mj_jac) X(mj_kinematics) X(mj_makeConstraint) X(mj_mulJacVec)     \
-  X(mj_objectVelocity) X(mj_projectConstraint) X(mj_rne) X(mj_setState) X(mj_solveM)              \
-  X(mj_stateSize) X(mj_step)
+  X(mj_fwdVelocity) X(mj_getState) X(mj_integratePos) X(mj_isSparse) X(mj_island) X(mj_jac)       \
+  X(mj_kinematics) X(mj_makeConstraint) X(mj_mulJacVec) X(mj_objectVelocity)                      \
+  X(mj_projectConstraint) X(mj_rne) X(mj_setState) X(mj_solveM) X(mj_stateSize) X(mj_step)
 // clang-format on
 
 struct MujocoApi {
