@@ -1,0 +1,200 @@
+"""Names and texts of an attacker on the page: they are text, whatever they hold."""
+
+import time
+import xmlrpc.client
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+import pytest
+from tests.graphs import Graph, running_graph
+from tests.page.built_client import needs_client
+from tests.page.panel_user import PanelUser
+from tests.page.scene_user import rviz_text
+from tests.system.browser import running_page
+
+from trundle.ros import Node
+
+pytestmark = [needs_client, pytest.mark.slow]
+RUN = "window.ran=1"
+EVIL = {
+    "markup": f"<img src=x onerror={RUN}>",
+    "script": f"</title></script><script>{RUN}</script>",
+    "quotes": f"\"'`onmouseover={RUN} x='",
+    "link": f"javascript:{RUN}",
+    "direction": "a\u202etxt.exe\u200b\u2066\u200d",
+    "format": "%s${x}{{constructor}}\\u003cimg src=x onerror=1\\u003e",
+    "proto": "__proto__",
+    "long": "w" * 10_000,
+}
+
+
+def _world() -> str:
+    """Return a world in which everything has a hostile name."""
+    models = "".join(
+        f"<model name={quoteattr(name)}><pose>{i} 0 0.5 0 0 0</pose><link name={quoteattr(name)}>"
+        f"<visual name={quoteattr(name)}><geometry><box><size>0.3 0.3 0.3</size></box></geometry></visual>"
+        f"<sensor name={quoteattr(name)} type='altimeter'/></link>"
+        f"<link name='b'/><joint name={quoteattr(name)} type='revolute'><parent>{_text(name)}</parent><child>b</child>"
+        f"<axis><xyz>0 0 1</xyz></axis></joint>"
+        f"<plugin name={quoteattr(name)} filename={quoteattr(name)}><value>{_text(name)}</value></plugin></model>"
+        f"<light name={quoteattr(name)} type='point'/>"
+        for i, name in enumerate(EVIL.values())
+    )
+    return f"<sdf version='1.6'><world name={quoteattr(EVIL['markup'])}>{models}</world></sdf>"
+
+
+def _text(name: str) -> str:
+    return quoteattr(name)[1:-1]
+
+
+def _register(uri: str) -> None:
+    """Tell the master hostile names of nodes, topics, types, services and parameters; it may refuse them."""
+    with xmlrpc.client.ServerProxy(uri) as master:
+        for kind, name in EVIL.items():
+            calls = (
+                ("registerPublisher", f"/n{name}", f"/t{name}", f"p/{name}", "http://127.0.0.1:9/"),
+                ("registerPublisher", f"/{kind}", f"/{kind}", name, f"http://127.0.0.1:9/{name}"),
+                ("registerSubscriber", f"/n{name}", f"/t{name}", "*", "http://127.0.0.1:9/"),
+                ("registerService", f"/n{name}", f"/s{name}", "rosrpc://127.0.0.1:9", "http://127.0.0.1:9/"),
+                ("setParam", "/evil", f"/p{name}", name),
+                ("setParam", "/evil", f"/texts/{kind}", {kind: [name], name: name}),
+            )
+            for method, *words in calls:
+                with suppress(xmlrpc.client.Fault):
+                    getattr(master, method)(*words)
+
+
+class Attacker:
+    """Node whose messages are hostile."""
+
+    def __init__(self, node: Node) -> None:
+        advertise = node.advertise
+        self._topics = [
+            (advertise("/rosout", "rosgraph_msgs/Log"), self._log),
+            (advertise("/tf", "tf2_msgs/TFMessage"), self._transform),
+            (advertise("/text", "std_msgs/String"), lambda name: {"data": name}),
+            (advertise("/joint_states", "sensor_msgs/JointState"), lambda name: {"name": [name], "position": [0.5]}),
+            (advertise("/marker", "visualization_msgs/Marker"), self._marker),
+            (advertise("/diagnostics", "diagnostic_msgs/DiagnosticArray"), self._diagnostics),
+            (advertise("/image", "sensor_msgs/Image"), lambda name: {"header": {"frame_id": name}, "encoding": name}),
+            (advertise("/cloud", "sensor_msgs/PointCloud2"), lambda name: {"fields": [{"name": name, "count": 1}]}),
+        ]
+
+    def speak(self) -> None:
+        for name in EVIL.values():
+            for publisher, message in self._topics:
+                publisher.publish(message(name))
+
+    @staticmethod
+    def _log(name: str) -> dict[str, Any]:
+        return {"level": 8, "name": name, "msg": name, "file": name, "function": name, "topics": [name]}
+
+    @staticmethod
+    def _transform(name: str) -> dict[str, Any]:
+        pose = {"rotation": {"w": 1.0}}
+        stamp = {"secs": int(time.time())}
+        return {
+            "transforms": [{"header": {"frame_id": "world", "stamp": stamp}, "child_frame_id": name, "transform": pose}]
+        }
+
+    @staticmethod
+    def _marker(name: str) -> dict[str, Any]:
+        white, size = {"r": 1.0, "g": 1.0, "b": 1.0, "a": 1.0}, {"x": 1.0, "y": 1.0, "z": 0.2}
+        pose = {"orientation": {"w": 1.0}}
+        header = {"frame_id": "world"}
+        return {"header": header, "ns": name, "type": 9, "text": name, "scale": size, "color": white, "pose": pose}
+
+    @staticmethod
+    def _diagnostics(name: str) -> dict[str, Any]:
+        values = [{"key": name, "value": name}]
+        return {"status": [{"level": 2, "name": name, "message": name, "hardware_id": name, "values": values}]}
+
+
+@pytest.fixture(scope="module")
+def graph() -> Iterator[Graph]:
+    with running_graph() as graph:
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def url(graph: Graph, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    folder: Path = tmp_path_factory.mktemp("evil")
+    (folder / "world.sdf").write_text(_world())
+    _register(graph.core.uri)
+    environment = {"HOME": str(folder), "ROS_MASTER_URI": graph.core.uri}
+    with running_page("run", "world.sdf", "--port", "0", environment=environment, folder=folder) as url:
+        yield url
+
+
+class Victim(PanelUser):
+    """Person who opens everything; sees if anything ran, or would have run without a policy."""
+
+    def __init__(self, browser: Any, url: str) -> None:
+        self.complaints: list[str] = []
+        super().__init__(browser, url)
+        self.page.on("console", self._hear)
+        self.page.on("dialog", lambda dialog: self.complaints.append(f"dialog: {dialog.message}") or dialog.dismiss())
+
+    def _note(self, error: Any) -> None:
+        self.faults.append(f"{error}\n{error.stack}")
+
+    def _hear(self, message: Any) -> None:
+        if "Content Security Policy" in message.text:
+            self.complaints.append(message.text)
+
+    def check(self, state: str) -> None:
+        self.page.wait_for_timeout(300)
+        assert self.page.evaluate("window.ran === undefined && Object.prototype.data === undefined"), state
+        made = self.page.evaluate("document.querySelectorAll('img[src=x], script:not([src]), [onmouseover]').length")
+        assert (made, self.complaints, self.faults) == (0, [], []), state
+        assert self.page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{state} is too wide"
+
+    def side(self, name: str) -> None:
+        tab = self.page.get_by_role("tab", name=name, exact=True)
+        (tab if tab.count() else self.page.locator(".rail").get_by_role("button", name=name)).first.click()
+
+
+def test_nothing_of_them_runs_when_one_handles_what_they_name(chromium: Any, graph: Graph, url: str) -> None:
+    """Selecting, hovering, menus, the search of commands, displays and their statuses, a file of rviz."""
+    attacker = Attacker(graph.node("attacker_again"))
+    user = Victim(chromium, url)
+    user.side("World")
+    for name in EVIL.values():
+        row = user.page.get_by_role("treeitem").filter(has_text=name[:40]).first
+        if row.count() == 0:
+            continue
+        row.click()
+        row.hover()
+        user.check(f"selected: {name[:40]}")
+        row.click(button="right")
+        user.check(f"the menu of {name[:40]}")
+        user.page.keyboard.press("Escape")
+    user.page.keyboard.press("Control+k")
+    user.page.get_by_role("combobox", name="Search commands").fill("img")
+    user.check("the search of commands")
+    user.page.keyboard.press("Escape")
+    displays = [
+        {
+            "Class": kind,
+            "Name": name,
+            "Enabled": True,
+            "Topic": name,
+            "Marker Topic": "/marker",
+            "Image Topic": "/image",
+        }
+        for name in EVIL.values()
+        for kind in ("rviz/Marker", "rviz/Image", "rviz/LaserScan", name)
+    ]
+    user.drop_file(f"{EVIL['markup']}.rviz", rviz_text(*displays))
+    user.side("Displays")
+    for _ in range(3):
+        attacker.speak()
+        user.check("displays of a hostile file")
+    for row in user.page.get_by_role("treeitem").all()[:40]:
+        with suppress(Exception):
+            row.press("ArrowRight", timeout=1000)
+    user.check("displays that are open")
+    user.close()
