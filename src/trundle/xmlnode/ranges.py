@@ -6,11 +6,11 @@ What is beyond them is a damaged file or an attack: its square or cube overflows
 from collections.abc import Iterable
 
 MAX_LENGTH = 1e9
-"""Of coordinates, sizes and scales [m]: a million kilometres."""
+"""Limit of coordinates, sizes and scales [m]: a million kilometres."""
 MAX_MASS = 1e12
-"""[kg]"""
+"""Limit of masses [kg]."""
 MAX_NUMBER = 1e18
-"""Of gains, limits, rates and all others: 1e16 is SDF's unlimited, 1e12 ODE's stiffness of contacts."""
+"""Limit of gains, rates and all other numbers: 1e16 is SDF's unlimited, 1e12 ODE's stiffness of contacts."""
 
 
 def is_within(values: Iterable[float], limit: float) -> bool:

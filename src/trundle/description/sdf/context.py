@@ -30,7 +30,7 @@ class Context(Struct, frozen=True, kw_only=True):
     including: tuple[Path, ...] = ()
     """Including files, outermost first, to detect cycles."""
     budget: ReadBudget = field(default_factory=ReadBudget)
-    """Of the file and all that it includes."""
+    """Budget of the file and all that it includes."""
     read_urdf: Callable[[Path, XmlNode], Model] | None = None
     """Reads a <robot> found by an <include>, given its file."""
     seed: int = 0
