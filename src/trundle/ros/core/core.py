@@ -91,6 +91,7 @@ class Core:
             TrundleError: as `log_folder` does.
         """
         await self._master.start(self._port, self._host)
+        self._loop.local.masters.add(self.uri)
         folder = None if self._log_folder is None else self._log_folder(self._run_id)
         if folder is not None:
             self._logs = CoreLogs(folder, self.parameters)

@@ -6,6 +6,7 @@ Adding and removing is thread-safe and does not block; everything else runs on t
 import threading
 from collections.abc import Awaitable, Callable
 from contextlib import AbstractContextManager
+from functools import partial
 from typing import Any
 
 from ..errors import MasterError, MessageError
@@ -56,7 +57,7 @@ class NodeEndpoints:
         self._recorder.add(publisher)
         for listener in self._node.loop.local.on_publisher:
             self._node.loop.call_soon(lambda listener=listener: listener(publisher))
-        self._registrations.add(lambda: self._notify_master("registerPublisher", topic, type_name, self._node.uri))
+        self._register_publisher(publisher)
         return publisher
 
     def add_subscription(self, subscription: Subscription) -> None:
@@ -72,6 +73,15 @@ class NodeEndpoints:
             self._services[service.name] = service
         self._recorder.add(service)
         self._registrations.add(lambda: self._register_service(service.name))
+
+    def register_again(self) -> None:
+        """Register everything, at a master that knows nothing of it."""
+        for publisher in self.publishers:
+            self._register_publisher(publisher)
+        for topic, type_name in self.subscribed_topics():
+            self._registrations.add(partial(self._register_subscriber, topic, type_name, is_known=True))
+        for name in list(self._services):
+            self._registrations.add(partial(self._register_service, name))
 
     def remove_publisher(self, publisher: Publisher) -> None:
         """Remove and unregister a publisher."""
@@ -163,6 +173,10 @@ class NodeEndpoints:
         for end in (*self.publishers, *self.subscriptions, *self._services.values()):
             end.close()
 
+    def _register_publisher(self, publisher: Publisher) -> None:
+        topic, kind = publisher.topic, publisher.type
+        self._registrations.add(lambda: self._notify_master("registerPublisher", topic, kind, self._node.uri))
+
     def _queue_unregister(self, method: str, name: str) -> None:
         """Queue an unregistration; done at shutdown if still queued."""
         self._unregistering.add((method, name))
@@ -191,6 +205,9 @@ class NodeEndpoints:
         await self._notify_master("registerService", name, self._node.service_uri, self._node.uri)
         self._node.loop.local.notify_service_change()
 
-    async def _register_subscriber(self, topic: str, type_name: str) -> None:
-        uris = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
-        self.publishers_changed(topic, [str(uri) for uri in uris])
+    async def _register_subscriber(self, topic: str, type_name: str, *, is_known: bool = False) -> None:
+        """Register the subscriptions of a topic; known publishers may have yet to register again."""
+        found = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
+        uris = [str(uri) for uri in found]
+        for subscription in self._subscriptions.get(topic, []):
+            (subscription.follow_too if is_known else subscription.follow)(uris)

@@ -92,6 +92,8 @@ class LocalGraph:
         """Running nodes."""
         self.nodes: dict[str, LocalNode] = {}
         """XML-RPC address → node."""
+        self.masters: set[str] = set()
+        """URIs of the masters in this process, which end with it."""
         self.on_publisher: list[Callable[[LocalPublisher], None]] = []
         """Called on the loop with each new publisher."""
         self._service_change: set[asyncio.Future[None]] = set()

@@ -21,6 +21,7 @@ from .endpoints import NodeEndpoints
 from .local_graph import LocalNode
 from .loop import GraphLoop
 from .master_client import MasterClient
+from .master_watch import watch_master
 from .node_log import NodeLog
 from .param_client import ParamClient
 from .publisher import Publisher
@@ -103,6 +104,7 @@ class Node:
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
         self._has_begun = False
+        self._master_watch: asyncio.Task[None] | None = None
         self.loop.call_soon(self._begin)
 
     # -- identity
@@ -267,6 +269,11 @@ class Node:
         """
         await wait_for_service(self, self.resolve(name), timeout_s)
 
+    def register_again(self) -> None:
+        """Register everything, at a master that was started again."""
+        self.params.register_again(self._registrations)
+        self.endpoints.register_again()
+
     # -- startup and shutdown: on the loop
 
     async def wait_listening(self) -> None:
@@ -296,6 +303,8 @@ class Node:
         self._is_down = True
         if self._has_begun:
             await self._listening.wait()  # a partly created server would stay open
+        if self._master_watch is not None:
+            self._master_watch.cancel()
         await self._registrations.close()
         if self.uri:
             with contextlib.suppress(TimeoutError):
@@ -336,6 +345,8 @@ class Node:
         )
         if self._address.warning:
             self.log.warn(self._address.warning)
+        if self.master_uri not in self.loop.local.masters:
+            self._master_watch = asyncio.create_task(watch_master(self, self))
         await self.params.set_private(self._registrations)
         if self._wants_rosout:
             self._start_rosout()

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
+from functools import partial
 from typing import Any, TypeAlias
 
 from ..errors import MasterError, MasterUnreachableError, ParameterError
@@ -87,6 +88,16 @@ class ParamClient:
         full = self._node.resolve(name)
         self._watched.setdefault(full, []).append(callback)
         return await self._node.master.call("subscribeParam", self._node.uri, full)
+
+    def register_again(self, registrations: RegistrationQueue) -> None:
+        """Set the private parameters and subscribe to the watched ones, at a master that knows nothing of them."""
+        for name, value in self._private.items():
+            registrations.add(partial(self.set, f"~{name}", value))
+        for name in self._watched:
+            registrations.add(partial(self._subscribe, name))
+
+    async def _subscribe(self, full: str) -> None:
+        await self._node.master.call("subscribeParam", self._node.uri, full)
 
     def notify(self, key: str, value: object) -> bool:
         """Handle paramUpdate; False if there is no subscriber."""

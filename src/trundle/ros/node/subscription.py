@@ -94,6 +94,10 @@ class Subscription:
         """Connect to exactly these publishers."""
         for uri in [uri for uri in self._tasks if uri not in uris]:
             self._tasks.pop(uri).cancel()
+        self.follow_too(uris)
+
+    def follow_too(self, uris: list[str]) -> None:
+        """Connect to these publishers as well."""
         for uri in uris:
             if uri not in self._tasks:
                 self._tasks[uri] = asyncio.get_running_loop().create_task(self._maintain_link(uri))

@@ -1,0 +1,76 @@
+"""Nodes whose master is killed and started again."""
+
+from typing import Any
+
+import pytest
+from tests.graphs import PATIENCE_S, until
+
+from trundle.ros import Core, GraphLoop, MasterProxy, Node
+
+STRING = "std_msgs/String"
+
+
+@pytest.fixture(autouse=True)
+def _asks_often(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+    monkeypatch.setattr("trundle.ros.node.master_watch._PERIOD_S", 0.1)
+
+
+def _core(loop: GraphLoop, port: int = 0) -> Core:
+    core = Core(loop, port=port)
+    loop.run(core.start(), PATIENCE_S)
+    return core
+
+
+def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.CaptureFixture[str]) -> None:
+    got: list[str] = []
+    changes: list[object] = []
+    with GraphLoop() as talking, GraphLoop() as listening:
+        with GraphLoop() as mastering:
+            core = _core(mastering)
+            uri, port = core.uri, core.port
+            talker = Node("talker", loop=talking, master_uri=uri, params={"gain": 3}, rosout=False)
+            listener = Node("listener", loop=listening, master_uri=uri, rosout=False)
+            publisher = talker.advertise("/a", STRING)
+            talker.advertise_service("/ask", "std_srvs/Empty", lambda _: {})
+            listener.subscribe("/a", STRING, lambda message: got.append(message.data))
+            listening.run(listener.params.watch("/rate", lambda _, value: changes.append(value)), PATIENCE_S)
+            until(lambda: publisher.has_subscribers)
+            mastering.run(core.stop(), PATIENCE_S)
+        said = ""
+
+        def has_said(text: str) -> bool:
+            nonlocal said
+            said += capfd.readouterr().err
+            return text in said
+
+        until(lambda: has_said("/talker goes on without it"))
+        publisher.publish({"data": "without"})
+        until(lambda: got == ["without"])
+        with GraphLoop() as mastering:
+            core = _core(mastering, port)
+            master = MasterProxy(uri)
+
+            def state() -> Any:
+                return [
+                    {name: nodes for name, nodes in part if name in ("/a", "/ask")}
+                    for part in master.call("getSystemState")
+                ]
+
+            until(lambda: state() == [{"/a": ["/talker"]}, {"/a": ["/listener"]}, {"/ask": ["/talker"]}])
+            until(lambda: has_said("/talker registers again"))
+            until(lambda: master.call("hasParam", "/talker/gain"))
+            publisher.publish({"data": "again"})
+            until(lambda: got == ["without", "again"])
+
+            def is_told() -> bool:
+                master.call("setParam", "/rate", len(changes))
+                return bool(changes)
+
+            until(is_told)
+            late = Node("late", loop=mastering, master_uri=uri, rosout=False)
+            late.advertise("/a", STRING, latch=True).publish({"data": "late"})
+            until(lambda: got[-1] == "late")
+            assert said.count("goes on without it") == 2
+            talking.stop()
+            listening.stop()
+            mastering.run(core.stop(), PATIENCE_S)
