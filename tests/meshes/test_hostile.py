@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from trundle.meshes import MeshError, load_mesh, mean_colour
+from trundle.meshes import MeshError, load_mesh, mean_colour, read_heights
 
 from .test_parts import MTL, OBJ, collada
 
@@ -49,6 +49,13 @@ def test_a_signalling_nan_is_refused_as_any_other(tmp_path: Path) -> None:
     whole = stl(1, TRIANGLE)
     path.write_bytes(whole[:-26] + bytes.fromhex("0100807f") + whole[-22:])  # x of the second corner
     assert refused(path).endswith("vertices that are not finite")
+
+
+@pytest.mark.parametrize("height", [np.nan, np.inf])
+def test_heights_that_are_not_finite_are_refused(tmp_path: Path, height: float) -> None:
+    Image.fromarray(np.full((9, 9), height, dtype=np.float32)).save(tmp_path / "h.tif")
+    with pytest.raises(MeshError, match="heights that are not finite"):
+        read_heights(tmp_path / "h.tif")
 
 
 def test_what_pillow_warns_of_is_decoded_without_a_word(tmp_path: Path) -> None:

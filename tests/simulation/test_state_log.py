@@ -55,6 +55,8 @@ def test_a_damaged_row_is_named(tmp_path: Path, column: int, number: float) -> N
     header, newline, data = path.read_bytes().partition(b"\n")
     rows = np.frombuffer(data).reshape(25, -1).copy()
     rows[2, column] = number
+    if np.isnan(number):
+        rows.view(np.uint64)[2, column] = 0x7FF0_0000_0000_0001  # a signalling one, of which numpy warns
     path.write_bytes(header + newline + rows.tobytes())
 
     if number == 0.0 and column != 4:

@@ -29,6 +29,7 @@ def _read(text: str):
         ("world: [", "plan.yaml:1: error: not YAML: line 1, column 9: expected"),
         ("", "plan.yaml:1: error: an empty file"),
         ("duration: 1", "plan.yaml:1: error: a plan needs either `world: …` or `launch: …`"),
+        (f"world: {'a' * 5000}\nduration: 0", "plan.yaml:2: error: duration must be above 0, not 0"),
         ("world: a\nduration: soon", "plan.yaml:2: error: duration must be a number, not 'soon'"),
         ("world: a\nduration: 0", "plan.yaml:2: error: duration must be above 0, not 0"),
         ("world: a\nduration: 1\nduration: 2", "plan.yaml:3: error: 'duration' is here twice; keep one"),

@@ -1,5 +1,6 @@
 """Reader of a plan's objects and distractors: what they are, where they stand, how they look."""
 
+import os
 from pathlib import Path
 from typing import Literal
 
@@ -43,7 +44,7 @@ def _object(name: str, node: YamlNode, line: int, folder: Path) -> ObjectPlan:
     if "model" in found:
         text = found["model"].text("model")
         beside = folder / text
-        model = str(beside) if "://" not in text and beside.exists() else text
+        model = str(beside) if "://" not in text and os.path.exists(beside) else text
     elif "count" in found:
         found["count"].fail(f"object {name}: `count` is of what `model: FILE` adds; a model of the world is one")
     category = found["category"].text("category") if "category" in found else name
@@ -152,9 +153,9 @@ def _textures(node: YamlNode, folder: Path) -> list[Texture]:
     if name in (_ANY, *NAMED_TEXTURES):
         return [named_texture(each) for each in (NAMED_TEXTURES if name == _ANY else (name,))]
     path = folder / name
-    if path.is_file():
+    if os.path.isfile(path):
         return [path]
-    files = sorted(each for each in path.iterdir() if each.suffix.lower() in _IMAGES) if path.is_dir() else []
+    files = sorted(each for each in path.iterdir() if each.suffix.lower() in _IMAGES) if os.path.isdir(path) else []
     if not files:
         node.fail(
             f"textures: {path} is no image and no folder with images; there are also: any, {', '.join(NAMED_TEXTURES)}"

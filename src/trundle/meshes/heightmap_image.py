@@ -35,6 +35,8 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> N
             grey = image if deep else image.convert("L")
             columns, rows = (min((n - 1) * max(sampling, 1) + 1, most) for n in image.size)
             heights = np.asarray(grey.convert("F").resize((columns, rows), Image.Resampling.BILINEAR))
+            if not np.isfinite(heights).all():
+                raise MeshError("heights that are not finite")
             return (heights / (65535.0 if deep else 255.0)).astype(np.float32)
     except MeshError:
         raise

@@ -134,5 +134,6 @@ def read_state_log(file: Path | str) -> StateLog:
 def _are_states(rows: _Array, poses: _Array) -> NDArray[np.bool_]:
     """Return, per row, whether its numbers can be of a world: bounded, with unit quaternions."""
     bounded = (np.abs(rows) <= _LARGEST).all(axis=1)  # and so no NaN
-    squares = np.square(np.clip(poses[:, :, 3:], -2.0, 2.0)).sum(axis=2)
+    with np.errstate(invalid="ignore"):
+        squares = np.square(np.clip(poses[:, :, 3:], -2.0, 2.0)).sum(axis=2)
     return bounded & (np.abs(squares - 1.0) < _TOLERANCE).all(axis=1)

@@ -194,7 +194,7 @@ def _function(node: YamlNode, folder: Path) -> tuple[Path, str]:
     file, _, name = node.text("function").rpartition(":")
     if not file or not name.isidentifier():
         node.fail(f"function must be FILE.py:FUNCTION, not {node.value!r}")
-    if not (folder / file).is_file():
+    if not os.path.isfile(folder / file):
         node.fail(f"function: there is no file {folder / file}")
     return folder / file, name
 

@@ -49,4 +49,4 @@ def description_path(node: YamlNode, folder: Path, what: str) -> str:
     """
     name = node.text(what)
     beside = folder / name
-    return str(beside) if "://" not in name and beside.exists() else name
+    return str(beside) if "://" not in name and os.path.exists(beside) else name
