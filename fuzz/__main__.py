@@ -37,10 +37,10 @@ def main() -> int:
     if not atheris_engine.is_installed():
         print("fuzz: Atheris is not installed: inputs are not guided by coverage", file=sys.stderr)
     built = sanitized.build() if not NATIVE.isdisjoint(names) else None
-    campaign = Campaign(args.out.absolute(), built, {} if built is None else sanitized.environment())
-    if args.input is not None:
-        return campaign.repeat(names[0], args.input.absolute())
-    campaign.run(names, args.seconds, args.jobs)
+    with Campaign(args.out.absolute(), built, {} if built is None else sanitized.environment()) as campaign:
+        if args.input is not None:
+            return campaign.repeat(names[0], args.input.absolute())
+        campaign.run(names, args.seconds, args.jobs)
     for name in sorted(campaign.found):
         print((args.out / "findings" / name / "report.txt").read_text(errors="replace").split("\n\n")[0])
     print(f"fuzz: {len(campaign.found)} findings in {args.out / 'findings'}; figures in {args.out / 'summary.json'}")

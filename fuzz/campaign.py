@@ -15,6 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Self
 
 from .catalog import NATIVE
 from .findings import Findings
@@ -49,7 +50,7 @@ class Turn:
 
 
 class Campaign:
-    """A run over targets; its files are in one folder."""
+    """A run over targets; its files are in one folder. Use it in a `with` statement."""
 
     def __init__(self, out: Path, sanitized: Path | None, sanitizers: dict[str, str]) -> None:
         """Create.
@@ -66,6 +67,12 @@ class Campaign:
         self._lock = threading.Lock()
         self.found: dict[str, int] = {}
         """Name of each finding → number of inputs, in this run."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._run.cleanup()
 
     def run(self, names: Sequence[str], seconds: float, jobs: int) -> None:
         """Give every target the same time, in turns."""

@@ -78,8 +78,8 @@ def test_a_damaged_file_is_read_or_refused_in_a_sentence(tmp_path: Path, name: s
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SERVERS)
 def test_a_server_withstands_its_seeds_and_damaged_ones(tmp_path: Path, name: str) -> None:
-    campaign = Campaign(tmp_path, None, {})
-    campaign.run([name], 3.0, 1)
+    with Campaign(tmp_path, None, {}) as campaign:
+        campaign.run([name], 3.0, 1)
 
     assert campaign.found == {}
     assert json.loads((tmp_path / "summary.json").read_text())[name]["executions"] >= len(load_target(name).seeds())
@@ -88,8 +88,8 @@ def test_a_server_withstands_its_seeds_and_damaged_ones(tmp_path: Path, name: st
 @pytest.mark.slow
 def test_a_run_counts_what_it_did_and_the_next_one_adds_to_it(tmp_path: Path) -> None:
     for runs in (1, 2):
-        campaign = Campaign(tmp_path, None, {})
-        campaign.run(["state-log", "map"], 4.0, 2)
+        with Campaign(tmp_path, None, {}) as campaign:
+            campaign.run(["state-log", "map"], 4.0, 2)
 
         summary = json.loads((tmp_path / "summary.json").read_text())
         assert campaign.found == {}
