@@ -155,8 +155,8 @@ BROKEN = [
     ("<horizontal_fov>nan</horizontal_fov>", "1.047 is used"),
     ("<clip><near>5</near><far>5</far></clip>", "clip near 5, far 5 shows nothing; 0.1 and 100 are used"),
     ("<horizontal_fov>1e-300</horizontal_fov>", "horizontal_fov 1e-300 rad is not possible; 1.047 is used"),
-    ("<clip><near>1</near><far>1e300</far></clip>", "clip near 1, far 1e+300 shows nothing; 0.1 and 100 are used"),
-    ("<distortion><k1>1e300</k1></distortion>", "coefficients and a center beyond 1e+06 are not possible"),
+    ("<clip><near>1</near><far>1e17</far></clip>", "clip near 1, far 1e+17 shows nothing; 0.1 and 100 are used"),
+    ("<distortion><k1>1e17</k1></distortion>", "coefficients and a center beyond 1e+06 are not possible"),
     ("<lens><intrinsics><cx>1e9</cx></intrinsics></lens>", "cx 1e+09, cy 120, s 0 pixels show nothing"),
     ("<image><format>PINK</format></image>", "no image format PINK"),
     ("<pose>nan 0 0 0 0 0</pose>", "the identity is used"),
@@ -191,7 +191,7 @@ def test_what_is_seen_through_a_strange_lens_is_no_larger_than_a_picture_may_be(
     assert max(face.width_px, face.height_px) <= 16384
 
 
-@pytest.mark.parametrize("inside", ["<c1>1e-9</c1>", "<c2>1e300</c2>", "<f>0</f>", "<c3>1e9</c3>", "<fun>cosh</fun>"])
+@pytest.mark.parametrize("inside", ["<c1>1e-9</c1>", "<c2>1e17</c2>", "<f>0</f>", "<c3>1e9</c3>", "<fun>cosh</fun>"])
 def test_a_custom_lens_that_cannot_be_is_mended_aloud(described: Any, inside: str) -> None:
     lens = f"<lens><type>custom</type><custom_function>{inside}</custom_function></lens>"
     sim = described(eye("wideanglecamera", cameras=f"<camera>{lens}</camera>"))

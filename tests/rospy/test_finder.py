@@ -59,7 +59,7 @@ def test_another_python_of_the_same_version_keeps_its_libraries(tmp_path: Path) 
         ("cv2.aruco", f"no module 'cv2' in this Python; {sys.executable} -m pip install opencv-python"),
         ("no_such_library", f"{sys.executable} -m pip install no_such_library"),
         ("PyQt4", "it ended with Python 2; PyQt5 is its successor"),
-        ("robotnik_msgs", "'robotnik_msgs' is a ROS package: trundle pack get robotnik_msgs"),
+        ("summit_xl_pad", "'summit_xl_pad' is a ROS package: trundle pack get summit_xl_pad"),
     ],
 )
 def test_a_missing_module_is_told_where_it_comes_from(module: str, advice: str) -> None:

@@ -37,7 +37,7 @@ def test_gazebo_and_rviz_are_on_one_page(start: Any, until: Any, launch: str, en
     port = env["ROS_MASTER_URI"].rpartition(":")[2]
     running = start("launch", launch, "--port", port, "--view-port", "0")
     until("the table", lambda: "WHAT RUNS" in running.output() and "  page " in running.output())
-    urls = set(re.findall(r"http://127\.0\.0\.1:\d+(?!\d)(?!/)", running.output()))
+    urls = set(re.findall(r"http://127\.0\.0\.1:\d+/\?token=[\w-]+", running.output()))
     assert len(urls) == 1, running.output()
     with ProtocolClient(urls.pop()) as client:
         for topic in ("trundle/world", "trundle/session", "trundle/state"):

@@ -23,7 +23,7 @@ def test_a_recorded_run_is_played_on_a_page(start, trundle, until, tmp_path) -> 
 
     playing = start("play", str(log), "--pause")
     until("the page", lambda: "see it at" in playing.output())
-    found = re.search(r"see it at (http://127\.0\.0\.1:\d+)", playing.output())
+    found = re.search(r"see it at (http://127\.0\.0\.1:\d+/\?token=[\w-]+)", playing.output())
     assert found is not None
     with urllib.request.urlopen(found[1], timeout=10) as page:
         assert page.status == 200
