@@ -309,3 +309,16 @@ def test_comments_of_a_manifest_do_not_name_the_package(tmp_path: Path) -> None:
 
     assert packages.find_package("new") == tmp_path / "src/folder"
     assert packages.find_package("old") is None
+
+
+def test_a_name_with_a_slip_is_told_the_nearest(tmp_path: Path) -> None:
+    for name in ("arm_description", "hand"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=tmp_path)
+
+    assert packages.why_not_found("arm_descripton").startswith(
+        "no package 'arm_descripton' (did you mean 'arm_description'?); looked below "
+    )
+    with pytest.raises(UsageError, match=r"no model 'rp2' \(did you mean 'rp2w'\?\); looked in "):
+        packages.find_model("rp2")

@@ -1,11 +1,12 @@
 """Nodes of a launch that nothing can run."""
 
+import shlex
 import socket
 from collections.abc import Iterable, Mapping
 
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode
-from trundle.nodes import MissingNode, find_node
+from trundle.nodes import BuiltinReplacement, Executable, MissingNode, find_node
 from trundle.packages import Packages
 
 
@@ -16,14 +17,29 @@ def report_missing_nodes(
     for node in nodes:
         if node.address is None or not is_here(node.address, env):
             continue
-        found = find_node(
-            node.package, node.type, packages.find_package, env={**env, **dict(node.env)}, arguments=node.arguments
-        )
+        found = find_launch_node(node, packages, {**env, **dict(node.env)})
         if isinstance(found, MissingNode):
             try:
                 report_missing_node(node, found.why, report, is_required=node.required)
             except DescriptionError as error:
                 report.error(error)
+
+
+def find_launch_node(
+    node: LaunchNode, packages: Packages, env: Mapping[str, str]
+) -> Executable | BuiltinReplacement | MissingNode:
+    """Find a node of a launch; advice to run it elsewhere gives it its name, arguments and remappings."""
+    namespace = () if node.namespace == "/" else (f"__ns:={node.namespace}",)
+    remappings = (f"{there}:={here}" for there, here in node.remappings)
+    words = (*_split(node.arguments), *remappings, f"__name:={node.name}", *namespace)
+    return find_node(node.package, node.type, packages.find_package, env=env, arguments=node.arguments, words=words)
+
+
+def _split(arguments: str) -> list[str]:
+    try:
+        return shlex.split(arguments)
+    except ValueError:  # an open quote, which is reported when the node is started
+        return arguments.split()
 
 
 def report_missing_node(node: LaunchNode, why: str, report: Diagnostics, *, is_required: bool) -> None:

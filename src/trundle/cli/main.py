@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from trundle import __version__
-from trundle.diagnostics import TrundleError
+from trundle.diagnostics import TrundleError, nearest
 from trundle.names import Arguments, parse_arguments
 from trundle.shortage import shortage
 
@@ -122,7 +122,9 @@ def _main(arguments: list[str]) -> int:
         return EXIT_OK
     name = arguments[0]
     if name not in COMMANDS:
-        print(f"trundle: no command {name!r}; commands: {', '.join(COMMANDS)}", file=sys.stderr)
+        near = nearest(name, COMMANDS)
+        meant = f"; did you mean {near!r}?" if near else "."
+        print(f"trundle: no command {name!r}{meant} Commands: {', '.join(COMMANDS)}", file=sys.stderr)
         return EXIT_USAGE
     return _run(name, arguments[1:], program=f"trundle {name}")
 

@@ -3,7 +3,7 @@
 import importlib
 import os
 import shlex
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, cast
@@ -55,7 +55,13 @@ class MissingNode:
 
 
 def find_node(
-    package: str, type_name: str, find_package: FindPackage, *, env: Mapping[str, str], arguments: str = ""
+    package: str,
+    type_name: str,
+    find_package: FindPackage,
+    *,
+    env: Mapping[str, str],
+    arguments: str = "",
+    words: Sequence[str] = (),
 ) -> Executable | BuiltinReplacement | MissingNode:
     """Find a node: an executable in the package's folder, a built-in replacement, or a program in a build folder.
 
@@ -68,6 +74,7 @@ def find_node(
         find_package: returns a package's folder.
         env: environment of the process.
         arguments: command line, which names a nodelet's class.
+        words: command line with the node's remappings and name, for advice to run the real node elsewhere.
     """
     target = BUILTIN_NODES.get((package, type_name))
     if target is not None and package in OURS_ALWAYS:
@@ -90,23 +97,27 @@ def find_node(
         return Executable(plain) if is_script(plain) else MissingNode(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
     if way_out.endswith(OVER_THE_WIRE):
-        way_out = f"{way_out}: {package_in_container(package, f'rosrun {package} {type_name}', env)}"
+        way_out = f"{way_out}: {package_in_container(package, _rosrun(package, type_name, words), env)}"
     if folder is not None:
         why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
-        return MissingNode(f"{why}{_to_compile(folder, package, type_name, env)}{way_out}")
+        return MissingNode(f"{why}{_to_compile(folder, package, type_name, env, words)}{way_out}")
     known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
 
 
-def _to_compile(folder: Path, package: str, name: str, env: Mapping[str, str]) -> str:
+def _rosrun(package: str, name: str, words: Sequence[str]) -> str:
+    return shlex.join(["rosrun", package, name, *words])
+
+
+def _to_compile(folder: Path, package: str, name: str, env: Mapping[str, str], words: Sequence[str]) -> str:
     """Hint to append for a missing program that its package's CMakeLists.txt builds."""
     program = next((each for each in cmake_programs(folder) if each.name == name), None)
     if program is None:
         return ""
     sources = ", ".join(program.sources[:_SOURCES_NAMED]) + (", …" if len(program.sources) > _SOURCES_NAMED else "")
     target = f" (target {program.target!r})" if program.target != name else ""
-    line = source_in_container(folder, f"rosrun {package} {name}", env)
+    line = source_in_container(folder, _rosrun(package, name, words), env)
     where = f"{program.file}:{program.line}"
     built = f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
     return f"{built}, here or in a container: {line}"

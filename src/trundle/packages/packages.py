@@ -6,7 +6,7 @@ from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
-from trundle.diagnostics import DescriptionError, Source, UsageError
+from trundle.diagnostics import DescriptionError, Source, UsageError, nearest
 from trundle.files import is_stream
 from trundle.repositories import repository_hint
 
@@ -28,6 +28,8 @@ HELD = ".held"
 _LONGEST = 200
 """Longest name or URI in a message."""
 _MAX_NAMED = 3
+_MAX_SLIP = 2
+"""Most letters by which a name that was meant is longer or shorter."""
 
 
 class Packages:
@@ -107,7 +109,7 @@ class Packages:
             rest = f" and {len(passed_over) - _MAX_NAMED} more" if len(passed_over) > _MAX_NAMED else ""
             where += f", but not in {', '.join(passed_over[:_MAX_NAMED])}{rest}"
         where += "; put the folder that holds it on ROS_PACKAGE_PATH"
-        return f"no package {_shown(name)!r}; {where}{repository_hint(name)}"
+        return f"no package {_shown(name)!r}{_meant(name, self._ros.all())}; {where}{repository_hint(name)}"
 
     def find_model(self, name: str) -> Path:
         """Return the folder of `model://name`.
@@ -117,7 +119,7 @@ class Packages:
         """
         folder = self._gazebo.find_model(name)
         if folder is None:
-            raise UsageError(f"no model {_shown(name)!r}; {self._where_models_are()}")
+            raise UsageError(f"no model {_shown(name)!r}{_meant(name, self.models())}; {self._where_models_are()}")
         return folder
 
     def add_models(self, folder: Path) -> None:
@@ -253,7 +255,7 @@ class Packages:
         folder = package or self._gazebo.find_model(name) or self.find_package(name)
         if folder is not None:
             return folder, folder / inside
-        no_model = f"no model {_shown(name)!r}; {self._where_models_are()}"
+        no_model = f"no model {_shown(name)!r}{_meant(name, self.models())}; {self._where_models_are()}"
         looked = self.why_not_found(name) if scheme == "package" else no_model
         raise DescriptionError(at, f"{_shown(uri)}: {looked}")
 
@@ -273,6 +275,11 @@ class Packages:
     def _where_models_are(self) -> str:
         looked = ", ".join(map(str, self._gazebo.model_folders))
         return f"looked in {looked}; put its folder's parent on GAZEBO_MODEL_PATH"
+
+
+def _meant(name: str, known: Mapping[str, Path]) -> str:
+    near = nearest(name, known)
+    return "" if near is None or abs(len(near) - len(name)) > _MAX_SLIP else f" (did you mean {near!r}?)"
 
 
 def _shown(name: str) -> str:

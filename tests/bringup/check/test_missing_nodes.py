@@ -49,3 +49,12 @@ def test_a_program_of_a_workspace_is_found(tmp_path: Path) -> None:
     (package / "drive.py").chmod(0o755)
 
     assert checked(package, '<node pkg="robot" type="drive.py" name="n"/>').report.findings == []
+
+
+def test_the_command_for_a_container_has_the_nodes_name_and_remappings(tmp_path: Path) -> None:
+    """Under its own name it would find none of the launch's private parameters."""
+    node = '<node pkg="move_base" type="move_base" name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'
+
+    (warning,) = checked(tmp_path, node).report.warnings
+
+    assert "rosrun move_base move_base -v a:=b __name:=planner __ns:=/r1" in warning

@@ -20,7 +20,6 @@ from trundle.nodes import (
     Executable,
     MissingNode,
     NodeHost,
-    find_node,
     run_builtin_node,
     script_fault,
     start_words,
@@ -32,7 +31,7 @@ from trundle.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, Res
 from trundle.yaml_loader import load_yaml
 
 from ..graph import Graph
-from ..missing_nodes import is_here, report_missing_node
+from ..missing_nodes import find_launch_node, is_here, report_missing_node
 from .logs import ros_home
 
 _TERMINALS = """
@@ -96,7 +95,7 @@ class NodeStarter:
         if env["ROS_NAMESPACE"] == "/":
             del env["ROS_NAMESPACE"]
         name = label.replace("/", "-")
-        match find_node(node.package, node.type, self.packages.find_package, env=env, arguments=node.arguments):
+        match find_launch_node(node, self.packages, env):
             case Executable(path):
                 if fault := script_fault(path):
                     self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")

@@ -29,11 +29,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("program", choices=("apt", "apt-get", "sudo"), help=argparse.SUPPRESS)
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="as for apt")
+    parser.set_defaults(print_help=parser.print_help)
 
 
 def main(args: argparse.Namespace) -> int:
     """Fetch what ROS packages are named, and pass the rest on."""
     program, words = args.program, args.words
+    if words[:1] in (["-h"], ["--help"]):
+        args.print_help()
+        return 0
     if program == "sudo":
         own = [word for word in words if word not in ("-E", "-H")]
         if own[:1] == ["rosdep"]:
