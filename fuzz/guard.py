@@ -1,4 +1,4 @@
-"""What no input may bring about: programs that start, connections to other machines, files written elsewhere."""
+"""Guard against side effects of inputs: started programs, connections to other machines, files written elsewhere."""
 
 import os
 import sys

@@ -21,7 +21,7 @@ from .seeds import picture, seed
 from .target import Execute, Open, Target, reads_file, write_file
 
 _CHECKED = 8
-"""Of so many accepted meshes one is compiled, too, which takes long; which one depends on the input alone."""
+"""Number of accepted meshes of which one is compiled, too; the input alone decides which."""
 _DAE_WORDS = (
     b"Y_UP", b"1e9", b"<scale>0 1 1</scale>", b"<skew>1 2 3 4 5 6 7</skew>", b"<lookat>0 0 0 0 0 0 0 0 0</lookat>",
     b"polygons", b"tristrips", b"trifans", b"lines", b"<instance_node url='#n1'/>", b"#quad-mesh", b"#p", b"NORMAL",

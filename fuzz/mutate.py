@@ -31,7 +31,7 @@ Edit = Callable[[bytes, "Pool", Random], bytes]
 
 
 class Pool:
-    """What mutations put in: words, and other inputs."""
+    """Material of mutations: words, and other inputs."""
 
     def __init__(self, words: Sequence[bytes], inputs: Sequence[bytes]) -> None:
         """Keep words of the format, and inputs, which may not be none."""
