@@ -43,7 +43,7 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
             said += capfd.readouterr().err
             return text in said
 
-        until(lambda: has_said("/talker goes on without it"))
+        until(lambda: has_said("/talker goes on without it") and has_said("/listener goes on without it"))
         publisher.publish({"data": "without"})
         until(lambda: got == ["without"])
         with GraphLoop() as mastering:
@@ -70,6 +70,7 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
             late = Node("late", loop=mastering, master_uri=uri, rosout=False)
             late.advertise("/a", STRING, latch=True).publish({"data": "late"})
             until(lambda: got[-1] == "late")
+            assert not has_said("/late goes on without it")
             assert said.count("goes on without it") == 2
             talking.stop()
             listening.stop()
