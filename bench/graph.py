@@ -10,9 +10,10 @@ import tempfile
 import time
 from collections.abc import Callable, Generator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from bench.table import Row
 from trundle.ros import Core, GraphLoop, Node
@@ -29,25 +30,37 @@ _BYTECODE = tempfile.TemporaryDirectory()
 
 
 def run() -> list[Row]:
-    """Run pairs of processes, of one interpreter if possible; without Debian's rospy there are no ratios."""
+    """Run pairs of processes, of one interpreter if possible; without Debian's rospy there are no ratios.
+
+    Both publish with the same queue_size. None is synchronous in rospy; of a queue of a size the messages that arrive
+    count, while the publisher goes on.
+    """
     return [
-        _row("Twist, flat out", "messages/s", lambda end, _: _rate(end, _TWIST, 30_000)),
-        _row("Twist in one process", "messages/s", lambda end, own: _rate(end, _TWIST, 30_000, one=own)),
-        _row("Image 320x240, flat out", "messages/s", lambda end, _: _rate(end, _IMAGE, 3000)),
+        *_flat_out("", _ours),
+        _row("Twist in one process", "messages/s", lambda end, own: _flow(end, _TWIST, 30_000, one=own).rate),
         _row("Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end)),
-        *_rospy_rows(),
+        *_flat_out("rospy, ", _modules),
+        _row("rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end), own=_modules),
+        _row("rospy, start of a node to its first message", "s", lambda end, _: _first_message(end), own=_modules),
         _row("topic list, start to exit", "s", lambda _, own: _topic_list(own), against="rostopic list"),
     ]
 
 
-def _rospy_rows() -> list[Row]:
-    """Measure Trundle's rospy, with the same program."""
-    return [
-        _row("rospy, Twist, flat out", "messages/s", lambda end, _: _rate(end, _TWIST, 30_000), own=_modules),
-        _row("rospy, Image 320x240, flat out", "messages/s", lambda end, _: _rate(end, _IMAGE, 3000), own=_modules),
-        _row("rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end), own=_modules),
-        _row("rospy, start of a node to its first message", "s", lambda end, _: _first_message(end), own=_modules),
-    ]
+def _flat_out(title: str, own: Callable[[], list[str]]) -> list[Row]:
+    """Messages a second by queue_size, and the processor time of both ends in the same runs."""
+    rows: list[Row] = []
+    for kind, name, count, queues in (
+        (_TWIST, "Twist", 30_000, (None, 1, 10)),
+        (_IMAGE, "Image 320x240", 3000, (None, 10)),
+    ):
+        for queue in queues:
+            pairs = _pairs(lambda end, _, kind=kind, count=count, queue=queue: _flow(end, kind, count, queue), own)
+            for what, unit, figures in (
+                ("", "messages/s", [[flow.rate for flow in pair] for pair in pairs]),
+                (", CPU of both ends", "µs", [[flow.cpu_us for flow in pair] for pair in pairs]),
+            ):
+                rows.append(_as_row(f"{title}{name}, queue_size {queue}{what}", unit, figures, "rospy, the same"))
+    return rows
 
 
 @contextmanager
@@ -90,26 +103,46 @@ def _row(
     against: str = "rospy",
     own: Callable[[], list[str]] = _ours,
 ) -> Row:
-    """Measure both in alternation, if rospy is installed."""
-    if not Path(_ROSTOPIC).exists():
-        return Row(name, statistics.median(measure(own(), True) for _ in range(_RUNS)), unit, "", None)
-    pairs = [(measure(own(), True), measure(_THEIRS, False)) for _ in range(_RUNS)]
-    ratio = statistics.median(own / other for own, other in pairs)
-    return Row(name, statistics.median(own for own, _ in pairs), unit, against, ratio)
+    return _as_row(name, unit, _pairs(measure, own), against)
 
 
-def _rate(end: Sequence[str], kind: str, count: int, *, one: bool = False) -> float:
-    """Rate from sending the first message to receiving the last [messages/s]."""
-    if one:
-        both = _ends(end, ["both"], kind, count, 0)[0]
-        return count / (both["end"] - both["start"])
-    heard, sent = _ends(end, ["sub", "pub"], kind, count, 0)
-    return count / (heard["end"] - sent["start"])
+_T = TypeVar("_T")
+
+
+def _pairs(measure: Callable[[Sequence[str], bool], _T], own: Callable[[], list[str]]) -> list[list[_T]]:
+    """Measure ours and rospy's in alternation; ours alone where rospy is not installed."""
+    ends = [(own(), True), (_THEIRS, False)] if Path(_ROSTOPIC).exists() else [(own(), True)]
+    return [[measure(end, is_own) for end, is_own in ends] for _ in range(_RUNS)]
+
+
+def _as_row(name: str, unit: str, pairs: Sequence[Sequence[float]], against: str) -> Row:
+    value = statistics.median(pair[0] for pair in pairs)
+    if len(pairs[0]) == 1:
+        return Row(name, value, unit, "", None)
+    return Row(name, value, unit, against, statistics.median(own / other for own, other in pairs))
+
+
+@dataclass(frozen=True, slots=True)
+class _Flow:
+    """Messages from a publisher to a subscriber, as fast as possible."""
+
+    rate: float
+    """[messages/s] That arrive."""
+    cpu_us: float
+    """[µs] Of both processes for each message that arrives."""
+
+
+def _flow(end: Sequence[str], kind: str, count: int, queue: int | None = None, *, one: bool = False) -> _Flow:
+    """Measure a flow from its first message to its last."""
+    ends = _ends(end, ["both"] if one else ["sub", "pub"], kind, count, 0, queue)
+    heard, sent = ends[0], ends[-1]
+    spent = heard["sub_cpu"] + (0.0 if one else sent["pub_cpu"])
+    return _Flow(count / (heard["end"] - sent["start"]), 1e6 * spent / count)
 
 
 def _age(end: Sequence[str]) -> float:
     """99th percentile of message ages at 1 kHz [ms]."""
-    ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000)[0]["ages"])
+    ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000, None)[0]["ages"])
     return ages[len(ages) * 99 // 100] * 1e3
 
 
@@ -120,7 +153,7 @@ def _first_message(end: Sequence[str]) -> float:
         waiting = Node("bench_waiting", loop=loop, master_uri=env["ROS_MASTER_URI"])
         waiting.subscribe("/bench", "*", lambda _: arrived.append(time.perf_counter()))
         loop.run(waiting.wait_registered())
-        command = [*end, "first", _TWIST, "1", "0"]
+        command = [*end, "first", _TWIST, "1", "0", "None"]
         start = time.perf_counter()
         with subprocess.Popen(command, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
             while not arrived:
@@ -130,7 +163,7 @@ def _first_message(end: Sequence[str]) -> float:
 
 
 def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict[str, Any]]:
-    """Run one process for each role; return their outputs."""
+    """Run one process for each role, subscribers first; return their outputs."""
     with _fresh_master() as env, ExitStack() as processes:
         started = [
             processes.enter_context(
@@ -141,7 +174,14 @@ def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict
             for role in roles
         ]
         try:
-            return [json.loads(process.stdout.readline()) for process in started if process.stdout is not None]
+            said: list[dict[str, Any]] = []
+            for process in started:  # a publisher after its subscriber, which has all it waits for
+                assert process.stdin is not None
+                assert process.stdout is not None
+                if said:
+                    process.stdin.close()
+                said.append(json.loads(process.stdout.readline()))
+            return said
         finally:
             for process in started:
                 process.kill()

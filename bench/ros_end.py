@@ -1,9 +1,10 @@
 """One end of a topic, over Trundle's graph or over rospy; `bench.graph` runs it as a program.
 
-usage: ros_end.py trundle|rospy|modules  pub|sub|both|first  Twist|Image  COUNT  RATE_HZ (0: flat out)
+usage: ros_end.py trundle|rospy|modules  pub|sub|both|first  TYPE  COUNT  RATE_HZ (0: flat out)  QUEUE_SIZE (None, 1 …)
 
-A subscriber prints one JSON object when it has COUNT messages, a publisher when it has sent them; stamps are
-`time.monotonic()`, which all processes of a machine share.
+A subscriber prints one JSON object when it has COUNT messages. A publisher prints one when it has sent them; with a
+queue of a size, which drops what is not sent in time, when its standard input is closed. Stamps are `time.monotonic()`,
+which all processes of a machine share.
 """
 
 import json
@@ -23,17 +24,18 @@ _PIXELS = bytes(320 * 240 * 3)
 class OverTrundle:
     """Trundle's own client library."""
 
-    def __init__(self, role: str) -> None:
+    def __init__(self, role: str, queue_size: int | None) -> None:
         _add_site()
         from trundle.ros import GraphLoop, Node
 
+        self._queue_size = queue_size
         self._loop = GraphLoop()
         self._loop.start()
         self._node = Node(f"bench_{role}", loop=self._loop, rosout=False)
 
     def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
         """Return functions that publish a message with a number, and check for a subscriber."""
-        publisher = self._node.advertise("/bench", kind, queue_size=None)
+        publisher = self._node.advertise("/bench", kind, queue_size=self._queue_size)
         new = self._node.new
         if kind == "sensor_msgs/Image":
             image, header, stamp = type(new(kind)), type(new("std_msgs/Header")), type(new(kind).header.stamp)
@@ -62,14 +64,15 @@ class OverTrundle:
 class OverRospy:
     """rospy."""
 
-    def __init__(self, role: str) -> None:
+    def __init__(self, role: str, queue_size: int | None) -> None:
+        self._queue_size = queue_size
         self._rospy: Any = import_module("rospy")
         self._rospy.init_node(f"bench_{role}", disable_signals=True, disable_rosout=True)
 
     def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
         """Return functions that publish a message with a number, and check for a subscriber."""
         cls = _rospy_type(kind)
-        publisher = self._rospy.Publisher("/bench", cls, queue_size=0)
+        publisher = self._rospy.Publisher("/bench", cls, queue_size=self._queue_size)
 
         def publish(number: float) -> None:
             if kind == "sensor_msgs/Image":
@@ -92,12 +95,12 @@ class OverRospy:
 class OverModules(OverRospy):
     """Trundle's rospy."""
 
-    def __init__(self, role: str) -> None:
+    def __init__(self, role: str, queue_size: int | None) -> None:
         _add_site()
         from trundle.rospy.finder import install
 
         install()
-        super().__init__(role)
+        super().__init__(role, queue_size)
 
 
 def _add_site() -> None:
@@ -110,19 +113,42 @@ def _rospy_type(kind: str) -> Any:
     return getattr(import_module(f"{package}.msg"), name)
 
 
+class Taker:
+    """Callback of a subscriber that counts messages after a first one, which warms up."""
+
+    def __init__(self, count: int, *, are_stamped: bool) -> None:
+        self._count, self._are_stamped = count, are_stamped
+        self._ages: list[float] = []
+        self._taken = -1
+        self._start = self._start_cpu = 0.0
+        self._done = threading.Event()
+
+    def __call__(self, message: Any) -> None:
+        """Take a message."""
+        self._taken += 1
+        if self._taken == 1:
+            self._start, self._start_cpu = time.monotonic(), time.process_time()
+        if self._are_stamped and self._taken:
+            self._ages.append(time.monotonic() - message.linear.x)
+        if self._taken == self._count:
+            self._done.set()
+
+    def result(self) -> dict[str, Any]:
+        """Return the ages, and the times from the first message to the last, once all are there."""
+        self._done.wait()
+        times = {"end": time.monotonic(), "first": self._start, "sub_cpu": time.process_time() - self._start_cpu}
+        return {**times, "ages": self._ages}
+
+
 def main() -> None:
     """Run the ends that the command line names."""
-    library, role, kind, count, rate_hz = sys.argv[1:]
-    end = {"trundle": OverTrundle, "rospy": OverRospy, "modules": OverModules}[library](role)
+    library, role, kind, count, rate_hz, queue = sys.argv[1:]
+    queue_size = None if queue == "None" else int(queue)
+    end = {"trundle": OverTrundle, "rospy": OverRospy, "modules": OverModules}[library](role, queue_size)
     total, period_s = int(count), 1 / float(rate_hz) if float(rate_hz) else 0.0
-    ages: list[float] = []
-    done = threading.Event()
-
-    def take(message: Any) -> None:
-        ages.append(time.monotonic() - message.linear.x if period_s else 0.0)
-        if len(ages) > total:
-            done.set()
-
+    take = Taker(total, are_stamped=bool(period_s))
+    closed = threading.Event()
+    threading.Thread(target=lambda: (sys.stdin.read(), closed.set()), daemon=True).start()
     said: dict[str, Any] = {}
     if role == "first":
         publish, is_heard = end.publisher(kind)
@@ -137,17 +163,26 @@ def main() -> None:
             time.sleep(0.01)
         publish(time.monotonic())  # the first one warms up
         time.sleep(_WARM_S)
-        said["start"] = due = time.monotonic()
-        for _ in range(total):
-            if period_s:
-                due += period_s
-                time.sleep(max(0.0, due - time.monotonic()))
-            publish(time.monotonic())
+        said |= _publish(publish, None if queue_size else total, period_s, closed)
     if role in ("sub", "both"):
-        done.wait()
-        said |= {"end": time.monotonic(), "ages": ages[1:] if period_s else []}
+        said |= take.result()
     print(json.dumps(said), flush=True)
-    sys.stdin.read()  # stay until the parent process has its result
+    closed.wait()  # stay until the parent process has its result
+
+
+def _publish(
+    publish: Callable[[float], None], total: int | None, period_s: float, closed: threading.Event
+) -> dict[str, float]:
+    """Publish as many messages, or until the standard input is closed; return start and CPU time [s]."""
+    start, cpu = time.monotonic(), time.process_time()
+    due, sent = start, 0
+    while sent != total and not closed.is_set():
+        if period_s:
+            due += period_s
+            time.sleep(max(0.0, due - time.monotonic()))
+        publish(time.monotonic())
+        sent += 1
+    return {"start": start, "pub_cpu": time.process_time() - cpu, "sent": sent}
 
 
 if __name__ == "__main__":

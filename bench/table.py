@@ -13,14 +13,14 @@ class Row:
     """None: not measured; the unit says why."""
     unit: str
     against: str
-    """Peer, measured in the same run; empty: none."""
+    """Peer and its options, measured in the same run; empty: none."""
     ratio: float | None
     """Median of value over the peer's, pair by pair."""
 
 
 def print_table(rows: Sequence[Row]) -> None:
     """Print one line a row."""
-    width = max(len(row.name) for row in rows)
+    width = max((len(row.name) for row in rows), default=0)
     for row in rows:
         peer = "" if row.ratio is None else f"   {row.ratio:.3g} of {row.against}"
         value = "–" if row.value is None else f"{row.value:,.4g}"

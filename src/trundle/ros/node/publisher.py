@@ -117,6 +117,10 @@ class Publisher:
         if header is not None and hasattr(header, "seq"):
             self._sequence += 1
             header.seq = self._sequence
+        self._send(message)
+
+    def _send(self, message: Any) -> None:
+        """Send a checked message at once if possible, else on the loop."""
         if self._direct and self._send_at_once(message):
             return
         self._lost += len(self._outbox) == self._queue_size
@@ -258,7 +262,7 @@ class Publisher:
         Waking the loop takes longer than sending.
         """
         outs = self._direct
-        if threading.get_ident() in self._loop.own_threads or not self._turn.acquire(blocking=False):
+        if threading.get_ident() in self._loop.own_threads or not self._turn.acquire(False):
             return False
         try:
             if not outs or outs is not self._direct or self._flushes or self._outbox:

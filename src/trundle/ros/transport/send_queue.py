@@ -85,14 +85,15 @@ class SendQueue:
 
     def try_send(self, frame: Pieces) -> bool:
         """Write one short frame directly, bypassing the queue (usual); thread-safe. False: nothing was written."""
-        size = len(frame[0]) if len(frame) == 1 else _size(frame)
-        if _WRITEV is None or (self.is_local and size >= LONG_BYTES):
+        is_whole = len(frame) == 1
+        size = len(frame[0]) if is_whole else _size(frame)
+        if _WRITEV is None or (size >= LONG_BYTES and self.is_local):
             return False
         with self._lock:
             if self.is_congested or self._is_closed:
                 return False
             try:
-                sent = _WRITEV(self._fd, frame)
+                sent = os.write(self._fd, frame[0]) if is_whole else _WRITEV(self._fd, frame)
             except OSError:  # the queue will meet the error again
                 return False
             self.bytes_sent += sent

@@ -112,7 +112,7 @@ class Publication:
         with self._turn:
             if self.is_latch:
                 self.latch = message
-            elif not publisher.has_subscribers:
+            elif not publisher._wanted:
                 return
             self.seq += 1
             publisher.publish_frame(framed(self.seq, message))
@@ -187,11 +187,14 @@ class FramePublisher(GraphPublisher):
     @property
     def is_congested(self) -> bool:
         """True while every subscriber reads too slowly."""
+        for out in self._direct:  # usual, and called for every message
+            if not out.is_congested:
+                return False
         return self._subscriber_links.is_congested
 
     def publish_frame(self, pieces: Pieces) -> None:
-        """Send a serialized message; thread-safe."""
-        self.publish(pieces)  # pyright: ignore[reportArgumentType]
+        """Send a serialized message, where there are subscribers or messages are latched; thread-safe."""
+        self._send(pieces)
 
     def header_fields(self) -> dict[str, str]:
         return {**super().header_fields(), **self._publication.headers}
