@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from trundle.packages import CMakeProgram, cmake_programs
+from trundle.packages import CMakeProgram, cmake_libraries, cmake_programs
 
 TEXT = """cmake_minimum_required(VERSION 3.0)
 project(my_robot)  # add_executable(not_this src/no.cpp)
@@ -49,4 +49,33 @@ def test_a_package_without_a_cmake_file_builds_nothing(tmp_path: Path) -> None:
 def test_exponentially_growing_variables_are_given_up(tmp_path: Path) -> None:
     doubled = "set(A ${A} ${A} ${A}${A})\n" * 100
     (tmp_path / "CMakeLists.txt").write_text(f"set(A a)\n{doubled}add_executable(fly ${{A}})")
+    assert [program.name for program in cmake_programs(tmp_path)] == ["fly"]
+
+
+def test_targets_of_a_loop_over_files_have_their_names(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "file(GLOB NODES node/*.cpp)\n"
+        "foreach(_file ${NODES})\n"
+        "  get_filename_component(_name ${_file} NAME_WE)\n"
+        "  add_executable(${_name} ${_file})\n"
+        "endforeach()\n"
+        "foreach(each left right)\nadd_library(${each}_wheel ${PROJECT_SOURCE_DIR}/src/${each}.cpp)\nendforeach()\n"
+    )
+    (tmp_path / "node").mkdir()
+    for name in ("simulator", "keyboard"):
+        (tmp_path / f"node/{name}.cpp").touch()
+
+    assert [(each.name, each.sources, each.line) for each in cmake_programs(tmp_path)] == [
+        ("keyboard", ("node/keyboard.cpp",), 4),
+        ("simulator", ("node/simulator.cpp",), 4),
+    ]
+    assert [(each.name, each.sources) for each in cmake_libraries(tmp_path)] == [
+        ("left_wheel", ("src/left.cpp",)),
+        ("right_wheel", ("src/right.cpp",)),
+    ]
+
+
+def test_endless_loops_and_deep_blocks_are_given_up(tmp_path: Path) -> None:
+    loops = "foreach(i RANGE 9999)\n" * 3 + "set(A ${A}a)\n" + "endforeach()\n" * 3
+    (tmp_path / "CMakeLists.txt").write_text(f"add_executable(fly f.cpp)\n{'if(A)' * 5000}{loops}{'endif()' * 5000}")
     assert [program.name for program in cmake_programs(tmp_path)] == ["fly"]

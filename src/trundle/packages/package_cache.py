@@ -23,5 +23,7 @@ class PackageCache:
         """Unreadable folders, with the reason."""
         self.added_models: list[Path] = []
         """Folders of models that were added to the model path."""
+        self.configured: dict[Path, list[Path]] = {}
+        """Package folder → files that were written for it, as CMake's `configure_file` would."""
         self.exports: dict[Path, list[dict[str, str]]] = {}
         """Package folder → attributes of each exported <gazebo_ros>."""

@@ -10,6 +10,7 @@ from trundle.diagnostics import DescriptionError, Source, UsageError, nearest
 from trundle.files import is_stream
 from trundle.repositories import repository_hint
 
+from .configured_files import write_configured_files
 from .confinement import Confinement
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .package_cache import PackageCache
@@ -62,9 +63,12 @@ class Packages:
         """Return the folder of `$(find name)`.
 
         For a stock package that is not installed it does not exist; for a sensor description package it is Trundle's
-        substitute.
+        substitute. Files of the package that CMake would configure, and that are not there, are written first.
         """
-        found = self._ros.find(name) or DESCRIPTIONS.get(name)
+        found = self._ros.find(name)
+        if found is not None and found not in self._cache.configured and not found.is_relative_to(SHIPPED):
+            self._cache.configured[found] = write_configured_files(found, replace=False)
+        found = found or DESCRIPTIONS.get(name)
         return found or (SHIPPED / "ros" / name if name in STOCK else None)
 
     def stand_in_package(self, path: Path) -> str | None:
@@ -86,6 +90,11 @@ class Packages:
     def workspace_of(self, package: Path) -> Path | None:
         """Return the workspace around the start that contains a package, unless ROS_PACKAGE_PATH does."""
         return self._ros.workspace_of(package)
+
+    @property
+    def configured_files(self) -> list[Path]:
+        """Files that `find_folder` wrote."""
+        return [path for written in self._cache.configured.values() for path in written]
 
     def skipped_folders(self) -> Mapping[Path, str]:
         """Return the folders skipped by the search, with the reason."""

@@ -84,6 +84,8 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
         env=env,
         namespace="/" + (request.namespace or env.get("ROS_NAMESPACE", "")).strip("/"),
     )
+    for path in packages.configured_files:
+        show.line(f"wrote {path} from its template, as catkin_make does")
     show.findings()
     if options.only is not None and options.only != "params":
         print(_printed(options, plan, packages, env))

@@ -57,7 +57,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         )
     if len(rest) == 1:
         raise UsageError(f"no such file: {rest[0]}")
-    package = packages.find_package(rest[0])
+    package = packages.find_package(rest[0]) and packages.find_folder(rest[0])
     if package is None:
         what = f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either"
         raise UsageError(what, missing_packages=(rest[0],))

@@ -45,6 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Write the devel space; C++ is named, and not built."""
     from trundle.catkin import init_workspace, open_workspace, report_package, write_devel_space
+    from trundle.packages import write_configured_files
 
     given = [f"-D{each}" for each in args.definitions] + args.cmake_args
     base = Path(os.path.abspath(os.path.join(os.environ.get("PWD", "."), args.directory)))
@@ -66,6 +67,8 @@ def main(args: argparse.Namespace) -> int:
     unbuilt: list[CppTarget] = []
     for name, folder in packages.items():
         print(f"-- +++ processing catkin package: '{name}'")
+        for path in write_configured_files(folder, replace=True):
+            print(f"--   configured: {os.path.relpath(path, workspace.base)}")
         build = report_package(name, folder, os.environ)
         print("\n".join(_lines(build, workspace)))
         unbuilt += [target for target in build.targets if target.built is None]
