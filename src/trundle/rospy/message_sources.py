@@ -1,12 +1,12 @@
 """Message, service and action definitions of a package: shipped ones first, then the package's own, then published."""
 
-import os
 from collections.abc import Iterator
 from functools import cache, cached_property
 from pathlib import Path
 
 from trundle.files import read_text
 from trundle.ros.errors import MessageError
+from trundle.ros.messages.definition_files import definition_files
 from trundle.ros.messages.definition_search import (
     MAX_CHARACTERS,
     published_definitions,
@@ -58,12 +58,7 @@ class DefinitionFolder:
         return None if path is None else _read(path)
 
     def _files(self, kind: str) -> list[tuple[str, Path]]:
-        folder = self._folder / kind
-        try:
-            names = sorted(os.listdir(folder))
-        except OSError:
-            return []
-        return [(name.removesuffix(f".{kind}"), folder / name) for name in names if name.endswith(f".{kind}")]
+        return [(path.stem, path) for path in definition_files(self._folder, kind)]
 
 
 class PublishedDefinitions:

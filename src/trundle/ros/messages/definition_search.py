@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 from trundle.files import read_text
 
+from .definition_files import definition_files
+
 _SHIPPED = Path(__file__).parents[1] / "definitions"
 _PUBLISHED = Path(__file__).parents[1] / "published"
 """Folder of a file for each package; its definitions begin with `MSG: `, `SRV: ` or `ACTION: ` and their name."""
@@ -139,7 +141,7 @@ class Definitions:
 
     def _files(self, package: str, folder: Path, kind: str) -> Iterator[tuple[str, Path, str]]:
         """Read the files of a kind; an unreadable one is recorded and skipped."""
-        for path in sorted(folder.glob(f"{kind}/*.{kind}")):
+        for path in definition_files(folder, kind):
             name = f"{package}/{path.stem}"
             try:
                 yield name, path, read_text(path, max_bytes=MAX_CHARACTERS)
