@@ -6,7 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from trundle.packages import CMakeProgram, cmake_libraries, cmake_programs, cmake_requirements, program_folders
+from trundle.packages import (
+    CMakeProgram,
+    cmake_libraries,
+    cmake_programs,
+    cmake_requirements,
+    compiled_fault,
+    program_folders,
+)
 
 _SOURCES = (".cpp", ".cc", ".cxx", ".c", ".c++")
 _KINDS = {
@@ -31,6 +38,8 @@ class CppTarget:
     is_library: bool
     built: Path | None
     """The compiled program or library; None: it is not built."""
+    fault: str | None
+    """Reason why this machine cannot load what is built."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,10 +65,10 @@ def report_package(name: str, folder: Path, environment: Mapping[str, str]) -> P
     homes = program_folders(name, folder, environment)
     shared = [home.parent for home in homes] + [Path(prefix, "lib") for prefix in prefixes]
     programs = [
-        CppTarget(target=each, is_library=False, built=_existing(homes, each.name)) for each in cmake_programs(folder)
+        _target(each, _existing(homes, each.name), environment, is_library=False) for each in cmake_programs(folder)
     ]
     libraries = [
-        CppTarget(target=each, is_library=True, built=_existing(shared, f"lib{each.name}.so"))
+        _target(each, _existing(shared, f"lib{each.name}.so"), environment, is_library=True)
         for each in cmake_libraries(folder)
         if any(source.endswith(_SOURCES) or "*" in source for source in each.sources)
     ]
@@ -69,6 +78,11 @@ def report_package(name: str, folder: Path, environment: Mapping[str, str]) -> P
         targets=(*programs, *libraries),
         missing=tuple(each for each in required if not _is_installed(each, [*prefixes, "/usr"])),
     )
+
+
+def _target(target: CMakeProgram, built: Path | None, environment: Mapping[str, str], *, is_library: bool) -> CppTarget:
+    fault = None if built is None else compiled_fault(built, environment)
+    return CppTarget(target=target, is_library=is_library, built=built, fault=fault)
 
 
 def _script(file: Path) -> str | None:

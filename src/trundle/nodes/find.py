@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, cast
 
-from trundle.packages import cmake_programs, package_in_container, program_folders, source_in_container
+from trundle.packages import cmake_programs, compiled_fault, package_in_container, program_folders, source_in_container
 from trundle.ros import Node
 
 from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
@@ -81,25 +81,31 @@ def find_node(
         return BuiltinReplacement(target)
     folder = find_package(package)
     plain: Path | None = None
+    faults: list[str] = []
+    """Programs that cannot run here, with the reason."""
     if folder is not None:
         for path in _files(folder, type_name):
             if not os.access(path, os.X_OK):
                 plain = plain or path
+            elif fault := compiled_fault(path, env):
+                faults.append(f"{path} was built on another machine: {fault}")
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
         missing = _nodelet(arguments, find_package, env) if type_name == "nodelet" else None
         return missing or BuiltinReplacement(target)
-    built = None if folder is None else _built(package, type_name, folder, env)
-    if built is not None:
-        return Executable(built)
+    for built in () if folder is None else _built(package, type_name, folder, env):
+        if (fault := compiled_fault(built, env)) is None:
+            return Executable(built)
+        faults.append(f"{built} was built on another machine: {fault}")
     if plain is not None:
         return Executable(plain) if is_script(plain) else MissingNode(f"{plain} is not executable; run chmod +x on it")
     way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
     if way_out.endswith(OVER_THE_WIRE):
         way_out = f"{way_out}: {package_in_container(package, _rosrun(package, type_name, words), env)}"
     if folder is not None:
-        why = f"no executable {type_name!r} in {folder}, and no stand-in for {package}/{type_name}"
+        why = faults[0] if faults else f"no executable {type_name!r} in {folder}"
+        why = f"{why}, and no stand-in for {package}/{type_name}"
         return MissingNode(f"{why}{_to_compile(folder, package, type_name, env, words)}{way_out}")
     known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
@@ -146,10 +152,10 @@ def _nodelet(arguments: str, find_package: FindPackage, env: Mapping[str, str]) 
             return None
 
 
-def _built(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Path | None:
-    """Program installed by catkin or colcon outside the package's folder."""
+def _built(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Iterator[Path]:
+    """Programs installed by catkin or colcon outside the package's folder."""
     paths = (path for home in program_folders(package, folder, env) for path in _files(home, name))
-    return next((path for path in paths if os.access(path, os.X_OK)), None)
+    return (path for path in paths if os.access(path, os.X_OK))
 
 
 def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) -> set[str]:

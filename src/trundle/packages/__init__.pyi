@@ -3,6 +3,7 @@ from .cmake import cmake_libraries as cmake_libraries
 from .cmake import cmake_message_folders as cmake_message_folders
 from .cmake import cmake_programs as cmake_programs
 from .cmake import cmake_requirements as cmake_requirements
+from .compiled_program import compiled_fault as compiled_fault
 from .configured_files import write_configured_files as write_configured_files
 from .container import package_in_container as package_in_container
 from .container import source_in_container as source_in_container

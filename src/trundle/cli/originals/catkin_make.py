@@ -71,7 +71,7 @@ def main(args: argparse.Namespace) -> int:
             print(f"--   configured: {os.path.relpath(path, workspace.base)}")
         build = report_package(name, folder, os.environ)
         print("\n".join(_lines(build, workspace)))
-        unbuilt += [target for target in build.targets if target.built is None]
+        unbuilt += [target for target in build.targets if target.built is None or target.fault is not None]
     for target in args.targets:
         print(f"-- target {target!r} is not run: nothing is compiled here", file=sys.stderr)
     if unbuilt:
@@ -101,6 +101,7 @@ def _lines(build: "PackageBuild", workspace: "Workspace") -> list[str]:
         kind = "library" if each.is_library else "program"
         where = f"{os.path.relpath(each.target.file, workspace.base)}:{each.target.line}"
         state = f"built: {each.built}" if each.built is not None else "C++, not built"
+        state += f", but not for this machine: {each.fault}" if each.fault is not None else ""
         lines.append(f"--   {kind} {each.target.name} ({', '.join(each.target.sources)}; {where}): {state}")
     if build.missing and any(each.built is None for each in build.targets):
         lines.append(f"--   to build it, CMake has to find {', '.join(build.missing)}, which this machine lacks")
