@@ -91,7 +91,7 @@ class RosFinder:
 
 
 def install() -> None:
-    """Append the finder, and advice to the traceback of a missing module; once."""
+    """Append the finder, and advice to tracebacks of missing modules and Python 2 programs; once."""
     if any(isinstance(finder, RosFinder) for finder in sys.meta_path):
         return
     sys.meta_path.append(RosFinder())
@@ -99,10 +99,11 @@ def install() -> None:
 
     def advise(kind: type[BaseException], error: BaseException, trace: "TracebackType | None") -> None:
         before(kind, error, trace)
-        if isinstance(error, ModuleNotFoundError) and error.name:
-            from .missing_libraries import missing_module_advice
+        if isinstance(error, Exception):
+            from .missing_libraries import advice
 
-            sys.stderr.write(f"{missing_module_advice(error.name)}\n")
+            if (line := advice(error)) is not None:
+                sys.stderr.write(f"{line}\n")
 
     sys.excepthook = advise
 

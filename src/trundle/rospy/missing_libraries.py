@@ -32,6 +32,15 @@ _OF_THE_SYSTEM = {
 }
 
 
+def advice(error: Exception) -> str | None:
+    """Return how to go on after the error that ended a program; None if nothing is known."""
+    from .python2.advice import python2_advice
+
+    if (line := python2_advice(error)) is not None:
+        return line
+    return missing_module_advice(error.name) if isinstance(error, ModuleNotFoundError) and error.name else None
+
+
 def missing_module_advice(module: str) -> str:
     """Return what brings a module that is not found."""
     name = module.partition(".")[0]
