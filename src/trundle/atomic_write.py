@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from .diagnostics import UsageError
+from .file_lock import FileLock
 
 
 def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool = True) -> None:
@@ -25,12 +26,11 @@ def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool =
             with path.open("wb") as file:
                 _fill(file, content)
         else:
-            _write(path.resolve(), content, replace=replace)
-    except FileExistsError:
-        if not replace:
-            raise
-        raise UsageError(f"cannot write {path}: another program writes it") from None
+            with FileLock(path):
+                _write(path.resolve(), content, replace=replace)
     except OSError as error:
+        if isinstance(error, FileExistsError) and not replace:
+            raise
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
@@ -48,16 +48,17 @@ def replaced_atomically(path: Path) -> Generator[Path]:
         return
     path = path.resolve()
     half = path.with_name(f".{path.stem}.part{path.suffix}")
-    half.unlink(missing_ok=True)
-    half.open("xb").close()  # no link that another user placed
-    try:
-        yield half
-        if path.exists():
-            shutil.copymode(path, half)
-        os.replace(half, path)
-    except BaseException:
+    with FileLock(path):
         half.unlink(missing_ok=True)
-        raise
+        half.open("xb").close()  # no link that another user placed
+        try:
+            yield half
+            if path.exists():
+                shutil.copymode(path, half)
+            os.replace(half, path)
+        except BaseException:
+            half.unlink(missing_ok=True)
+            raise
 
 
 def _write(path: Path, content: str | bytes | Path, *, replace: bool) -> None:

@@ -241,6 +241,29 @@ print([m.message.data for m in rosbag.Bag(path)])
     assert [each.name for each in tmp_path.iterdir() if each.suffix == ".bag"] == ["a.bag"]
 
 
+def test_a_bag_that_is_written_is_not_overwritten(tmp_path: Path) -> None:
+    """Of two at once, the original makes one file that neither reads."""
+    code = f"""
+import genpy, rosbag
+from std_msgs.msg import String
+path = {str(tmp_path / "a.bag")!r}
+first = rosbag.Bag(path, "w")
+first.write("/a", String("one"), genpy.Time(1))
+for mode in "wa":
+    try:
+        rosbag.Bag(path, mode)
+    except OSError as error:
+        print("writes it: end that, or choose another name" in str(error))
+first.close()
+print([m.message.data for m in rosbag.Bag(path)])
+left = rosbag.Bag(path, "w")
+left = None
+rosbag.Bag(path, "w").close()
+"""
+    assert _run(code, tmp_path).splitlines() == ["True", "True", "['one']"]
+    assert [each.name for each in tmp_path.iterdir() if "a.bag" in each.name] == ["a.bag"]
+
+
 def test_an_encrypted_bag_is_refused_with_the_way_out(tmp_path: Path) -> None:
     code = f"""
 import struct, genpy, rosbag

@@ -405,6 +405,28 @@ def test_a_launch_is_like_the_distribution_asked_for(
     assert re.findall(r"/tf\w*", topics) == [topic]
 
 
+@pytest.mark.parametrize("words", [(), ("--speed", "max")])
+def test_a_launch_does_not_overwrite_what_another_records(
+    start, trundle, until, package: Path, tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    """Both in step with the simulation and beside other programs."""
+    (package / "main.launch").write_text(
+        '<launch><node pkg="tf2_ros" type="static_transform_publisher" name="s" args="0 0 0 0 0 0 a b"/></launch>'
+    )
+    bag = tmp_path / "out.bag"
+    common = ("launch", str(package / "main.launch"), "--headless", "--record", str(bag))
+    first = start(*common)
+    until("the recording to begin", lambda: bag.with_name("out.bag.active").exists())
+    second = trundle(*common, "--duration", "1", *words, "-p", "0")
+    assert second.returncode == 1
+    refused = rf"trundle launch: error: {bag} cannot be written: .* writes it: end that, or choose another name"
+    assert re.fullmatch(refused, second.stderr.splitlines()[-1])
+    until("the transform", lambda: "/tf_static" in bag.with_name("out.bag.active").read_text(errors="replace"))
+    first.interrupt()
+    assert "/tf_static" in trundle("bag", "info", str(bag)).stdout
+    assert [each.name for each in tmp_path.iterdir() if "out.bag" in each.name] == ["out.bag"]
+
+
 @pytest.mark.slow
 def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(

@@ -76,5 +76,5 @@ def test_a_folder_belongs_to_one_plan(tmp_path: Path) -> None:
 
 
 def test_two_sweeps_do_not_write_one_folder(tmp_path: Path) -> None:
-    with lock_folder(tmp_path), pytest.raises(UsageError, match="another sweep writes"), lock_folder(tmp_path):
+    with lock_folder(tmp_path), pytest.raises(UsageError, match="writes it: end that"), lock_folder(tmp_path):
         pass

@@ -139,7 +139,7 @@ class PageRecording:
             self._recorder.close()
             self._recorder = None
         if on:
-            folder = _new_folder()
+            folder = _make_folder()
             recorder = self._recorder = WorldRecorder(self._simulation, folder, self._say)
             self._since_ns = self._simulation.time_ns
             recorder.after_step(self._simulation.snapshot())
@@ -155,8 +155,20 @@ class PageRecording:
             self._simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
 
 
-def _new_folder() -> Path:
-    """Return a folder that is not there yet, named after the date and time."""
+def _make_folder() -> Path:
+    """Make a folder named after the date and time.
+
+    Raises:
+        UsageError: it cannot be made.
+    """
     name = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     numbered = (Path("recorded", f"{name}-{number}") for number in itertools.count(2))
-    return next(folder for folder in itertools.chain((Path("recorded", name),), numbered) if not folder.exists())
+    for folder in itertools.chain((Path("recorded", name),), numbered):
+        try:
+            folder.mkdir(parents=True)
+        except OSError as error:
+            if not folder.exists():
+                raise UsageError(f"{folder} cannot be written: {error.strerror}") from None
+        else:
+            return folder
+    raise AssertionError

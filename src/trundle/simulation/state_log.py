@@ -19,6 +19,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.diagnostics import DescriptionError, Source
+from trundle.file_lock import FileLock
 from trundle.files import open_file
 
 from .snapshot import Snapshot
@@ -48,10 +49,15 @@ class StateRecorder:
             sdf: the world, for playback.
 
         Raises:
-            OSError: it cannot be written.
+            OSError: it cannot be written, or another program writes it.
         """
         self._path = path
-        self._file: IO[bytes] = path.open("wb")
+        self._lock = FileLock(path)
+        try:
+            self._file: IO[bytes] = path.open("wb")
+        except OSError:
+            self._lock.release()
+            raise
         header = {"format": FORMAT, "links": links, "joints": joints, "sdf": sdf}
         self._write(json.dumps(header).encode() + b"\n")
 
@@ -68,6 +74,7 @@ class StateRecorder:
     def close(self) -> None:
         """Close the file."""
         self._file.close()
+        self._lock.release()
 
     def _write(self, data: bytes) -> None:
         try:
@@ -76,7 +83,7 @@ class StateRecorder:
             self._path.stat()  # a deleted file accepts data without keeping it
         except OSError as error:
             with contextlib.suppress(OSError):  # the flush fails as the write did
-                self._file.close()
+                self.close()
             raise OSError(error.errno, error.strerror, str(self._path)) from None
 
 

@@ -14,6 +14,7 @@ from mcap.reader import SeekingReader
 from mcap.writer import IndexType
 from tests.ros.conftest import PATIENCE_S
 
+from trundle.cli import main
 from trundle.ros import (
     BagConnection,
     BagError,
@@ -482,6 +483,31 @@ def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: 
     kept = [message.data[4:].partition(b".")[0] for message in recover_messages(active)]
     assert kept == [b"%d" % i for i in range(len(kept))]
     assert len(kept) > 80
+
+
+@pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
+def test_a_second_recording_to_one_name_is_refused(
+    graph: Any, tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It took the first one's file away, and the first put the second's beginning in place of its own bag."""
+    publisher = graph.node("talker").advertise("/a", STRING, latch=True)
+    publisher.publish({"data": "kept"})
+    options = RecorderOptions(topics=("/a",), path=tmp_path / name)
+    recorder = Recorder(graph.node("record"), options, say=lambda _: None)
+    recorder.start()
+    graph.until(lambda: recorder.recorded == 1)
+    refused = rf"{name} cannot be written: .* writes it: end that, or choose another name"
+    with pytest.raises(BagError, match=refused):
+        Recorder(graph.node("second"), options, say=lambda _: None).start()
+    with pytest.raises(BagError, match=refused):
+        StepRecorder(graph.loop, tmp_path / name, complain=lambda _: None)
+    assert main(["bag", "reindex", str(tmp_path / f"{name}.active")]) == 1
+    assert "writes it: end that" in capsys.readouterr().err
+    recorder.stop()
+
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    assert [message.data[4:] for message in recover_messages(tmp_path / name)] == [b"kept"]
+    StepRecorder(graph.loop, tmp_path / name, complain=lambda _: None).close()
 
 
 @pytest.mark.parametrize("name", ["x.bag", "x.mcap"])

@@ -8,7 +8,17 @@ from itertools import chain, islice
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
-from trundle.ros import BagError, BagMessage, BagReader, Messages, MessageView, create_bag, open_bag, recover_messages
+from trundle.ros import (
+    BagError,
+    BagMessage,
+    BagReader,
+    Messages,
+    MessageView,
+    create_bag,
+    lock_bag,
+    open_bag,
+    recover_messages,
+)
 
 from ..expression import Expression, expression
 from .progress_meter import ProgressMeter
@@ -25,7 +35,7 @@ def filter_bag(args: argparse.Namespace) -> int:
         return 3
     wanted, printed = Expression(args.expression), expression(args.print)
     messages = Messages(bare=True)
-    with open_bag(source) as bag:
+    with open_bag(source) as bag, lock_bag(target):
         target.unlink(missing_ok=True)
         meter = ProgressMeter(args.outbag, _size(bag), is_quiet=printed is not None)
         with create_bag(target) as out:
@@ -104,16 +114,17 @@ def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, opened:
     if is_in_place and backup.exists() and not args.force:
         raise UsageError(f"Skipping {path}. Backup path {backup} already exists.")
     working = target.with_name(f"{target.name}.part")
-    working.unlink(missing_ok=True)
-    try:
-        with opened(path) as (size, messages), create_bag(working, compression=compression) as out:
-            meter = ProgressMeter(str(target), size, is_quiet=args.quiet)
-            for message in messages:
-                out.write(message)
-                meter.step(len(message.data))
-        meter.finish()
-        if is_in_place:
-            path.replace(backup)
-        working.replace(target)
-    finally:
+    with lock_bag(target):
         working.unlink(missing_ok=True)
+        try:
+            with opened(path) as (size, messages), create_bag(working, compression=compression) as out:
+                meter = ProgressMeter(str(target), size, is_quiet=args.quiet)
+                for message in messages:
+                    out.write(message)
+                    meter.step(len(message.data))
+            meter.finish()
+            if is_in_place:
+                path.replace(backup)
+            working.replace(target)
+        finally:
+            working.unlink(missing_ok=True)

@@ -6,6 +6,7 @@ from .bag import BagWriter as BagWriter
 from .bag import Chunk as Chunk
 from .bag import UnindexedBagError as UnindexedBagError
 from .files import create_bag as create_bag
+from .files import lock_bag as lock_bag
 from .files import open_bag as open_bag
 from .files import recover_messages as recover_messages
 from .play import Player as Player

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from trundle.file_lock import FileLock
 from trundle.files import open_file
 
 from .bag import BagError, BagMessage, BagReader, BagWriter
@@ -56,6 +57,18 @@ def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 
     from .ros1 import Ros1Writer
 
     return Ros1Writer(path, compression=compression, chunk_bytes=chunk_bytes)
+
+
+def lock_bag(path: Path) -> FileLock:
+    """Lock the name of a bag that is written, `NAME.active` until it is complete.
+
+    Raises:
+        BagError: another program writes it, or nothing can be written there.
+    """
+    try:
+        return FileLock(path.with_name(path.name.removesuffix(".active")))
+    except OSError as error:
+        raise BagError(f"{path} cannot be written: {error.strerror}") from None
 
 
 def recover_messages(path: Path) -> Iterator[BagMessage]:

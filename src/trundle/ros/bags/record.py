@@ -18,7 +18,7 @@ from ..node.subscription import Subscription
 from ..xmlrpc.rpc_client import call_value
 from ..xmlrpc.xmlrpc import FaultError
 from .bag import BagConnection, BagMessage, BagWriter, recording_failure
-from .files import create_bag
+from .files import create_bag, lock_bag
 
 _FLUSH_S = 1.0
 """Flush interval: the maximum loss at SIGKILL."""
@@ -123,7 +123,11 @@ class Recorder:
         return self._node.clock
 
     def start(self) -> None:
-        """Open the first file and subscribe."""
+        """Open the first file and subscribe.
+
+        Raises:
+            BagError: it cannot be written, or another program writes it.
+        """
         self._start_ns = self.clock.now_ns()
         self._writer = self._open()
         self._thread.start()
@@ -246,6 +250,7 @@ class Recorder:
                 self._close()
         except OSError as error:
             self._writer.abandon()
+            self._lock.release()
             self._abort(recording_failure(self._active, error))
 
     def _abort(self, why: str) -> None:
@@ -306,8 +311,9 @@ class Recorder:
     def _open(self) -> BagWriter:
         self._path = self._name()
         self._active = self._path.with_name(f"{self._path.name}.active")
-        self._active.unlink(missing_ok=True)
         self._is_open = False
+        self._lock = lock_bag(self._path)
+        self._active.unlink(missing_ok=True)
         writer = create_bag(self._active, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes)
         self._is_open = True
         self._say(f"Recording to '{self._path}'.")
@@ -318,6 +324,7 @@ class Recorder:
     def _close(self) -> None:
         self._writer.close()
         self._active.replace(self._path)
+        self._lock.release()
         self._files.append(self._path)
 
     def _name(self) -> Path:

@@ -7,7 +7,7 @@ from ..messages.raw_message import Message
 from ..node.local_graph import LocalPublisher
 from ..node.loop import GraphLoop
 from .bag import BagConnection, BagError, BagMessage, recording_failure
-from .files import create_bag
+from .files import create_bag, lock_bag
 
 _NAME = "/record"
 _BY_THE_WALL = ("/rosout", "/rosout_agg")
@@ -40,10 +40,11 @@ class StepRecorder:
             without_types: message types to leave out; what publishes them is not made to.
 
         Raises:
-            BagError: the file cannot be written.
+            BagError: the file cannot be written, or another program writes it.
         """
         self._path = path if path.suffix in (".bag", ".mcap") else path.with_name(f"{path.name}.bag")
         self._active = self._path.with_name(f"{self._path.name}.active")
+        self._lock = lock_bag(self._path)
         self._active.unlink(missing_ok=True)
         self._writer = create_bag(self._active)
         self._received: list[tuple[LocalPublisher, bytes]] = []
@@ -93,11 +94,13 @@ class StepRecorder:
             self._active.replace(self._path)
         except OSError as error:
             self._abandon(error)
+        self._lock.release()
 
     def _abandon(self, error: OSError) -> None:
         """Leave the file as it is, since later messages would leave a gap."""
         self._is_abandoned = True
         self._writer.abandon()
+        self._lock.release()
         self._fail(recording_failure(self._active, error))
 
     def _fail(self, why: str) -> None:

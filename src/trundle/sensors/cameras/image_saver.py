@@ -1,8 +1,10 @@
 """Image files of <save>, within a quota and below one folder of the working directory."""
 
 import io
+import itertools
 import os
 from pathlib import Path
+from typing import BinaryIO
 from weakref import WeakKeyDictionary
 
 from trundle.diagnostics import Diagnostics, Source
@@ -89,8 +91,7 @@ class ImageSaver:
                 self._stop(f"{self._folder}: a link in it leads out of {self._root}; saving stopped")
                 return
             self._folder.mkdir(parents=True, exist_ok=True)
-            self._run = self._run or self._next_run()
-            with self._path(self._run).open("xb") as file:
+            with self._create() as file:
                 file.write(data.getbuffer())
         except OSError as error:
             self._stop(f"{error.filename or self._folder}: {error.strerror or error}; saving stopped")
@@ -101,14 +102,18 @@ class ImageSaver:
         self._is_stopped = True
         self._report.warn(self._at, why)
 
-    def _next_run(self) -> int:
-        run = 1
-        while os.path.lexists(self._path(run)):
-            run += 1
-        return run
-
-    def _path(self, run: int) -> Path:
-        return self._folder / f"{self._start}({run})-{self._count:04}.jpg"
+    def _create(self) -> BinaryIO:
+        """Create the next image's file; the first one's decides the number in brackets."""
+        for run in itertools.count(1) if self._run == 0 else (self._run,):
+            try:
+                file = (self._folder / f"{self._start}({run})-{self._count:04}.jpg").open("xb")
+            except FileExistsError:
+                if self._run != 0:
+                    raise
+            else:
+                self._run = run
+                return file
+        raise AssertionError
 
 
 def folder_for(path: str) -> Path:

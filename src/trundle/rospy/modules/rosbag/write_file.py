@@ -4,6 +4,7 @@ import contextlib
 import os
 from pathlib import Path
 
+from trundle.file_lock import FileLock
 from trundle.ros import BagConnection, BagError, BagMessage, create_bag, recover_messages
 
 from .exceptions import ROSBagException
@@ -21,7 +22,7 @@ class WriteFile:
 
         Raises:
             ROSBagException: the file to continue is no bag.
-            OSError: it cannot be written.
+            OSError: it cannot be written, or another program writes it.
         """
         self.path = path
         self.counts = {}
@@ -31,6 +32,7 @@ class WriteFile:
         self._options = {"compression": compression, "chunk_bytes": max(chunk_threshold, 1)}
         is_old = append and path.exists() and path.stat().st_size > 0
         self._written = path.with_name(f".{path.name}.appending{path.suffix}") if is_old else path
+        self._lock = FileLock(path)
         with self._written.open("wb"):  # an OSError of the operating system, as open() has it
             pass
         self._written.unlink()
@@ -84,6 +86,7 @@ class WriteFile:
         self._writer.close()
         if self._written != self.path:
             os.replace(self._written, self.path)
+        self._lock.release()
 
     def _copy_old(self):
         try:
@@ -92,6 +95,7 @@ class WriteFile:
                 self.write(message.connection, message.stamp_ns, message.data)
         except BagError as error:
             self._writer.abandon()
+            self._lock.release()
             with contextlib.suppress(OSError):
                 self._written.unlink()
             raise ROSBagException(f"This does not appear to be a bag file: {error}") from None
