@@ -51,7 +51,7 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
 class LiveSensor(Generic[Reading]):
     """Hook that measures when it is due and a listener is active; otherwise it costs nothing.
 
-    A sensor that is always on does so, too, unless its readings depend on those before: Gazebo measures for nobody.
+    So does a sensor that is always on, unless its readings depend on those before; Gazebo's measures in any case.
     """
 
     has_history: ClassVar[bool] = False
