@@ -417,3 +417,19 @@ def test_a_joint_held_at_an_angle_stands_there() -> None:
 
     assert Pose(quaternion=tuple(poses[1, 3:])).rpy == pytest.approx((quarter, 0.0, 0.0))
     assert Pose(quaternion=tuple(poses[2, 3:])).rpy == pytest.approx((quarter, 0.0, 0.0))
+
+
+def test_thousands_of_static_bodies_leave_the_engine_room_to_find_contacts() -> None:
+    boxes = [model(link("l", x=2.0 * i, geometry=Box((1.0, 1.0, 1.0))), name=f"b{i}", static=True) for i in range(3000)]
+    report = Diagnostics()
+    sim = Simulation(World(name="w", at=AT, models=(*boxes, model(link("l", x=0.2)))), report)
+    sim.step(3)
+    assert sim.engine.compiled.model.narena < 2**30
+    assert report.warnings == []
+
+
+def test_a_world_of_thousands_of_moving_models_says_how_much_memory_it_may_use() -> None:
+    balls = [model(link("l", x=1.0 * i), name=f"b{i}") for i in range(2000)]
+    report = Diagnostics()
+    compiled(*balls, report=report)
+    assert [f.what for f in report.findings] == ["2,001 bodies: the engine may use up to 1.1 GB of memory"]

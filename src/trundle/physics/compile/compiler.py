@@ -35,6 +35,10 @@ from .wheels import TREAD_POINTS, tread_of, without_tread
 if TYPE_CHECKING:
     from ..convex.mesh_decomposition import WorldDecomposition
 
+_MANY_BODIES = 400
+_BASE_BYTES, _PAIR_BYTES, _MOVING_BYTES = 64 * 2**20, 4, 512 * 2**10
+"""Memory for all worlds, for each pair of bodies, and for the contacts and constraints of a moving body."""
+_LARGE_BYTES = 2**30
 _KINEMATIC_MASS = 1e6
 """Mass factor of a kinematic link, which forces do not move noticeably."""
 
@@ -163,6 +167,7 @@ class Compiler:
 
     def compile_spec(self) -> mujoco.MjModel:
         """Compile the specification; MuJoCo's errors and warnings are passed on."""
+        self._set_memory()
         with native_output_hidden(), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:
@@ -173,6 +178,20 @@ class Compiler:
         for warning in caught:
             self.report.warn(self.world.at, f"MuJoCo warns: {' '.join(str(warning.message).split())}")
         return compiled
+
+    def _set_memory(self) -> None:
+        """Size the engine's working memory for many bodies, of which only what is used is real.
+
+        MuJoCo's own size leaves too little for static bodies, and asks for a terabyte for 13,000 bodies.
+        """
+        bodies = self.spec.bodies
+        if len(bodies) < _MANY_BODIES:
+            return
+        moving = sum(1 for body in bodies if body.joints)
+        self.spec.memory = _BASE_BYTES + _PAIR_BYTES * len(bodies) ** 2 // 2 + _MOVING_BYTES * moving
+        if self.spec.memory > _LARGE_BYTES:
+            size = f"{self.spec.memory / 1e9:.1f} GB"
+            self.report.info(self.world.at, f"{len(bodies):,} bodies: the engine may use up to {size} of memory")
 
     def _add_link(self, node: LinkNode) -> None:
         """Add a link's body, after the bodies of its ancestors."""

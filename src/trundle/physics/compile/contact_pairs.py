@@ -9,7 +9,7 @@ correction, acts on what yields only (see `compliance`): elsewhere initial penet
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, product
 
 import mujoco
@@ -59,9 +59,11 @@ def add_contacts(
             shape for shape in moving if shape.name not in special and shape.collides_with & CollidesWith.STANDING
         ]
         _enable_search_of_fixed(found, finding, h=spec.option.timestep, ranks=ranks)
-        _exclude_pairs(spec, product(finding, found), rules)
-        met = {(a.name, b.name) for a, b in product(finding, found)}
-        _add_pairs(spec, ((a, b) for a, b in product(moving, fixed) if (a.name, b.name) not in met), rules, pair_params)
+        _exclude_pairs(spec, rules.near_pairs(finding, found), rules)
+        names, others = {shape.name for shape in finding}, {shape.name for shape in found}
+        left = [shape for shape in fixed if shape.name not in others]
+        pairs = ((a, b) for a in moving for b in (left if a.name in names else fixed))
+        _add_pairs(spec, pairs, rules, pair_params)
     else:
         _add_pairs(spec, product(moving, fixed), rules, pair_params)
     if len(solid) * (len(solid) - 1) <= 2 * MAX_MOVING_PAIRS:
@@ -72,10 +74,8 @@ def add_contacts(
     _add_pairs(spec, product(others, plain), rules, pair_params)
     _add_pairs(spec, combinations(others, 2), rules, pair_params)
     _enable_search(plain, h=spec.option.timestep, ranks=ranks)
-    by_model: dict[int, list[ShapeEntry]] = {}
-    for shape in plain:
-        by_model.setdefault(shape.model, []).append(shape)
-    _exclude_pairs(spec, (pair for own in by_model.values() for pair in combinations(own, 2)), rules)
+    for links in _links_of_models(plain).values():
+        _exclude_pairs(spec, combinations(links.values(), 2), rules)
     return pair_params
 
 
@@ -107,7 +107,11 @@ def _needs_pairs(
 
 class _CollisionRules:
     def __init__(self, models: Sequence[Model], tree: KinematicTree) -> None:
-        self._joined = {frozenset((edge.parent, edge.child)) for edge in tree.joints}
+        self._neighbours: dict[str, set[str]] = {}
+        """Links that are joined to a link."""
+        for edge in tree.joints:
+            self._neighbours.setdefault(edge.parent, set()).add(edge.child)
+            self._neighbours.setdefault(edge.child, set()).add(edge.parent)
         self._self_collides = {
             node.name: models[node.model].self_collide if node.link.self_collide is None else node.link.self_collide
             for node in tree.links.values()
@@ -117,11 +121,30 @@ class _CollisionRules:
         can = a.kind in b.collides_with and b.kind in a.collides_with
         return can and bitmasks_match(a.surface, b.surface) and self.links_can_collide(a, b)
 
+    def near_pairs(
+        self, some: Iterable[ShapeEntry], others: Iterable[ShapeEntry]
+    ) -> Iterator[tuple[ShapeEntry, ShapeEntry]]:
+        """Yield the pairs, one shape a link, of links that are of one model or joined; any others can collide."""
+        models = _links_of_models(others)
+        by_link = {link: shape for links in models.values() for link, shape in links.items()}
+        for links in _links_of_models(some).values():
+            for a in links.values():
+                yield from ((a, b) for b in models.get(a.model, {}).values())
+                yield from ((a, by_link[link]) for link in self._neighbours.get(a.link, ()) if link in by_link)
+
     def links_can_collide(self, a: ShapeEntry, b: ShapeEntry) -> bool:
         """True if the links of two shapes may collide, regardless of bitmasks."""
-        if a.link == b.link or frozenset((a.link, b.link)) in self._joined:
+        if a.link == b.link or b.link in self._neighbours.get(a.link, ()):
             return False
         return a.model != b.model or (self._self_collides[a.link] and self._self_collides[b.link])
+
+
+def _links_of_models(shapes: Iterable[ShapeEntry]) -> dict[int, dict[str, ShapeEntry]]:
+    """Return one shape of each link, by model and link."""
+    models: dict[int, dict[str, ShapeEntry]] = {}
+    for shape in shapes:
+        models.setdefault(shape.model, {}).setdefault(shape.link, shape)
+    return models
 
 
 def _add_pairs(
