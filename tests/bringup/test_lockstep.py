@@ -1,11 +1,16 @@
 """Time that waits for nodes."""
 
+import asyncio
 import threading
+import time
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
+import pytest
+
 import trundle
+from trundle.bringup import lockstep
 from trundle.bringup.gazebo.stepper import GazeboStepper
 from trundle.bringup.lockstep import Lockstep
 from trundle.ros import GraphLoop
@@ -21,7 +26,46 @@ def test_a_start_that_never_rests_ends_when_asked_to() -> None:
         ending.set()
         waiting.result(60.0)
         loop.work.finish(never_done)
-    assert said == []  # it did not time out
+    assert said == []  # it was not given up
+
+
+async def _hold_up(passes: int) -> None:
+    """Let each pass of the loop take as long as on a machine with a load of 60."""
+    for _ in range(passes):
+        time.sleep(0.25)
+        await asyncio.sleep(0)
+
+
+def test_nodes_settle_on_a_machine_where_each_pass_takes_a_quarter_of_a_second() -> None:
+    said: list[str] = []
+    with GraphLoop() as loop:
+        steps = Lockstep(loop, end_ns=None, recorder=None, say=said.append)
+        busy = loop.spawn(_hold_up(12))
+        loop.call_soon(lambda: None)
+        steps.wait_settled(lambda: None, lambda: False, lambda: False)
+        assert not busy.done()  # it had settled before
+    assert said == []
+
+
+def test_what_the_process_does_is_waited_for_and_named(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lockstep, "_ANSWER_S", 0.0)
+    monkeypatch.setattr(lockstep, "_ANSWER_PASSES", 0)
+    monkeypatch.setattr("trundle.ros.node.loop._LOOK_S", 0.1)
+    monkeypatch.setattr("trundle.ros.node.pending_work.PERIOD_S", 0.1)
+    said: list[str] = []
+    with GraphLoop() as loop:
+        steps = Lockstep(loop, end_ns=None, recorder=None, say=said.append)
+        reading = loop.work.start("the map")
+        answer = loop.work.start("the answer of /slow", is_answer=True)
+        threading.Timer(0.5, lambda: loop.work.finish(reading)).start()
+        steps.wait_settled(lambda: None, lambda: False, lambda: False)
+        loop.work.finish(answer)
+    assert said == [
+        "the answer of /slow does not come while time is held; time goes on, but another run may differ from this one"
+    ]
+    assert "waiting for the map; the answer of /slow since " in capfd.readouterr().err
 
 
 def test_a_world_that_is_reset_amid_a_stretch_goes_on_for_what_was_left(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from collections import deque
 from collections.abc import Callable
 
-from trundle.ros import GraphLoop
+from trundle.ros import GraphLoop, WorkItem
 
 
 class CallQueue:
@@ -11,12 +11,12 @@ class CallQueue:
 
     def __init__(self, loop: GraphLoop) -> None:
         self._loop = loop
-        self._waiting: deque[tuple[Callable[[], object], object]] = deque()
-        """(function, token of its pending work)."""
+        self._waiting: deque[tuple[Callable[[], object], WorkItem]] = deque()
+        """(function, its pending work)."""
 
     def post(self, call: Callable[[], object]) -> None:
         """Queue a function; from any thread."""
-        self._waiting.append((call, self._loop.work.start()))
+        self._waiting.append((call, self._loop.work.start("the simulation's next step")))
 
     def has_pending(self) -> bool:
         """True if a function waits."""

@@ -75,7 +75,7 @@ class Graph:
         """Shut down every node here, then the master if it was started here."""
         try:
             if self.core is not None:
-                self.loop.run(self.core.stop(), timeout_s=2.0)
+                self.loop.run(self.core.stop())
         finally:
             self.loop.stop()
 
@@ -101,7 +101,7 @@ def _joined(uri: str) -> str:
 
 def _answers(uri: str) -> bool:
     try:
-        MasterProxy(uri, timeout_s=2.0).call("getPid")
+        MasterProxy(uri).call("getPid")
     except MasterUnreachableError:
         return False
     return True

@@ -4,19 +4,21 @@ import threading
 import time
 from collections.abc import Callable
 
-from trundle.ros import GraphLoop, StepRecorder
+from trundle.ros import GraphLoop, PendingWork, StepRecorder
 
 _STARTING_PASSES = 50
 """Passes of the idle loop that count as settled while nodes start: they do more between two calls."""
-START_S = 30.0
-"""Timeout of starting all nodes [s]."""
-_REST_S = 10.0
-_TURN_S = 0.2
-"""Longest wait before the simulation's thread checks for the end [s]."""
+_ANSWER_S = 10.0
+"""Silence [s] after which an answer is taken to need time to pass: a service may sleep, and so may another program."""
+_ANSWER_PASSES = 1000
+"""Passes of the loop in that silence; a process that is stopped for a minute makes none."""
 
 
 class Lockstep:
-    """Holds time at zero while a launch starts, at each step until the nodes have settled, and at the end."""
+    """Holds time at zero while a launch starts, at each step until the nodes have settled, and at the end.
+
+    What this process does is waited for without a time limit, and `GraphLoop` says for what.
+    """
 
     def __init__(
         self,
@@ -33,7 +35,7 @@ class Lockstep:
             loop: loop of the nodes.
             end_ns: end of time [ns]; None: open.
             recorder: writes the messages of each step.
-            say: prints that a wait timed out.
+            say: prints that a service did not answer while time was held.
             settle: called at each time at which the nodes have settled; True is the end, too.
         """
         self._settle = settle
@@ -41,21 +43,21 @@ class Lockstep:
         self._end_ns = end_ns
         self._recorder = recorder
         self._say: Callable[[str], None] | None = say
-        self._due = time.monotonic() + START_S
         self._begun = threading.Event()
         self.over = threading.Event()
         """Set when the end is reached and recorded."""
 
     async def wait_started(self, is_ending: Callable[[], bool]) -> None:
-        """Wait, on the loop, until the nodes started so far have settled; in all, for at most 30 s.
+        """Wait, on the loop, until the nodes started so far have settled.
 
         Args:
             is_ending: True ends the wait.
         """
-        remaining_s = max(0.0, self._due - time.monotonic())
-        has_rested = await self._loop.idle(remaining_s, unless=is_ending, passes=_STARTING_PASSES)
-        if not has_rested and not is_ending():
-            self._give_up()
+        silence = _Silence(self._loop.work)
+        while not is_ending():
+            if await self._loop.idle(unless=lambda: is_ending() or silence.is_over(), passes=_STARTING_PASSES):
+                return
+            self._check(silence)
 
     def start(self) -> None:
         """Let time advance."""
@@ -84,14 +86,12 @@ class Lockstep:
             is_called: True if there are such functions.
             is_ending: True ends the wait.
         """
-        due = time.monotonic() + _REST_S
+        silence = _Silence(self._loop.work)
         while not is_ending():
             run_calls()
-            if self._loop.wait_idle(_TURN_S, unless=is_called) and not is_called():
+            if self._loop.wait_idle(unless=lambda: is_called() or silence.is_over()) and not is_called():
                 return
-            if time.monotonic() > due:
-                self._give_up()
-                return
+            self._check(silence)
 
     def record_step(self, time_ns: int) -> None:
         """Record the messages up to a time [ns] at which the nodes have settled."""
@@ -101,10 +101,35 @@ class Lockstep:
         if is_over or (self._end_ns is not None and time_ns >= self._end_ns):
             self.over.set()
 
-    def _give_up(self) -> None:
-        self._loop.work.abandon()
+    def _check(self, silence: "_Silence") -> None:
+        """Wait no more for answers that need time to pass."""
+        if not silence.is_over():
+            return
+        names = self._loop.work.abandon_answers()
         if self._say is not None:
             self._say(
-                "a node does not settle while time is held; time goes on, but another run may differ from this one"
+                f"{', '.join(names)} does not come while time is held; time goes on, "
+                "but another run may differ from this one"
             )
             self._say = None
+
+
+class _Silence:
+    """Time during which nothing but answers is waited for, and none comes; asked at each pass of the loop."""
+
+    def __init__(self, work: PendingWork) -> None:
+        self._work = work
+        self._begin()
+
+    def _begin(self) -> None:
+        self._seen = self._work.changes
+        self._start_s = time.monotonic()
+        self._passes = 0
+
+    def is_over(self) -> bool:
+        """True once the silence is long enough."""
+        if self._seen != self._work.changes or not self._work.awaits_only_answers:
+            self._begin()
+            return False
+        self._passes += 1
+        return self._passes >= _ANSWER_PASSES and time.monotonic() >= self._start_s + _ANSWER_S

@@ -4,8 +4,6 @@ from collections.abc import Callable
 
 from trundle.ros import GraphLoop, Node
 
-_END_S = 30.0
-
 
 class ModelNodes:
     """Nodes of the plugins of one simulation, by model; "" is the world."""
@@ -34,7 +32,7 @@ class ModelNodes:
     def shut_down(self, model: str) -> None:
         """Shut down the nodes of a deleted model."""
         for node in self._nodes.pop(model, []):
-            self._loop.run(node.shutdown(), timeout_s=_END_S)
+            self._loop.run(node.shutdown())
 
     def close(self) -> None:
         """Shut down every node without waiting; from any thread."""

@@ -19,7 +19,8 @@ EXAMPLES = """
   trundle core                  default address: http://localhost:11311
   trundle core -p 11312         beside another master
 """
-_READY_S = 10.0
+_CONNECT_S = 10.0
+"""Timeout of a connection to this process, which the system accepts by itself, however slow the process is."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -55,21 +56,27 @@ def main(args: argparse.Namespace) -> int:
         loop.run(core.start())
         if args.host is not None:
             warn_of_network(args.host, lambda line: print(line, file=sys.stderr, flush=True))
-        try:
-            loop.run(core.wait_ready(), timeout_s=_READY_S)
-        except TimeoutError:
-            raise RosError(
-                f"nothing answers at {core.uri}, the address that this master advertises; "
-                "set ROS_IP or ROS_HOSTNAME to an address of this machine, or neither"
-            ) from None
+        _check_address(core.uri)
+        loop.run(core.wait_ready())
         print(f"ROS_MASTER_URI={core.uri}", flush=True)
         print(f"started core service [/rosout]; run_id {core.run_id}; Ctrl-C stops it", file=sys.stderr, flush=True)
         try:
             reason = _next(reasons)
         finally:
-            loop.run(core.stop(), timeout_s=1.5)
+            loop.run(core.stop())
     print(f"core stopped: {reason}", file=sys.stderr)
     return 0
+
+
+def _check_address(uri: str) -> None:
+    """Raise a RosError if nothing listens at the address that the master advertises."""
+    try:
+        socket.create_connection(host_and_port(uri), timeout=_CONNECT_S).close()
+    except OSError:
+        raise RosError(
+            f"nothing answers at {uri}, the address that this master advertises; "
+            "set ROS_IP or ROS_HOSTNAME to an address of this machine, or neither"
+        ) from None
 
 
 def _warn_of_other_master(uri: str | None, port: int) -> None:

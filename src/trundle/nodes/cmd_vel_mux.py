@@ -53,7 +53,8 @@ class CmdVelMux:
         node = self._node
         path = str(await node.params.get("~yaml_cfg_file", ""))
         try:
-            sources, output = await asyncio.to_thread(_read, path)
+            with node.loop.work.pending("the multiplexer's file"):
+                sources, output = await asyncio.to_thread(_read, path)
         except ParamError as error:
             node.log.error(str(error))
             return 1

@@ -13,8 +13,6 @@ from trundle.ros import Message, Node, RosError
 from .host import NodeHost
 
 _PACKAGE = "controller_manager_msgs"
-_WAIT_S = 120.0
-"""The original's 30 s are too short for several robots on a slow machine."""
 _FAREWELL_S = 1.0
 _BEST_EFFORT, _STRICT = 1, 2
 
@@ -37,7 +35,8 @@ class _ControllerManagerClient:
         """Wait for the services.
 
         A launch file's timeout is meant for Gazebo: it is extended while the simulation loads, since the first convex
-        decomposition of large meshes takes long.
+        decomposition of large meshes takes long. The original's default of 30 s is too short for a slow machine; here
+        there is none.
 
         Raises:
             RosError: timeout.
@@ -74,9 +73,7 @@ class _ControllerManagerClient:
         return list((await self._call("list_controller_types", "ListControllerTypes")).types)
 
     async def _call(self, service: str, kind: str, **fields: Any) -> Message:
-        return await self._node.call_service(
-            f"{self._prefix}/{service}", f"{_PACKAGE}/{kind}", fields, timeout_s=_WAIT_S
-        )
+        return await self._node.call_service(f"{self._prefix}/{service}", f"{_PACKAGE}/{kind}", fields)
 
 
 class Spawner:
@@ -95,7 +92,7 @@ class Spawner:
         words.add_argument("--stopped", action="store_true")
         words.add_argument("--wait-for", metavar="topic")
         words.add_argument("--namespace", default="")
-        words.add_argument("--timeout", type=float, default=_WAIT_S)
+        words.add_argument("--timeout", type=float)
         words.add_argument("--no-timeout", action="store_true")
         words.add_argument("--shutdown-timeout", type=float, default=_FAREWELL_S)
         words.add_argument("controllers", nargs="+")
@@ -165,7 +162,7 @@ class Unspawner:
         try:
             given = words.parse_args(self._arguments)
             manager = _ControllerManagerClient(node, given.namespace)
-            await manager.wait(_WAIT_S)
+            await manager.wait(None)
             if not await manager.switch(stop=given.controllers):
                 raise UsageError(f"could not stop {', '.join(given.controllers)}")
         except (UsageError, RosError) as error:
@@ -196,7 +193,7 @@ class ControllerManagerTool:
         try:
             given = words.parse_args(self._arguments)
             manager = _ControllerManagerClient(self._node)
-            await manager.wait(_WAIT_S)
+            await manager.wait(None)
             return 0 if await self._do(manager, given.command, given.controllers) else 1
         except (UsageError, RosError) as error:
             self._node.log.error(f"controller_manager: {error}")

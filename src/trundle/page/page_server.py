@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from trundle.diagnostics import UsageError
 from trundle.page_address import PageAddress
+from trundle.waiting import PERIOD_S, WaitNotice
 
 from .driving.stop import DriveStop
 from .errors import PageError
@@ -67,7 +68,6 @@ from .world.streams import (
 if TYPE_CHECKING:
     from trundle.ros import Node
 
-_START_TIMEOUT_S = 60.0
 _STOP_TIMEOUT_S = 1.5
 _MAX_REQUESTS = 1000
 _MIN_BOX_BYTES = 4096
@@ -377,10 +377,13 @@ class PageServer:
         self._replies.put(None)
 
     def _await_served(self) -> Served:
-        try:
-            reply = self._replies.get(timeout=_START_TIMEOUT_S)
-        except queue.Empty:
-            raise PageError(f"the page's server did not start within {_START_TIMEOUT_S:.0f} s") from None
+        notice = WaitNotice("the page's server to start")
+        while True:
+            try:
+                reply = self._replies.get(timeout=PERIOD_S)
+                break
+            except queue.Empty:
+                notice.poll()
         if isinstance(reply, Served):
             return reply
         if isinstance(reply, Refused):

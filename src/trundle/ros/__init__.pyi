@@ -85,6 +85,8 @@ from .node.endpoint_recorder import Endpoint as Endpoint
 from .node.loggers import Loggers as Loggers
 from .node.loop import GraphLoop as GraphLoop
 from .node.node import Node as Node
+from .node.pending_work import PendingWork as PendingWork
+from .node.pending_work import WorkItem as WorkItem
 from .node.publisher import Publisher as Publisher
 from .node.publisher_probe import probe_publisher as probe_publisher
 from .node.service import Service as Service

@@ -31,6 +31,7 @@ def test_a_client_that_asks_and_leaves_at_once_leaves_nothing_on_the_terminal(
     ):
         address = urlsplit(socket_url(page.url))
         assert address.port is not None
+        capfd.readouterr()  # a slow start
         for _ in range(20):
             send_web_socket(address.port, f"/?{address.query}", "trundle.v1", questions)
         assert page.alive

@@ -53,15 +53,16 @@ def test_what_a_thread_gathers_comes_when_it_is_released_and_in_order() -> None:
         for number in range(3):
             loop.call_soon(lambda number=number: came.append(number))
         assert came == []
-        assert loop.wait_idle(5.0, unless=lambda: False)
+        assert loop.wait_idle()
         assert came == [0, 1, 2]
 
 
 def test_it_does_not_rest_while_something_is_under_way() -> None:
     with GraphLoop() as loop:
+        due_s = time.monotonic() + 0.05
         with loop.work.pending():
-            assert not loop.wait_idle(0.05, unless=lambda: False)
-        assert loop.wait_idle(5.0, unless=lambda: False)
+            assert not loop.wait_idle(unless=lambda: time.monotonic() > due_s)
+        assert loop.wait_idle()
 
 
 def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
@@ -221,3 +222,17 @@ def test_a_wait_that_takes_several_turns_returns_and_times_out() -> None:
 async def _late_error() -> None:
     await asyncio.sleep(0.6)
     raise TimeoutError("own")
+
+
+def test_a_shutdown_that_is_broken_off_lets_the_loop_end(graph: Any) -> None:
+    node = graph.node("n")
+    graph.ready(node)
+
+    async def break_off() -> None:
+        leaving = asyncio.ensure_future(node.shutdown())
+        await asyncio.sleep(0)
+        leaving.cancel()
+        await asyncio.gather(leaving, return_exceptions=True)
+
+    graph.loop.run(break_off(), PATIENCE_S)
+    assert node.closed.is_set()

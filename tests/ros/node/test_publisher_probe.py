@@ -41,7 +41,7 @@ def test_a_service_is_called_with_bytes(graph: Graph) -> None:
     kind = caller.messages.service("std_srvs/SetBool")
 
     def call(name: str, body: bytes) -> bytes:
-        return graph.loop.run(call_service_bytes(caller, name, kind, body, timeout_s=30.0))
+        return graph.loop.run(call_service_bytes(caller, name, kind, body))
 
     assert call("/enable", b"\1") == b"\1\2\0\0\0ok"
     with pytest.raises(ServiceError, match="not now"):

@@ -84,7 +84,7 @@ class GazeboWorld:
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
         """Read a world and start simulating it."""
-        with self._graph.loop.work.pending():
+        with self._graph.loop.work.pending(f"the world {world}"):
             await self._open(node, world, paused=paused, env=env, record=record)
 
     async def _open(self, node: Node, name: str, *, paused: bool, env: Mapping[str, str], record: str | None) -> None:

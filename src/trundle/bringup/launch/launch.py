@@ -161,7 +161,7 @@ def _print_summary(plan: LaunchPlan, params: Sequence[LaunchParam], say: Callabl
 
 def _wait_for_master(env: Mapping[str, str], stop: StopFlag, say: Callable[[str], None]) -> bool:
     """Wait until a master answers; return False if stopped first."""
-    proxy = MasterProxy(env.get("ROS_MASTER_URI") or master_uri_from_env(), timeout_s=2.0)
+    proxy = MasterProxy(env.get("ROS_MASTER_URI") or master_uri_from_env())
     said = False
     while True:
         try:

@@ -35,11 +35,7 @@ if TYPE_CHECKING:
     from ..gazebo.world_setup import WorldSetup
     from ..shared_page import SharedPage
 
-_START_S = 60.0
-"""Starting programs takes long on a busy machine."""
 _SILENCE_S = 5.0
-_LAST_S = 13.0
-"""Time to stop beyond the timeouts of each program [s]."""
 
 
 class LaunchSession:
@@ -105,7 +101,7 @@ class LaunchSession:
             core = {name: str(graph.loop.run(launcher.params.get(name, ""))).strip() for name in _SHOWN}
             values = {**core, **{param.name: param.value for param in read.params}}
             self._say(printing.summary(read.plan, values))
-        graph.loop.run(set_params(launcher, read.plan, read.params), timeout_s=_START_S)
+        graph.loop.run(set_params(launcher, read.plan, read.params))
         programs = self._programs()
         may_wait = options.speed is None or options.in_step
         publishes_clock = may_wait and not programs and self._may_publish_clock(launcher)
@@ -187,7 +183,7 @@ class LaunchSession:
             )
             self._read.show.line(f"{file} will differ from run to run: {why}")
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
-        self._open_things.callback(lambda: graph.loop.run(node.shutdown(), timeout_s=_START_S))
+        self._open_things.callback(lambda: graph.loop.run(node.shutdown()))
         graph.loop.run(follow_time(node))
         options = RecorderOptions(all_topics=True, path=file, without_types=self._options.record_without)
         recorder = Recorder(node, options, say=node.log.debug, complain=self._complain)
@@ -298,8 +294,7 @@ class LaunchSession:
             self.starter, nodes, timeouts=timeouts, quiet=options.quiet, listener=self._on_event
         )
         steps = self._lockstep
-        # No timeout: a large launch on a busy machine takes minutes.
-        loop.run(running.start(is_ending, None if steps is None else steps.wait_started), timeout_s=None)
+        loop.run(running.start(is_ending, None if steps is None else steps.wait_started))
         if begins:
             self.begin()
         self._read.show.findings()
@@ -324,11 +319,9 @@ class LaunchSession:
 
     def close(self) -> None:
         """Stop the nodes, the last started first, then everything else."""
-        options = self._options
         try:
             if self._running is not None:
-                timeout_s = options.interrupt_s + options.terminate_s + _LAST_S
-                self.graph.loop.run(self._running.stop(), timeout_s=timeout_s)
+                self.graph.loop.run(self._running.stop())
         finally:
             self._open_things.close()
 

@@ -139,7 +139,7 @@ def _wait_for_exit(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
     except TimeoutError:
         code = None
     finally:  # also on Ctrl-C
-        loop.run(job.stop(StopTimeouts()), timeout_s=None)
+        loop.run(job.stop(StopTimeouts()))
     return _Ended(code, job.last_output())
 
 

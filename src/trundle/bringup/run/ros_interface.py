@@ -14,8 +14,6 @@ from ..model_topics import ModelTopics
 from ..world_setup import LoadedWorld
 
 NODE_NAME = "/trundle"
-_SETTLE_S = 5.0
-"""Wait for registrations; a master elsewhere may have died."""
 
 
 class SimulationClock(SimClock):
@@ -117,7 +115,7 @@ class RosInterface:
 
     def settle(self) -> None:
         """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""
-        self._graph.loop.wait_idle(_SETTLE_S, unless=lambda: False)
+        self._graph.loop.wait_idle()
 
     def tick(self, *, wait: bool) -> None:
         """Set the nodes' clock at the end of a stride.
@@ -139,7 +137,7 @@ class RosInterface:
     ) -> Self:
         """Leave the graph and return the interface of another simulation on it."""
         for node in self._nodes:
-            self._graph.loop.run(node.shutdown(), timeout_s=_SETTLE_S)
+            self._graph.loop.run(node.shutdown())
         return type(self)(self._graph, simulation, cameras, sensors, stage)
 
     def close(self) -> None:

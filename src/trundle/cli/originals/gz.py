@@ -23,8 +23,8 @@ EXAMPLES = """
 """
 _POSE = (("x", "X"), ("y", "Y"), ("z", "Z"), ("roll", "R"), ("pitch", "P"), ("yaw", "A"))
 _PERIOD_S = 1.0
-_START_S, _TIMEOUT_S = 10.0, 60.0
-"""Time limits for a server that starts, and for its answer."""
+_START_S = 10.0
+"""Time limit for a server that starts; there may be none."""
 _STEPS = "stepping a world from outside is not supported; the page has buttons for it"
 
 
@@ -189,7 +189,7 @@ class _Gazebo:
 
         try:
             self._loop.run(self._node.wait_for_service(f"/gazebo/{service}", _START_S), None)
-            calling = self._node.call_service(f"/gazebo/{service}", kind, dict(request or {}), timeout_s=_TIMEOUT_S)
+            calling = self._node.call_service(f"/gazebo/{service}", kind, dict(request or {}))
             return self._loop.run(calling, None)
         except RosError as error:
             raise UsageError(f"{error}; start a world with gazebo, gzserver or a launch file") from None

@@ -15,7 +15,6 @@ from .trimesh import trimesh_sdf
 
 _STDIN = "-stdin"
 
-_TIMEOUT_S = 60.0
 _MESH = re.compile(r"""(<\s*mesh\s[^>]*?\bfilename\s*=\s*["'])package://""")
 
 
@@ -51,7 +50,7 @@ class SpawnModel:
             xml = _MESH.sub(r"\1model://", xml)
         service = f"{gazebo}/spawn_{kind}_model"
         node.log.info(f"Waiting for service {service}")
-        await node.wait_for_service(service, _TIMEOUT_S)
+        await node.wait_for_service(service)
         answer = await node.call_service(
             service,
             "gazebo_msgs/SpawnModel",
@@ -62,7 +61,6 @@ class SpawnModel:
                 "initial_pose": pose_fields(request.pose),
                 "reference_frame": texts.get("-reference_frame", ""),
             },
-            timeout_s=_TIMEOUT_S,
         )
         _check(answer)
         node.log.info(f"Spawn status: {answer.status_message}")
@@ -77,7 +75,6 @@ class SpawnModel:
                         "joint_names": list(request.joints),
                         "joint_positions": list(request.joints.values()),
                     },
-                    timeout_s=_TIMEOUT_S,
                 )
             )
         if "-unpause" in request.flags:
@@ -88,11 +85,11 @@ class SpawnModel:
         texts = request.texts
         source = request.source
         if request.kind == "trimesh":
-            with self._node.loop.work.pending():
+            with self._node.loop.work.pending("the model's file"):
                 return await asyncio.to_thread(trimesh_sdf, texts["-file"], request.trimesh), "sdf"
         match source:
             case "-file":
-                with self._node.loop.work.pending():
+                with self._node.loop.work.pending("the model's file"):
                     xml = await asyncio.to_thread(_read, texts["-file"])
             case "-param":
                 xml = await self._parameter(texts["-param"])

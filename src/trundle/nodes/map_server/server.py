@@ -57,7 +57,7 @@ class MapServer:
         return 0
 
     async def _load(self, read: Callable[[], OccupancyGrid]) -> None:
-        with self._node.loop.work.pending():
+        with self._node.loop.work.pending("the map"):
             grid = await asyncio.to_thread(read)
         stamp_ns = self._node.clock.now_ns()
         info = metadata_fields(grid, stamp_ns=stamp_ns)

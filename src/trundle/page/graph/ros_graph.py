@@ -49,7 +49,8 @@ from .topic_table import TopicTable
 
 _PERIOD_S = 1.0
 _log = logging.getLogger(__name__)
-_REGISTRATION_S = 5.0
+_ANSWER_S = 5.0
+"""Silence of the master [s] after which the page warns; its answer is awaited without a limit."""
 _CONDITION = "master"
 _MAX_TASKS = 64
 """Questions about parameters that one client waits for."""
@@ -107,6 +108,7 @@ class RosGraph:
 
     async def _refresh(self) -> None:
         """Read the master's state; without a master, everything stays as it was."""
+        late = asyncio.get_running_loop().call_later(_ANSWER_S, self._say_unanswered)
         try:
             registered = await self._wait_registered()
             state = await read_state(self._node)
@@ -115,13 +117,14 @@ class RosGraph:
                 await self._replace_node()
                 state = await read_state(self._node)
             await self._parameters.refresh(self._node)
-        except (MasterUnreachableError, TimeoutError):
-            uri = self._address.master_uri
-            self._hub.set_condition(_CONDITION, f"no ROS master answers at {uri}; trying again every second")
+        except MasterUnreachableError:
+            self._say_unanswered()
             return
         except (MasterError, ValueError, TypeError) as error:
             self._hub.set_condition(_CONDITION, f"the ROS master at {self._address.master_uri} answers: {error}")
             return
+        finally:
+            late.cancel()
         self._hub.set_condition(_CONDITION, None)
         before, self._state, self._has_state = self._state, state, True
         await self._topics.update(self._node, state)
@@ -130,15 +133,15 @@ class RosGraph:
         for client in self._graph_clients if update is not None else ():
             client.send_json(update)
 
-    async def _wait_registered(self) -> tuple[set[str], set[str]]:
-        """Wait until the master knows this node's topics; return those subscribed to and those published.
+    def _say_unanswered(self) -> None:
+        uri = self._address.master_uri
+        self._hub.set_condition(_CONDITION, f"no ROS master answers at {uri}; trying again every second")
 
-        Raises:
-            TimeoutError: it takes too long, as without a master.
-        """
+    async def _wait_registered(self) -> tuple[set[str], set[str]]:
+        """Wait until the master knows this node's topics; return those subscribed to and those published."""
         registered = self._topics.subscribed, self._publishers.topics | self._driving.topics
         if not self._node.is_shut_down:
-            await asyncio.wait_for(self._node.wait_registered(), _REGISTRATION_S)
+            await self._node.wait_registered()
         return registered
 
     def _is_registered(self, registered: tuple[set[str], set[str]], state: MasterState) -> bool:

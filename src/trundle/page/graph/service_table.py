@@ -12,7 +12,6 @@ from ..clients.hub import Hub
 from ..clients.protocol import ENCODING, SCHEMA_ENCODING, SERVICE_HEADER, WARNING, service_header
 from .master_state import MasterState
 
-_TIMEOUT_S = 60.0
 MAX_IN_FLIGHT = 64
 """Calls of one client that wait for an answer."""
 _PROBES = 8
@@ -96,7 +95,7 @@ class ServiceTable:
     async def _call(self, node: Node, client: Connection, service: _Service, call_id: int, body: bytes) -> None:
         try:
             node.messages.deserialize(body, service.kind.request)
-            answer = await call_service_bytes(node, service.name, service.kind, body, timeout_s=_TIMEOUT_S)
+            answer = await call_service_bytes(node, service.name, service.kind, body)
         except RosError as error:
             self._fail(client, service.id, call_id, str(error))
         else:

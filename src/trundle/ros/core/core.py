@@ -3,6 +3,7 @@
 import asyncio
 import uuid
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,13 +52,12 @@ class Core:
         self._run_id = run_id or str(uuid.uuid1())
         self._wants_rosout = rosout
         self._profile = profile
-        self._master = Master(on_shutdown=on_shutdown)
+        self._master = Master(partial(loop.work.pending, is_answer=True), on_shutdown=on_shutdown)
         self._log_folder = log_folder
         self._logs: CoreLogs | None = None
         self._rosout: Node | None = None
         self._gathered: Publisher | None = None
         self._is_stopping = False
-        loop.work.add_source(lambda: self._master.is_busy)
 
     @property
     def uri(self) -> str:

@@ -16,7 +16,7 @@ from ..xmlrpc.rpc_server import RpcServer
 from ..xmlrpc.xmlrpc import encode_response
 from .parameters import MAX_BYTES, ParameterTree, encoded_bytes, updates
 from .registry import RegistrationTable, Registry
-from .slave_calls import SlaveCalls
+from .slave_calls import Pending, SlaveCalls
 
 ANY_TYPE = "*"
 
@@ -24,10 +24,11 @@ ANY_TYPE = "*"
 class Master:
     """Registry, parameter server and XML-RPC interface of one ROS graph."""
 
-    def __init__(self, *, on_shutdown: Callable[[str], None] | None = None) -> None:
+    def __init__(self, pending: Pending, *, on_shutdown: Callable[[str], None] | None = None) -> None:
         """Create a master; `start` listens.
 
         Args:
+            pending: tracks updates to nodes as work in progress.
             on_shutdown: called with the reason when a client asks the master to stop.
         """
         self.parameters = ParameterTree()
@@ -37,7 +38,7 @@ class Master:
         self._on_shutdown = on_shutdown
         self._registry = Registry()
         self._types: dict[str, str] = {}
-        self._slave_calls = SlaveCalls()
+        self._slave_calls = SlaveCalls(pending)
         self._server = RpcServer(self.dispatch)
         self._methods: dict[str, Method] = {
             "getPid": (0, -1, self._get_pid),
@@ -78,11 +79,6 @@ class Master:
     def port(self) -> int:
         """Port of the XML-RPC server."""
         return self._server.port
-
-    @property
-    def is_busy(self) -> bool:
-        """True while updates to nodes are queued."""
-        return self._slave_calls.is_busy
 
     async def stop(self) -> None:
         """Stop listening; nodes are not notified, since they run on without a master."""

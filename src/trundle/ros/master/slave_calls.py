@@ -1,15 +1,23 @@
-"""Queue of slave API calls (publisherUpdate, paramUpdate, shutdown), one at a time per node, without blocking."""
+"""Queue of slave API calls (publisherUpdate, paramUpdate, shutdown), one at a time per node, without blocking.
+
+A node that is slow, or suspended, is waited for until it answers or its connection breaks.
+"""
 
 import asyncio
 import logging
-from typing import Any
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from typing import Any, TypeAlias
 
 from ..errors import RosError
 from ..xmlrpc.rpc_client import call
 from ..xmlrpc.xmlrpc import FaultError
 
 _log = logging.getLogger(__name__)
-_TIMEOUT_S = 5.0
+Pending: TypeAlias = Callable[[str], AbstractContextManager[None]]
+"""Context of work in progress, given its noun."""
+_MAX_WAITING = 256
+"""Most nodes that are waited for; beyond, the one waited for longest is given up: silent ones cost sockets."""
 _SUPERSEDABLE = ("publisherUpdate", "paramUpdate")
 """Methods whose newest call for a topic or parameter supersedes a queued one."""
 
@@ -17,26 +25,25 @@ _SUPERSEDABLE = ("publisherUpdate", "paramUpdate")
 class SlaveCalls:
     """One queue of calls per node address."""
 
-    def __init__(self) -> None:
+    def __init__(self, pending: Pending) -> None:
+        self._pending = pending
         self._waiting: dict[str, list[tuple[str, tuple[Any, ...]]]] = {}
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._tasks: dict[asyncio.Task[None], None] = {}
+        """One for each node, the oldest first."""
 
     def send(self, uri: str, method: str, *arguments: object) -> None:
         """Queue a call; it replaces a queued call about the same topic or parameter."""
         queue = self._waiting.get(uri)
         if queue is None:
             self._waiting[uri] = queue = []
+            if len(self._tasks) >= _MAX_WAITING:
+                next(iter(self._tasks)).cancel()
             task = asyncio.get_running_loop().create_task(self._run(uri, queue))
-            self._tasks.add(task)
-            task.add_done_callback(self._tasks.discard)
+            self._tasks[task] = None
+            task.add_done_callback(lambda done: self._tasks.pop(done, None))
         if method in _SUPERSEDABLE:
             queue[:] = [(m, a) for m, a in queue if (m, a[:2]) != (method, arguments[:2])]
         queue.append((method, arguments))
-
-    @property
-    def is_busy(self) -> bool:
-        """True while calls are queued or in progress."""
-        return bool(self._waiting)
 
     async def stop(self) -> None:
         """Cancel all queued calls."""
@@ -46,11 +53,12 @@ class SlaveCalls:
 
     async def _run(self, uri: str, queue: list[tuple[str, tuple[Any, ...]]]) -> None:
         try:
-            while queue:
-                method, arguments = queue.pop(0)
-                try:
-                    await call(uri, method, *arguments, timeout_s=_TIMEOUT_S)
-                except (OSError, RosError, FaultError, ValueError) as error:
-                    _log.debug("%s of %s: %s", method, uri, error)
+            with self._pending(f"the answer of the node at {uri} to the ROS master"):
+                while queue:
+                    method, arguments = queue.pop(0)
+                    try:
+                        await call(uri, method, *arguments)
+                    except (OSError, RosError, FaultError, ValueError) as error:
+                        _log.debug("%s of %s: %s", method, uri, error)
         finally:
             self._waiting.pop(uri, None)

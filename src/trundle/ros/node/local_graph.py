@@ -96,10 +96,14 @@ class LocalGraph:
         """URIs of the masters in this process, which end with it."""
         self.on_publisher: list[Callable[[LocalPublisher], None]] = []
         """Called on the loop with each new publisher."""
+        self.service_changes = 0
+        """Number of services that nodes of this process have registered so far."""
         self._service_change: set[asyncio.Future[None]] = set()
 
-    async def wait_service_change(self, timeout_s: float) -> None:
-        """Wait for `notify_service_change`, or the timeout."""
+    async def wait_service_change(self, seen: int, timeout_s: float) -> None:
+        """Wait until `service_changes` is not `seen` any more, or for the timeout."""
+        if self.service_changes != seen:
+            return
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._service_change.add(future)
         await asyncio.wait([future], timeout=timeout_s)
@@ -107,6 +111,7 @@ class LocalGraph:
 
     def notify_service_change(self) -> None:
         """Wake those waiting for a service: a node of this process has registered one."""
+        self.service_changes += 1
         for future in self._service_change:
             if not future.done():
                 future.set_result(None)

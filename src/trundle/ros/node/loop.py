@@ -11,8 +11,10 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from trundle.diagnostics import DescriptionError, UsageError
+from trundle.waiting import WaitNotice
 
 from .. import _message_codec
+from ..log import print_log
 from ..transport.closing_loop import ClosingLoop
 from ..transport.fast_selector import FastSelector
 from .local_graph import LocalGraph
@@ -23,8 +25,6 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
-_LAST_CALLBACK_S = 8.0
-"""Extra wait for a callback that blocks the thread at the end: an abandoned loop leaks its sockets."""
 _CALM_PASSES = 5
 """Passes without a delivery after which deliveries count as flushed; the steps of a coroutine callback that awaits
 nothing outside the process.
@@ -34,7 +34,8 @@ _SPINS = 200
 _NAP_S = 0.001
 SLICE_NS = 100_000
 """Linux' shortest time slice: the loop then preempts a busy thread instead of waiting for its 3 ms slice."""
-_GRACE_S = 5.0
+_LOOK_S = 1.0
+"""Time between two looks for work that takes long."""
 _WAIT_S = 0.5
 """Longest single wait: a signal that the system hands to another thread than the main one does not end its wait, and
 Python calls the handler only in the main thread.
@@ -83,16 +84,16 @@ class GraphLoop:
         self._thread.start()
         self.own_threads.add(self._thread.ident)
 
-    def stop(self, timeout_s: float = 2.0) -> None:
-        """Shut the nodes down, cancel remaining tasks, and join the thread."""
+    def stop(self) -> None:
+        """Shut the nodes down, cancel remaining tasks, and join the thread; says every few seconds that it waits."""
         if not self._thread.is_alive():
             return
-        try:
-            self.run(self._shutdown_nodes(timeout_s * 0.75), timeout_s)
-        except TimeoutError:
-            _log.warning("nodes did not shut down within %.1f s", timeout_s)
+        notice = WaitNotice("the nodes of this process to shut down")
+        _wait_result(asyncio.run_coroutine_threadsafe(self._shutdown_nodes(), self._loop), None, notice.poll)
         self._loop.call_soon_threadsafe(self._loop.stop)
-        self._thread.join(timeout_s + _LAST_CALLBACK_S)
+        while self._thread.is_alive():
+            self._thread.join(_WAIT_S)
+            notice.poll()
 
     def __enter__(self) -> Self:
         self.start()
@@ -113,8 +114,10 @@ class GraphLoop:
             return None
         return time.clock_gettime_ns(time.pthread_getcpuclockid(self._thread.ident))
 
-    def run(self, coroutine: Coroutine[object, object, _T], timeout_s: float | None = 30.0) -> _T:
+    def run(self, coroutine: Coroutine[object, object, _T], timeout_s: float | None = None) -> _T:
         """Run a coroutine on the loop and wait for its result, from another thread.
+
+        Every few seconds the loop prints the work in progress that is waited for.
 
         Raises:
             TimeoutError: timeout; the coroutine is cancelled.
@@ -182,13 +185,13 @@ class GraphLoop:
 
         self.call_soon(count)
 
-    def flush_deliveries(self, timeout_s: float = 5.0) -> None:
+    def flush_deliveries(self) -> None:
         """Wait until every message published so far has reached its subscribers in this process.
 
         Callbacks of nodes with `deliver` are then scheduled, not yet called. For runs at maximum speed, between steps.
         """
         if self._unsettled:
-            self.run(self._quiet(), timeout_s)
+            self.run(self._quiet())
             self._unsettled = False
 
     def begin_batch(self) -> None:
@@ -202,25 +205,22 @@ class GraphLoop:
             gathered, self._batch = self._batch, []
             self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
 
-    def wait_idle(self, timeout_s: float, *, unless: Callable[[], bool]) -> bool:
-        """Wait until no work is in progress; False on timeout, or if `unless` came true first."""
+    def wait_idle(self, *, unless: Callable[[], bool] = lambda: False) -> bool:
+        """Wait until no work is in progress; False if `unless`, asked on the loop, came true first."""
         self.end_batch()
         if self._unsettled or self.work.is_busy:
-            if not self.run(self.idle(timeout_s, unless=unless), timeout_s + _GRACE_S):
+            if not self.run(self.idle(unless=unless)):
                 return False
             self._unsettled = False
         return True
 
-    async def idle(
-        self, timeout_s: float, *, unless: Callable[[], bool] = lambda: False, passes: int = _CALM_PASSES
-    ) -> bool:
-        """`wait_idle` on the loop: idle for `passes` passes."""
-        due = time.monotonic() + timeout_s
+    async def idle(self, *, unless: Callable[[], bool] = lambda: False, passes: int = _CALM_PASSES) -> bool:
+        """`wait_idle` on the loop: idle for `passes` passes, however long each takes."""
         calm, seen, spins = 0, self._calls, 0
         while calm < passes:
             spins += 1
             await asyncio.sleep(0 if spins < _SPINS else _NAP_S)
-            if unless() or time.monotonic() > due:
+            if unless():
                 return False
             calm = 0 if self.work.is_busy or self._calls != seen else calm + 1
             seen = self._calls
@@ -233,16 +233,23 @@ class GraphLoop:
             calm = calm + 1 if self._deliveries == seen else 0
             seen = self._deliveries
 
-    async def _shutdown_nodes(self, timeout_s: float) -> None:
+    async def _shutdown_nodes(self) -> None:
         """Shut down all nodes."""
         self.is_ending = True
         farewells = [asyncio.create_task(node.shutdown()) for node in list(self.local.members)]
         if farewells:
-            await asyncio.wait(farewells, timeout=timeout_s)
+            await asyncio.wait(farewells)
+
+    def _say_waits(self) -> None:
+        """Say every few seconds which work takes long."""
+        if (line := self.work.notice()) is not None:
+            print_log("info", line, wall_ns=time.time_ns(), sim_ns=None)
+        self._loop.call_later(_LOOK_S, self._say_waits)
 
     def _run(self) -> None:
         _message_codec.request_time_slice(SLICE_NS)
         asyncio.set_event_loop(self._loop)
+        self._loop.call_later(_LOOK_S, self._say_waits)
         try:
             self._loop.run_forever()
         finally:
@@ -275,8 +282,8 @@ def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
         future.set_result(task.result())
 
 
-def _wait_result(future: Future[_T], timeout_s: float | None) -> _T:
-    """Wait for a result; signals are handled in the main thread meanwhile."""
+def _wait_result(future: Future[_T], timeout_s: float | None, poll: Callable[[], object] = lambda: None) -> _T:
+    """Wait for a result, calling `poll` now and then; signals are handled in the main thread meanwhile."""
     end_s = math.inf if timeout_s is None else time.monotonic() + timeout_s
     while True:
         left_s = end_s - time.monotonic()
@@ -287,3 +294,4 @@ def _wait_result(future: Future[_T], timeout_s: float | None) -> _T:
                 return future.result()
             if left_s <= _WAIT_S:
                 raise
+            poll()

@@ -7,9 +7,6 @@ from ..xmlrpc.rpc_client import call_value
 from ..xmlrpc.xmlrpc import FaultError
 from .pending_work import PendingWork
 
-_MASTER_S = 5.0
-"""Timeout of a master call."""
-
 
 class MasterClient:
     """Calls the master's XML-RPC API with the node's caller ID."""
@@ -20,16 +17,16 @@ class MasterClient:
         self._work = work
 
     async def call(self, method: str, *arguments: object) -> Any:
-        """Call a method and return the answer's value.
+        """Call a method and return the answer's value, however long it takes.
 
         Raises:
-            MasterUnreachableError: no answer.
+            MasterUnreachableError: the connection is refused, or breaks.
             MasterError: the answer's code is not 1.
         """
         try:
-            with self._work.pending():
-                return await call_value(self._uri, method, self._caller, *arguments, timeout_s=_MASTER_S)
+            with self._work.pending(f"the answer of the ROS master at {self._uri} to {method}"):
+                return await call_value(self._uri, method, self._caller, *arguments)
         except (OSError, WireError) as error:
-            raise MasterUnreachableError(self._uri, str(error) or "no answer in time") from None
+            raise MasterUnreachableError(self._uri, str(error)) from None
         except FaultError as error:
             raise MasterError(f"{method}: {error}") from None

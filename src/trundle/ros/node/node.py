@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ..messages.messages import Messages
 
 _FAREWELL_S = 1.0
-"""Timeout of unregistering: a program must end within two seconds of Ctrl-C."""
+"""Timeout of unregistering at another program's master: a program must end within two seconds of Ctrl-C."""
 _LINK_S = 0.01
 
 
@@ -251,9 +251,9 @@ class Node:
         type_name: str,
         request: TypedMessage | Mapping[str, object] | None = None,
         *,
-        timeout_s: float | None = 10.0,
+        timeout_s: float | None = None,
     ) -> Message:
-        """Call a service.
+        """Call a service; without a timeout, until it answers or the connection breaks.
 
         Raises:
             ServiceError: the service is not available, fails or times out.
@@ -301,21 +301,27 @@ class Node:
             await self.closed.wait()
             return
         self._is_down = True
+        try:
+            await self._leave()
+        finally:
+            self.closed.set()
+
+    async def _leave(self) -> None:
         if self._has_begun:
             await self._listening.wait()  # a partly created server would stay open
         if self._master_watch is not None:
             self._master_watch.cancel()
         await self._registrations.close()
         if self.uri:
+            is_local = self.master_uri in self.loop.local.masters
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(_FAREWELL_S):
+                async with asyncio.timeout(None if is_local else _FAREWELL_S):
                     farewells = [*self.endpoints.unregister_all(), *self.params.unwatch_all()]
                     await asyncio.gather(*farewells, return_exceptions=True)
         self.loop.local.members.discard(self)
         self.loop.local.nodes.pop(self.uri, None)
         self.endpoints.close()
         await self._slave.stop()
-        self.closed.set()
 
     def request_shutdown(self, reason: str) -> None:
         """Handle a shutdown request of the master or another node."""

@@ -9,6 +9,7 @@ from ..log import print_log
 from .clock import WallClock
 from .loop import GraphLoop
 from .node_log import NodeLog
+from .pending_work import WorkItem
 
 Registration: TypeAlias = Callable[[], Awaitable[None]]
 _RETRY_S = 0.5
@@ -20,11 +21,13 @@ class RegistrationQueue:
     def __init__(self, loop: GraphLoop, *, log: NodeLog) -> None:
         self._loop = loop
         self._log = log
-        self._queue: asyncio.Queue[tuple[Registration, object]] = asyncio.Queue()
+        self._queue: asyncio.Queue[tuple[Registration, WorkItem]] = asyncio.Queue()
         self._worker: asyncio.Task[None] | None = None
         self._is_started = asyncio.Event()
         self._has_ended = False
         self._waits_for_master = False
+        self._current: WorkItem | None = None
+        """Work of the call in progress."""
 
     def add(self, registration: Registration) -> None:
         """Append a call; thread-safe, does not block."""
@@ -59,7 +62,7 @@ class RegistrationQueue:
             await asyncio.gather(self._worker, return_exceptions=True)
 
     async def retry(self, registration: Registration) -> None:
-        """Execute a call, retrying until a master answers."""
+        """Execute a call, retrying until a master answers; a master that is not there holds no time."""
         while True:
             try:
                 await registration()
@@ -67,6 +70,8 @@ class RegistrationQueue:
                 if not self._waits_for_master:
                     self._waits_for_master = True
                     self._log.warn(f"{error}; {self._log.name} keeps trying")
+                if self._current is not None:
+                    self._loop.work.finish(self._current)
                 await asyncio.sleep(_RETRY_S)
                 continue
             except (MasterError, ParameterError) as error:
@@ -74,22 +79,23 @@ class RegistrationQueue:
             self._waits_for_master = False
             return
 
-    def _add(self, registration: Registration, token: object) -> None:
+    def _add(self, registration: Registration, token: WorkItem) -> None:
         if self._has_ended or (self._worker is not None and self._worker.done()):  # the worker has ended
             self._loop.work.finish(token)
         else:
             self._queue.put_nowait((registration, token))
 
-    async def _run(self, first: Registration, token: object) -> None:
+    async def _run(self, first: Registration, token: WorkItem) -> None:
+        self._current = token
         await first()
         self._is_started.set()
         self._loop.work.finish(token)
         while True:
-            registration, token = await self._queue.get()
+            registration, self._current = await self._queue.get()
             try:
                 await self.retry(registration)
             finally:
-                self._loop.work.finish(token)
+                self._loop.work.finish(self._current)
 
     def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
         while not self._queue.empty():

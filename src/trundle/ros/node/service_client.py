@@ -6,6 +6,8 @@ import struct
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from trundle.waiting import WaitNotice
+
 from ..errors import MasterError, MessageError, RosError, ServiceError, WireError
 from ..messages.raw_message import Message, ServiceType
 from ..messages.typed_message import TypedMessage
@@ -38,27 +40,20 @@ async def call_service(
         request = node.new(kind.request, request and dict(request))
     uri = await _look_up(node, name)
     try:
-        with node.loop.work.pending():
+        with node.loop.work.pending(f"the answer of {name}", is_answer=True):
             async with asyncio.timeout(timeout_s):
                 return await _exchange(node.messages, node.name, uri, name, kind, request)
     except TimeoutError:
         raise ServiceError(f"{name} did not answer within {timeout_s:g} s") from None
 
 
-async def call_service_bytes(
-    node: NodeContext, name: str, kind: ServiceType, request: bytes, *, timeout_s: float
-) -> bytes:
+async def call_service_bytes(node: NodeContext, name: str, kind: ServiceType, request: bytes) -> bytes:
     """Call a service by its global name with a serialized request, and return the serialized response.
 
     Raises:
-        ServiceError: the service is not available, fails or times out.
+        ServiceError: the service is not available, fails or breaks off.
     """
-    uri = await _look_up(node, name)
-    try:
-        async with asyncio.timeout(timeout_s):
-            return await _exchange_bytes(node.name, uri, name, kind, request)
-    except TimeoutError:
-        raise ServiceError(f"{name} did not answer within {timeout_s:g} s") from None
+    return await _exchange_bytes(node.name, await _look_up(node, name), name, kind, request)
 
 
 async def _look_up(node: NodeContext, name: str) -> str:
@@ -79,13 +74,16 @@ async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None
     Raises:
         ServiceError: timeout.
     """
+    notice = WaitNotice(f"the service {name}", node.log.info)
     try:
         async with asyncio.timeout(timeout_s):
             while True:
+                seen = node.loop.local.service_changes  # before the look-up: one registered meanwhile wakes, too
                 with contextlib.suppress(MasterError):
                     await node.master.call("lookupService", name)
                     return
-                await node.loop.local.wait_service_change(_POLL_S)
+                await node.loop.local.wait_service_change(seen, _POLL_S)
+                notice.poll()
     except TimeoutError:
         raise ServiceError(f"no node provided the service {name} within {timeout_s:g} s") from None
 

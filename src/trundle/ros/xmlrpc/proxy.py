@@ -3,6 +3,8 @@
 import socket
 from typing import Any
 
+from trundle.waiting import PERIOD_S, WaitNotice
+
 from ..errors import MasterError, MasterUnreachableError, WireError
 from ..transport.network import master_uri_from_env
 from .http import MAX_BODY_BYTES, host_and_port, parse_head, request
@@ -12,7 +14,14 @@ from .xmlrpc import FaultError, decode_response, encode_call
 class MasterProxy:
     """Blocking calls to the master, the parameter server or a node's slave API."""
 
-    def __init__(self, uri: str | None = None, caller_id: str = "/trundle", *, timeout_s: float = 3.0) -> None:
+    def __init__(self, uri: str | None = None, caller_id: str = "/trundle", *, timeout_s: float | None = None) -> None:
+        """Prepare.
+
+        Args:
+            uri: of the server; ROS_MASTER_URI by default.
+            caller_id: the caller's name.
+            timeout_s: of each call; None: wait until it answers or the connection breaks, as ROS' own programs do.
+        """
         self.uri = uri or master_uri_from_env()
         self._caller_id = caller_id
         self._timeout_s = timeout_s
@@ -38,7 +47,7 @@ class MasterProxy:
         return value
 
 
-def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float) -> Any:
+def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float | None = None) -> Any:
     """Call a method and return the decoded response.
 
     Raises:
@@ -46,12 +55,20 @@ def blocking_call(uri: str, method: str, *arguments: object, timeout_s: float) -
         WireError: the peer does not speak XML-RPC.
         FaultError: the response is a fault.
     """
+    notice = WaitNotice(f"the answer of {uri} to {method}")
     with socket.create_connection(host_and_port(uri), timeout=timeout_s) as connection:
         connection.sendall(request(uri, encode_call(method, arguments)))
+        connection.settimeout(PERIOD_S if timeout_s is None else timeout_s)
         data = bytearray()
         end = None
         while end is None or len(data) < end:
-            chunk = connection.recv(65536)
+            try:
+                chunk = connection.recv(65536)
+            except TimeoutError:
+                if timeout_s is not None:
+                    raise
+                notice.poll()
+                continue
             if not chunk:
                 break
             data += chunk

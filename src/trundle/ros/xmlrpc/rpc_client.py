@@ -1,4 +1,4 @@
-"""XML-RPC calls on asyncio, bounded in size and time."""
+"""XML-RPC calls on asyncio, bounded in size; in time only where the caller says so."""
 
 import asyncio
 import contextlib
@@ -9,7 +9,7 @@ from .http import MAX_BODY_BYTES, MAX_HEAD_BYTES, host_and_port, parse_head, req
 from .xmlrpc import decode_response, encode_call
 
 
-async def call(uri: str, method: str, *arguments: object, timeout_s: float = 5.0) -> Any:
+async def call(uri: str, method: str, *arguments: object, timeout_s: float | None = None) -> Any:
     """Call a method and return the decoded response.
 
     Raises:
@@ -36,7 +36,7 @@ async def call(uri: str, method: str, *arguments: object, timeout_s: float = 5.0
     return decode_response(answer)
 
 
-async def call_value(uri: str, method: str, *arguments: object, timeout_s: float = 5.0) -> Any:
+async def call_value(uri: str, method: str, *arguments: object, timeout_s: float | None = None) -> Any:
     """Call a ROS method, which answers [code, text, value], and return the value.
 
     Raises:

@@ -8,13 +8,11 @@ from trundle.ros.xmlrpc.xmlrpc import FaultError
 
 from .binary import unwrap_bytes, wrap_bytes
 
-_TIMEOUT_S = 60.0
-
 
 class ServerProxy:
     """Calls a server's methods as its own."""
 
-    def __init__(self, uri: str, *, timeout_s: float = _TIMEOUT_S) -> None:
+    def __init__(self, uri: str, *, timeout_s: float | None = None) -> None:
         self._uri = uri
         self._timeout_s = timeout_s
 

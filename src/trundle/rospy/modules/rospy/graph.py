@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from trundle.ros.messages.messages import Messages
 
 _T = TypeVar("_T")
-_POLL_S = 0.2
 _STOP_S = 4.0
 _IDLE_THREADS = 8
 _LEVELS = {"debug": logging.DEBUG, "info": logging.INFO, "warn": logging.WARNING, "error": logging.ERROR}
@@ -156,12 +155,12 @@ def wait_registered() -> None:
 def run(coroutine: Callable[[], Coroutine[Any, Any, _T]]) -> _T | None:
     """Run a coroutine on the loop until it ends, or shutdown (None)."""
     assert loop is not None
-    while not core.is_shutdown():
-        try:
-            return loop.run(coroutine(), _POLL_S)
-        except (TimeoutError, CancelledError):  # cancelled by shutdown
-            continue
-    return None
+    if core.is_shutdown():
+        return None
+    try:
+        return loop.run(coroutine())
+    except CancelledError:  # by shutdown
+        return None
 
 
 def stop(reason: str) -> None:

@@ -1,0 +1,44 @@
+"""Waits without a time limit: every few seconds they say what they wait for.
+
+A machine that is busy, slow or suspended breaks no wait: docs/decisions/0026.
+"""
+
+import sys
+import time
+from collections.abc import Callable
+
+PERIOD_S = 10.0
+"""Time between two notices of one wait [s]."""
+
+
+def _print(line: str) -> None:
+    if sys.stderr is not None:
+        print(line, file=sys.stderr, flush=True)
+
+
+class WaitNotice:
+    """Says every few seconds what is waited for, and since when; to be polled while waiting."""
+
+    def __init__(self, what: str, say: Callable[[str], object] = _print) -> None:
+        """Begin the wait.
+
+        Args:
+            what: what is waited for, such as "the page's server".
+            say: prints a line.
+        """
+        self._what = what
+        self._say = say
+        self._start_s = time.monotonic()
+        self._due_s = self._start_s + PERIOD_S
+
+    def poll(self) -> None:
+        """Say it, if it is time."""
+        now_s = time.monotonic()
+        if now_s >= self._due_s:
+            self._due_s = now_s + PERIOD_S
+            self._say(waiting_line(self._what, now_s - self._start_s))
+
+
+def waiting_line(what: str, seconds: float) -> str:
+    """Return the notice of a wait that lasts already."""
+    return f"waiting for {what} since {seconds:.0f} s"
