@@ -65,7 +65,7 @@ class Display(Protocol):
 class Simulator(Protocol):
     """The simulation of a launch, on a thread of its own.
 
-    All methods but `open`, `close`, `post` and `show` must be called on that thread.
+    All methods but `open`, `begin`, `close`, `post` and `show` must be called on that thread.
     """
 
     @property
@@ -89,7 +89,7 @@ class Simulator(Protocol):
     async def open(
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
-        """Load and run a world.
+        """Load a world; time stands still until `begin`.
 
         Args:
             node: publishes /clock; its callbacks run on the simulation's thread.
@@ -101,6 +101,10 @@ class Simulator(Protocol):
         Raises:
             TrundleError: the world is missing or invalid, or another one is open.
         """
+        ...
+
+    def begin(self) -> None:
+        """Let time advance, once everything that others may call is registered; thread-safe."""
         ...
 
     def close(self) -> None:

@@ -287,6 +287,45 @@ def test_a_server_that_was_killed_can_be_started_again(gazebo: Gazebo, tmp_path:
     assert list(models) == ["ground_plane"]
 
 
+def test_time_begins_when_all_services_are_registered(bare_gazebo: Gazebo, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever finds one service finds them all, also where the master takes its time."""
+    gazebo = bare_gazebo
+    server = Node("/gazebo", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+    gazebo.loop.run(server.wait_registered(), PATIENCE_S)
+    times: dict[str, int] = {}
+    call = server.master.call
+
+    async def call_slowly(method: str, *arguments: object) -> object:
+        if method == "registerService":
+            await asyncio.sleep(0.05)
+            times[str(arguments[0])] = gazebo.world.simulation.time_ns
+        return await call(method, *arguments)
+
+    monkeypatch.setattr(server.master, "call", call_slowly)
+    gazebo.loop.spawn(GazeboServer(server, [], gazebo.host).run())
+    until(lambda: gazebo.world.is_ready and gazebo.world.simulation.time_ns > 0)
+
+    assert set(times.values()) == {0}
+    assert {"/gazebo/spawn_urdf_model", "/gazebo/set_model_state", "/gazebo/set_parameters"} <= times.keys()
+
+
+def test_calls_are_answered_after_an_error_on_the_simulations_thread(
+    gazebo: Gazebo, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    failed: list[bool] = []
+
+    def fail(*_: object, **__: object) -> bool:
+        failed.append(True)
+        raise ValueError("the page's fault")
+
+    with monkeypatch.context() as failing:
+        failing.setattr(gazebo.world._window, "update", fail)
+        until(lambda: len(failed) > 2)
+
+        assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").success
+    assert caplog.text.count("the simulation goes on after an error: ValueError: the page's fault") == 1
+
+
 def test_a_second_server_is_refused_and_leaves_the_first_alone(gazebo: Gazebo, capsys) -> None:
     second = Node("/second", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
 

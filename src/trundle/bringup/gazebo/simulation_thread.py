@@ -1,6 +1,7 @@
 """Thread of the simulation behind /gazebo."""
 
 import asyncio
+import logging
 import threading
 from collections.abc import Callable
 
@@ -10,6 +11,7 @@ from trundle.ros import GraphLoop
 from ..call_queue import CallQueue
 
 _END_S = 2.0
+_log = logging.getLogger(__name__)
 
 
 class SimulationThread:
@@ -27,6 +29,7 @@ class SimulationThread:
         self._tick = tick
         self._end = end
         self._thread: threading.Thread | None = None
+        self._reported: set[str] = set()
         self.calls = CallQueue(loop)
         """Functions for the thread, run between two ticks."""
         self.ending = threading.Event()
@@ -80,7 +83,17 @@ class SimulationThread:
     def _run(self) -> None:
         try:
             while not self.ending.is_set():
-                self.calls.run_pending()
-                self._tick()
+                try:
+                    self.calls.run_pending()
+                    self._tick()
+                except Exception as error:  # the thread goes on, and answers calls of services
+                    self._report(error)
         finally:
             self._end()
+
+    def _report(self, error: Exception) -> None:
+        """Log an error with its traceback, once; a tick that fails fails again."""
+        text = f"{type(error).__name__}: {error}"
+        if text not in self._reported:
+            self._reported.add(text)
+            _log.error("the simulation goes on after an error: %s", text, exc_info=error)

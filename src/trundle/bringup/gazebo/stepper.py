@@ -44,6 +44,8 @@ class GazeboStepper:
         self.clock = SimClock(loop)
         """Time of the plugins' nodes."""
         self.paused = False
+        self.is_held = True
+        """True until everything that others may call is registered."""
         self.stop_reason: str | None = None
         """Reason for which the simulation could not go on; None: it can."""
 
@@ -68,13 +70,14 @@ class GazeboStepper:
         self.pacer.restart()
 
     def begin(self) -> None:
-        """Hold the nodes' messages of a run in lockstep until time advances."""
+        """Hold time, and the nodes' messages of a run in lockstep until it advances."""
+        self.is_held = True
         if self._lockstep is not None:
             self._loop.begin_batch()
 
     def step(self, simulation: Simulation) -> None:
         """Advance as far as the pacer says, or wait a moment while paused."""
-        if self.paused or not (self._lockstep is None or self._lockstep.is_ready):
+        if self.paused or self.is_held or not (self._lockstep is None or self._lockstep.is_ready):
             self.pacer.restart()
             simulation.advance(simulation.time_ns)
             self._loop.end_batch()

@@ -83,7 +83,7 @@ class GazeboWorld:
     async def open(
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
-        """Read a world and start simulating it."""
+        """Read a world; `begin` starts its time."""
         with self._graph.loop.work.pending(f"the world {world}"):
             await self._open(node, world, paused=paused, env=env, record=record)
 
@@ -106,6 +106,10 @@ class GazeboWorld:
             raise
         if paused:
             self._say("the world is paused; /gazebo/unpause_physics starts it")
+
+    def begin(self) -> None:
+        """Let time advance."""
+        self._stepper.is_held = False
 
     def post(self, call: Callable[[], object]) -> None:
         """Queue a function for the simulation's thread, between two strides."""

@@ -69,6 +69,8 @@ class GazeboServer:
         node.deliver = simulator.post
         topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
         self._advertise(simulator)
+        await node.wait_registered()  # a caller that finds one service finds all
+        simulator.begin()
         while not node.closed.is_set():
             if simulator.paused and not simulator.is_lockstep and topics.has_subscribers():
                 simulator.post(topics.publish)
