@@ -3,6 +3,7 @@ from .compile.compiler import compile_world as compile_world
 from .compile.mjcf import compile_mjcf as compile_mjcf
 from .compile.recompiler import Recompiler as Recompiler
 from .compile.wheels import report_wheels as report_wheels
+from .convex.background import BackgroundCutting as BackgroundCutting
 from .egl_renderer import EglRenderer as EglRenderer
 from .step.batch import Batch as Batch
 from .step.batch import WorldRow as WorldRow

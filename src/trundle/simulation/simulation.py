@@ -40,6 +40,7 @@ from .world_edits import (
 
 if TYPE_CHECKING:
     from trundle.model import AnimationState
+    from trundle.physics import BackgroundCutting
 
 _MAX_STRIDE = 1000
 """Most steps of one stride; an unstable stride is rolled back to its beginning."""
@@ -52,7 +53,13 @@ class Simulation:
     """World in motion."""
 
     def __init__(
-        self, world: World, report: Diagnostics, *, seed: int = 0, compiled: CompiledWorld | None = None
+        self,
+        world: World,
+        report: Diagnostics,
+        *,
+        seed: int = 0,
+        compiled: CompiledWorld | None = None,
+        cutting: "BackgroundCutting | None" = None,
     ) -> None:
         """Compile a world at time zero.
 
@@ -61,10 +68,12 @@ class Simulation:
             report: takes the warnings of the compile.
             seed: of all random numbers.
             compiled: the world, with its actors, compiled already; no other simulation may use it.
+            cutting: cuts hollow meshes in the background; `recompile` then uses the pieces. None: they are waited for.
         """
         self.report = report
         self.seed = seed
-        self.engine = Engine(compiled or compile_world(with_actors(world, report), report))
+        self._cutting = cutting
+        self.engine = Engine(compiled or compile_world(with_actors(world, report), report, cutting=cutting))
         self.world = self.engine.compiled.world
         """World without nested models; their links and joints are the outer model's, named `inner::name`."""
         self.loads = AppliedLoads(self.engine)
@@ -399,6 +408,10 @@ class Simulation:
         check_same_structure(self.world, world)
         self._replace_world(world)
 
+    def recompile(self) -> None:
+        """Compile the world again in the same state, with meshes that have been cut in the background."""
+        self._replace_world(self.world)
+
     def on_change(self, call: Callable[[], None]) -> None:
         """Call a function after models were spawned, deleted or edited, which may change indices."""
         self._on_change.append(call)
@@ -412,7 +425,7 @@ class Simulation:
         """
         was = was or {}
         self.engine, links = transferred_engine(
-            self.engine, world, self.report, {old.name: new for new, old in was.items()}
+            self.engine, world, self.report, {old.name: new for new, old in was.items()}, self._cutting
         )
         self.world = self.engine.compiled.world
         self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(was))

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping
 from itertools import count
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
@@ -10,6 +11,9 @@ from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, World
 from trundle.physics import Engine, compile_world
 from trundle.spatial import Pose, Twist, pose_from_row
+
+if TYPE_CHECKING:
+    from trundle.physics import BackgroundCutting
 
 WORLD = "world"
 """Name of the world as the parent of a joint."""
@@ -115,7 +119,11 @@ def current_names(names: Iterable[str], models: Mapping[str, str]) -> list[str]:
 
 
 def transferred_engine(
-    old: Engine, world: World, report: Diagnostics, models: Mapping[str, str]
+    old: Engine,
+    world: World,
+    report: Diagnostics,
+    models: Mapping[str, str],
+    cutting: "BackgroundCutting | None",
 ) -> tuple[Engine, dict[int, int]]:
     """Return an engine of a changed world in the old one's state, and the new index of each link that still exists.
 
@@ -124,11 +132,12 @@ def transferred_engine(
         world: the changed one.
         report: takes the warnings of the compile.
         models: renamed models, old name → new name.
+        cutting: as in `compile_world`.
 
     Raises:
         DescriptionError: MuJoCo cannot simulate it.
     """
-    engine = Engine(compile_world(world, report))
+    engine = Engine(compile_world(world, report, cutting=cutting))
     engine.transfer_from(old, renamed=models)
     there = {name: i for i, name in enumerate(engine.compiled.link_names)}
     before = enumerate(current_names(old.compiled.link_names, models))

@@ -9,6 +9,7 @@ from trundle.bridge import ClockTopic
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Model, World
 from trundle.packages import Packages
+from trundle.physics import BackgroundCutting
 from trundle.robot import Robot
 from trundle.ros import Clock, Deliver, Node
 from trundle.sensors import CameraSensor, InstrumentSensor
@@ -43,6 +44,7 @@ class GazeboContents:
         deliver: Deliver,
         say: Callable[[str], None],
         setup: WorldSetup | None,
+        is_lockstep: bool,
     ) -> None:
         """Compile the world; `load` starts what is on it.
 
@@ -60,10 +62,15 @@ class GazeboContents:
             deliver: runs the plugins' callbacks on this thread.
             say: prints which plugins are loaded, and where logs are.
             setup: seeds the simulation, begins with it, changes spawned models; None: they are spawned as read.
+            is_lockstep: hollow meshes are cut before time goes on, so that runs repeat; else in the background.
         """
         self.packages, self.environment = packages, env
         self._folder, self._report, self._say = folder, report, say
-        self.simulation = Simulation(world, report, seed=0 if setup is None else setup.seed)
+        self._cutting = (
+            None if is_lockstep else BackgroundCutting(say, lambda count: deliver(lambda: self._use_cuts(count)))
+        )
+        seed = 0 if setup is None else setup.seed
+        self.simulation = Simulation(world, report, seed=seed, cutting=self._cutting)
         self._setup = setup
         if setup is not None:
             setup.start(self.simulation, node)
@@ -104,6 +111,12 @@ class GazeboContents:
         self.simulation.spawn(model)
         self._sensors.mount(model.name, robot=robot)
 
+    def _use_cuts(self, count: int) -> None:
+        """Replace the hulls that stood in for hollow meshes."""
+        self.simulation.recompile()
+        if count:
+            self._say(f"{count} hollow meshes are cut, and collide as their convex pieces from now on")
+
     def robot(self, model: str) -> Robot | None:
         """Return the URDF that a model was spawned from."""
         return self._sensors.robot(model)
@@ -125,5 +138,7 @@ class GazeboContents:
             self._recorder = None
 
     def close_plugins(self) -> None:
-        """Shut down the plugins' nodes without waiting; from any thread."""
+        """Shut down the plugins' nodes without waiting, and cut no more meshes; from any thread."""
+        if self._cutting is not None:
+            self._cutting.close()
         self._plugins.close()

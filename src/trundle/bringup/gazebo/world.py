@@ -243,6 +243,7 @@ class GazeboWorld:
             deliver=self.post,
             say=self._say,
             setup=self._setup,
+            is_lockstep=self._stepper.is_lockstep,
         )
         self._contents.load(logs)
 

@@ -33,6 +33,7 @@ from .tunnelling import enable_ccd
 from .wheels import TREAD_POINTS, tread_of, without_tread
 
 if TYPE_CHECKING:
+    from ..convex.background import BackgroundCutting
     from ..convex.mesh_decomposition import WorldDecomposition
 
 _MANY_BODIES = 400
@@ -43,25 +44,31 @@ _KINEMATIC_MASS = 1e6
 """Mass factor of a kinematic link, which forces do not move noticeably."""
 
 
-def compile_world(world: World, report: Diagnostics, *, cut_meshes: bool = True) -> CompiledWorld:
+def compile_world(
+    world: World, report: Diagnostics, *, cut_meshes: bool = True, cutting: "BackgroundCutting | None" = None
+) -> CompiledWorld:
     """Compile a world; values that MuJoCo cannot use are replaced with a warning.
 
     Args:
         world: as read.
         report: takes the warnings.
         cut_meshes: decompose concave meshes into convex pieces; else each mesh is its convex hull.
+        cutting: does so in the background where it takes long, while hulls stand in; None: it is waited for.
 
     Raises:
         DescriptionError: MuJoCo refuses the model.
     """
-    return Compiler(flattened(world), report, cut_meshes=cut_meshes).compile()
+    return Compiler(flattened(world), report, cut_meshes=cut_meshes, cutting=cutting).compile()
 
 
 class Compiler:
     """MjSpec under construction, from a world without nested models."""
 
-    def __init__(self, world: World, report: Diagnostics, *, cut_meshes: bool = True) -> None:
+    def __init__(
+        self, world: World, report: Diagnostics, *, cut_meshes: bool = True, cutting: "BackgroundCutting | None" = None
+    ) -> None:
         self.cuts_meshes = cut_meshes
+        self._cutting = cutting
         self.decomposition: WorldDecomposition | None = None
         """Mesh decomposition, once computed."""
         self.world = world
@@ -153,7 +160,7 @@ class Compiler:
         if self.cuts_meshes and any(isinstance(collision.geometry, MeshFile) for collision in collisions):
             from .mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
 
-            self.decomposition = cut_meshes(self.tree)
+            self.decomposition = cut_meshes(self.tree, self._cutting)
         for node in self.tree.links.values():
             for collision in node.link.collisions:
                 self._add_collision(node, collision)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
@@ -18,9 +19,17 @@ from .convex_geoms import add_hull, add_hulls, thick_pieces
 from .kinematic_tree import KinematicTree
 from .shape_entry import CollidesWith
 
+if TYPE_CHECKING:
+    from ..convex.background import BackgroundCutting
 
-def cut_meshes(tree: KinematicTree) -> WorldDecomposition:
-    """Decompose the meshes of collisions, in file order; unreadable ones are reported by `add_mesh`."""
+
+def cut_meshes(tree: KinematicTree, background: "BackgroundCutting | None") -> WorldDecomposition:
+    """Decompose the meshes of collisions, in file order; unreadable ones are reported by `add_mesh`.
+
+    Args:
+        tree: links with their collisions.
+        background: cuts what takes long; None: it is waited for.
+    """
 
     def requests() -> Iterator[MeshRequest]:
         for place in tree.links.values():
@@ -30,7 +39,7 @@ def cut_meshes(tree: KinematicTree) -> WorldDecomposition:
                     if mesh is not None:
                         yield (*_arrays(mesh), place.name in tree.immobile)
 
-    decomposition = WorldDecomposition()
+    decomposition = WorldDecomposition(background)
     decomposition.decompose_all(requests())
     return decomposition
 
@@ -89,7 +98,7 @@ def _add_pieces(
 def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
     """Report what a concave mesh is simulated as, and its deviation."""
     misfits = cut.pieces.errors
-    if not misfits:
+    if not misfits or cut.is_stand_in:
         return
     worst = max(misfits, key=lambda misfit: misfit.distance)
     is_filled = any(misfit.is_filled for misfit in misfits)

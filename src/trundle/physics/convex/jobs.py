@@ -22,8 +22,14 @@ _Answer: TypeAlias = tuple[ConcavePart, ConvexPieces | None] | None
 """None: Ctrl-C ended a worker."""
 
 
-def decompose_parts(parts: Sequence[ConcavePart]) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
+def decompose_parts(
+    parts: Sequence[ConcavePart], *, redraws: bool = True
+) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
     """Decompose parts and yield each when done, with None for a failed one.
+
+    Args:
+        parts: those to decompose.
+        redraws: redraw a line of progress on a terminal; False: other lines are printed meanwhile.
 
     Raises:
         KeyboardInterrupt: Ctrl-C in the main thread.
@@ -31,7 +37,7 @@ def decompose_parts(parts: Sequence[ConcavePart]) -> Generator[tuple[ConcavePart
     """
     seconds = [part.seconds for part in parts]
     count = min(_processors(), int(sum(seconds) / _WORKER_S), len(parts))
-    progress = DecompositionProgress(seconds, max(count, 1))
+    progress = DecompositionProgress(seconds, max(count, 1), redraws=redraws)
     try:
         if sum(seconds) <= SHORT_S or not sys.executable:
             for part in parts:

@@ -6,9 +6,10 @@ on a clock or on the cache: results repeat to the byte on slow and fast machines
 
 import hashlib
 import os
-from collections.abc import Iterable
+import threading
+from collections.abc import Iterable, Mapping
 from contextlib import closing
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 from msgspec import Struct
@@ -16,7 +17,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from .cache import load_pieces, save_pieces
-from .jobs import decompose_parts
+from .jobs import SHORT_S, decompose_parts
 from .pieces import (
     MAX_PIECES,
     MAX_SLABS,
@@ -28,6 +29,9 @@ from .pieces import (
     hull_of_part,
     split_mesh,
 )
+
+if TYPE_CHECKING:
+    from .background import BackgroundCutting
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -41,6 +45,7 @@ MAX_SECONDS = 120.0
 """Time budget of a world on one processor [s]; beyond, parts are decomposed coarsely."""
 MAX_SECONDS_A_MESH = 40.0
 _MAX_KNOWN = 1024
+_cache_lock = threading.Lock()
 
 _splits: dict[bytes, MeshSplit] = {}
 """Mesh digest → split; least recently used first."""
@@ -56,12 +61,21 @@ class DecomposedMesh(Struct, frozen=True):
     """True if the time budget reduced the number of pieces."""
     is_failed: bool
     """True if a part failed and is its hull."""
+    is_stand_in: bool = False
+    """True if a part is its hull until it is cut."""
 
 
 class WorldDecomposition:
     """Decomposition of all meshes of one world."""
 
-    def __init__(self) -> None:
+    def __init__(self, background: "BackgroundCutting | None" = None) -> None:
+        """Prepare.
+
+        Args:
+            background: cuts what takes long, while hulls stand in; None: everything is cut at once.
+        """
+        self._background = background
+        self._stand_ins: dict[str, ConvexPieces] = {}
         self._plans: dict[bytes, tuple[MeshSplit, list[ConcavePart]]] = {}
         self._chosen: dict[str, ConcavePart] = {}
         """Part key at full detail → part at the chosen detail."""
@@ -70,33 +84,44 @@ class WorldDecomposition:
         self._failed: dict[str, ConvexPieces] = {}
 
     def decompose_all(self, meshes: Iterable[MeshRequest]) -> None:
-        """Decompose meshes in file order, in several processes if it takes long."""
+        """Decompose meshes in file order, in several processes or in the background if it takes long."""
         wanted: dict[str, ConcavePart] = {}
         for vertices, faces, fixed in meshes:
             _, parts = self._plan(vertices, faces, fixed=fixed)
             wanted.update((part.key, part) for part in parts)
-        todo = {key: part for key, part in wanted.items() if key not in self._failed and self._find(part) is None}
+        todo = {key: part for key, part in wanted.items() if not self._has(part)}
+        if self._background is not None and sum(part.seconds for part in todo.values()) > SHORT_S:
+            self._stand_in(todo, self._background)
+            return
         with closing(decompose_parts(list(todo.values()))) as done:
             for part, pieces in done:
                 if pieces is None:
                     self._failed[part.key] = hull_of_part(part)
                     continue
-                _cache(_known, part.key, pieces)
-                if part.detail is not Detail.HULL:
-                    save_pieces(part.key, pieces)
+                store_pieces(part, pieces)
+
+    def _stand_in(self, todo: Mapping[str, ConcavePart], background: "BackgroundCutting") -> None:
+        """Use hulls until the parts are cut."""
+        for key, part in todo.items():
+            (self._failed if key in background.failed else self._stand_ins)[key] = hull_of_part(part)
+        background.cut([part for key, part in todo.items() if key in self._stand_ins])
+
+    def _has(self, part: ConcavePart) -> bool:
+        return part.key in self._failed or part.key in self._stand_ins or self._find(part) is not None
 
     def pieces_of(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> DecomposedMesh:
         """Return the convex pieces of a mesh, decomposing it if needed."""
         whole, parts = self._plan(vertices, faces, fixed=fixed)
         pieces = ConvexPieces(list(whole.corners), [])
         for (lowest, _), part in zip(whole.concave, parts, strict=True):
-            if self._find(part) is None and part.key not in self._failed:
+            if not self._has(part):
                 self.decompose_all([(vertices, faces, fixed)])
-            cut = self._find(part) or self._failed[part.key]
+            cut = self._stand_ins.get(part.key) or self._find(part) or self._failed[part.key]
             pieces.corners.extend(corners + lowest for corners in cut.corners)
             pieces.errors.extend(cut.errors)
         is_coarse = any(part.detail is Detail.COARSE for part in parts)
-        return DecomposedMesh(pieces, is_coarse, any(part.key in self._failed for part in parts))
+        is_failed = any(part.key in self._failed for part in parts)
+        return DecomposedMesh(pieces, is_coarse, is_failed, any(part.key in self._stand_ins for part in parts))
 
     def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[MeshSplit, list[ConcavePart]]:
         """Split a mesh, and choose the detail of its concave parts."""
@@ -134,6 +159,13 @@ class WorldDecomposition:
         return pieces
 
 
+def store_pieces(part: ConcavePart, pieces: ConvexPieces) -> None:
+    """Keep the pieces of a part, in memory and on disk."""
+    _cache(_known, part.key, pieces)
+    if part.detail is not Detail.HULL:
+        save_pieces(part.key, pieces)
+
+
 def clear_cache() -> None:
     """Clear the in-memory caches."""
     _splits.clear()
@@ -141,10 +173,11 @@ def clear_cache() -> None:
 
 
 def _cache(memory: dict[_K, _V], key: _K, value: _V) -> None:
-    memory.pop(key, None)
-    memory[key] = value
-    if len(memory) > _MAX_KNOWN:
-        del memory[next(iter(memory))]
+    with _cache_lock:
+        memory.pop(key, None)
+        memory[key] = value
+        if len(memory) > _MAX_KNOWN:
+            del memory[next(iter(memory))]
 
 
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> ConvexPieces:

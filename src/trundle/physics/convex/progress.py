@@ -13,19 +13,20 @@ _LONG_S = 5.0
 class DecompositionProgress:
     """Prints the number of decomposed meshes and the time left to stderr."""
 
-    def __init__(self, seconds: Sequence[float], processes: int) -> None:
+    def __init__(self, seconds: Sequence[float], processes: int, *, redraws: bool = True) -> None:
         """Start the display.
 
         Args:
             seconds: estimated time of each part [s].
             processes: number of workers.
+            redraws: False: print lines on a terminal, too.
         """
         self._count, self._finished = len(seconds), 0
         self._work, self._worked = sum(seconds), 0.0
         self._expected_s = self._work / processes
         self._started_s = time.monotonic()
         self._stream = sys.stderr
-        self._on_terminal = self._stream is not None and self._stream.isatty()
+        self._on_terminal = redraws and self._stream is not None and self._stream.isatty()
         self._width = 0
         self._in_log = self._stream is not None and not self._on_terminal and self._expected_s > _LONG_S
         if self._in_log:
