@@ -2,6 +2,8 @@
 
 import errno
 import os
+import re
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -59,6 +61,22 @@ def test_no_thread_is_one_sentence(tmp_path: Path, count: int) -> None:
     assert done.returncode == 1
     assert "Traceback" not in done.stderr
     assert "no further thread or process can be started (limits: " in done.stderr
+
+
+@pytest.mark.parametrize("count", [5, 7, 12])
+def test_a_run_with_few_files_ends_in_a_sentence(tmp_path: Path, count: int) -> None:
+    """Its node could not listen, and the run waited for the registration of it."""
+    (tmp_path / "w.sdf").write_text('<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>')
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        env = {**os.environ, "ROS_MASTER_URI": f"http://127.0.0.1:{probe.getsockname()[1]}"}
+    words = [sys.executable, "-m", "trundle", "run", "w.sdf", "--headless", "--duration", "0.1"]
+    limited = ["sh", "-c", f'ulimit -n {count}; exec "$@"', "sh", *words]
+    done = subprocess.run(limited, cwd=tmp_path, env=env, capture_output=True, text=True, timeout=100)
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    sentence = rf"trundle( run)?: error: .*this process has as many files open as it may \({count}; ulimit -n\): .*"
+    assert re.fullmatch(sentence, done.stderr.splitlines()[-1])
 
 
 def test_other_errors_are_none() -> None:

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from trundle.shortage import shortage
+
 from ..errors import MasterError, MasterUnreachableError, WireError
 from ..xmlrpc.rpc_client import call_value
 from ..xmlrpc.xmlrpc import FaultError
@@ -27,6 +29,6 @@ class MasterClient:
             with self._work.pending(f"the answer of the ROS master at {self._uri} to {method}"):
                 return await call_value(self._uri, method, self._caller, *arguments)
         except (OSError, WireError) as error:
-            raise MasterUnreachableError(self._uri, str(error)) from None
+            raise MasterUnreachableError(self._uri, shortage(error) or str(error)) from None
         except FaultError as error:
             raise MasterError(f"{method}: {error}") from None

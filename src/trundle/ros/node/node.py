@@ -282,7 +282,12 @@ class Node:
             await self._listening.wait()
 
     async def wait_registered(self) -> None:
-        """Wait until everything added so far is registered at the master."""
+        """Wait until everything added so far is registered at the master.
+
+        Raises:
+            RosError: the node could not start, as without descriptors.
+            OSError: the system refused a socket of it.
+        """
         await self._registrations.wait_done()
 
     async def wait_connected(self) -> None:

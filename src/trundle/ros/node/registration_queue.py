@@ -42,9 +42,17 @@ class RegistrationQueue:
         self._worker.add_done_callback(self._worker_ended)
 
     async def wait_done(self) -> None:
-        """Wait until all calls added so far are done."""
+        """Wait until all calls added so far are done.
+
+        Raises:
+            RosError: the node could not start.
+            OSError: the system refused a socket of it.
+        """
         await self._is_started.wait()
         await asyncio.sleep(0)  # lets calls added by other threads enter the queue
+        assert self._worker is not None
+        if self._worker.done() and not self._worker.cancelled():
+            self._worker.result()
         reached: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
         async def reach() -> None:
@@ -52,6 +60,9 @@ class RegistrationQueue:
                 reached.set_result(None)
 
         self._queue.put_nowait((reach, self._loop.work.start()))
+        await asyncio.wait((reached, self._worker), return_when=asyncio.FIRST_COMPLETED)
+        if not reached.done() and not self._worker.cancelled():
+            self._worker.result()
         await reached
 
     async def close(self) -> None:
@@ -100,6 +111,7 @@ class RegistrationQueue:
     def _worker_ended(self, worker: "asyncio.Task[None]") -> None:
         while not self._queue.empty():
             self._loop.work.finish(self._queue.get_nowait()[1])
+        self._is_started.set()
         if not worker.cancelled() and (error := worker.exception()) is not None and not self._loop.is_ending:
             reason = f"{self._log.name} cannot go on: {error}"
             print_log("fatal", reason, wall_ns=WallClock().now_ns(), sim_ns=None)

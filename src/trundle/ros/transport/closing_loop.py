@@ -1,7 +1,9 @@
 """Event loop that closes everything opened in it, and orderly closing of servers."""
 
 import asyncio
+import errno
 import logging
+import os
 import socket
 from collections.abc import Coroutine, Mapping
 from typing import Any
@@ -26,7 +28,11 @@ class ClosingLoop(asyncio.SelectorEventLoop):
     """Event loop that closes all servers, tasks and connections opened in it."""
 
     def __init__(self, selector: FastSelector) -> None:
-        super().__init__(selector)
+        try:
+            super().__init__(selector)
+        except OSError:
+            self._closed = True  # asyncio would close what it did not open
+            raise
         self._servers: WeakSet[asyncio.Server] = WeakSet()
         """Listening servers."""
         self._opening: set[asyncio.Task[asyncio.Server]] = set()
@@ -44,10 +50,14 @@ class ClosingLoop(asyncio.SelectorEventLoop):
     async def _create_server(creating: Coroutine[Any, Any, asyncio.Server], backlog: int) -> asyncio.Server:
         """Let the system queue connections of which asyncio accepts one in each pass.
 
-        It tries to accept as many as it queues, without a pause when the process has no descriptor left.
+        It tries to accept as many as it queues, without a pause when the process has no descriptor left, and returns
+        a server without sockets if it could open none.
         """
         server = await creating
         try:
+            if not server.sockets:
+                socket.socket().close()
+                raise OSError(errno.EAFNOSUPPORT, os.strerror(errno.EAFNOSUPPORT))
             for listening in server.sockets:
                 with socket.fromfd(listening.fileno(), listening.family, listening.type) as same:
                     same.listen(backlog)

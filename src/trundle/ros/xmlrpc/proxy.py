@@ -3,6 +3,7 @@
 import socket
 from typing import Any
 
+from trundle.shortage import shortage
 from trundle.waiting import PERIOD_S, WaitNotice
 
 from ..errors import MasterError, MasterUnreachableError, WireError
@@ -36,7 +37,7 @@ class MasterProxy:
         try:
             answer = blocking_call(self.uri, method, self._caller_id, *arguments, timeout_s=self._timeout_s)
         except (OSError, WireError) as error:
-            raise MasterUnreachableError(self.uri, str(error)) from None
+            raise MasterUnreachableError(self.uri, shortage(error) or str(error)) from None
         except FaultError as error:
             raise MasterError(f"{method}: {error}") from None
         if not isinstance(answer, list) or len(answer) != 3:

@@ -8,6 +8,8 @@ import logging
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+from trundle.shortage import shortage
+
 from ..errors import PortTakenError, RosError, WireError
 from ..transport.closing_loop import close_server
 from .http import MAX_HEAD_BYTES, Head, answer, browser_refusal, parse_head
@@ -59,7 +61,8 @@ class RpcServer:
         except OSError as error:
             if error.errno == errno.EADDRINUSE:
                 raise PortTakenError(host, port) from None
-            raise RosError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
+            why = shortage(error) or error.strerror or error
+            raise RosError(f"cannot listen on {host}:{port}: {why}") from None
         self.port = self._server.sockets[0].getsockname()[1]
 
     @property
