@@ -12,10 +12,10 @@ from .bags import StepRecorder as StepRecorder
 from .bags import UnindexedBagError as UnindexedBagError
 from .bags import byte_text as byte_text
 from .bags import create_bag as create_bag
-from .bags import lock_bag as lock_bag
 from .bags import median_rates as median_rates
 from .bags import open_bag as open_bag
 from .bags import recover_messages as recover_messages
+from .bags import replaced_bag as replaced_bag
 from .clients.action_server import ActionOutcome as ActionOutcome
 from .clients.action_server import ActionServer as ActionServer
 from .clients.reconfigure_client import find_reconfigurable as find_reconfigurable

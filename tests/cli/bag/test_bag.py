@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
+from trundle.cli import main
 from trundle.ros import BagConnection, BagError, BagMessage, Messages, create_bag, open_bag, recover_messages
 
 STRING = "std_msgs/String"
@@ -192,6 +193,27 @@ def test_filter_ends_and_prints_as_rosbags_does(graph: Any, bag: Path, tmp_path:
     late = "topic == '/points' and (t - m.header.stamp).to_sec() < 1699999990"
     assert graph.trundle("bag", "filter", str(bag), copy, late)[0] == 0
     assert _counts(Path(copy)) == {"/points": 10}
+
+
+@pytest.mark.parametrize("name", ["out.bag", "out.mcap"])
+def test_a_bag_that_does_not_fit_leaves_the_last_one(bag: Path, tmp_path: Path, name: str) -> None:
+    """`bag filter` had removed the last one, and left the beginning of another."""
+    last, source, out = (tmp_path / folder / name for folder in ("last", "source", "out"))
+    for path in (last, source, out):
+        path.parent.mkdir()
+        assert main(["bag", "filter", str(bag), str(path), "True"]) == 0
+    for words in (
+        ["filter", source, out, "True"],
+        ["fix", source, out],
+        ["decompress", f"--output-dir={out.parent}", source],
+    ):
+        arguments = [sys.executable, "-m", "trundle", "bag", *map(str, words)]
+        limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh", *arguments]
+        done = subprocess.run(limited, capture_output=True, text=True, check=False)
+        assert done.returncode == 1
+        assert re.fullmatch(rf"ERROR: {out}(\.part)? cannot be written: File too large\n", done.stderr)
+        assert [path.name for path in out.parent.iterdir()] == [name]
+        assert out.read_bytes() == last.read_bytes()
 
 
 @pytest.mark.real_ros

@@ -477,7 +477,7 @@ def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: 
     recorder.stop()
 
     active = tmp_path / f"{name}.active"
-    why = f"{active}: File too large; trundle bag reindex recovers its messages"
+    why = f"{active}: File too large; trundle bag reindex --output-dir=FOLDER recovers its messages"
     assert (recorder.error, complaints) == (why, [f"recording failed: {why}"])
     assert not (tmp_path / name).exists()
     kept = [message.data[4:].partition(b".")[0] for message in recover_messages(active)]

@@ -8,17 +8,7 @@ from itertools import chain, islice
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
-from trundle.ros import (
-    BagError,
-    BagMessage,
-    BagReader,
-    Messages,
-    MessageView,
-    create_bag,
-    lock_bag,
-    open_bag,
-    recover_messages,
-)
+from trundle.ros import BagError, BagMessage, BagReader, Messages, MessageView, open_bag, recover_messages, replaced_bag
 
 from ..expression import Expression, expression
 from .progress_meter import ProgressMeter
@@ -35,10 +25,9 @@ def filter_bag(args: argparse.Namespace) -> int:
         return 3
     wanted, printed = Expression(args.expression), expression(args.print)
     messages = Messages(bare=True)
-    with open_bag(source) as bag, lock_bag(target):
-        target.unlink(missing_ok=True)
+    with open_bag(source) as bag:
         meter = ProgressMeter(args.outbag, _size(bag), is_quiet=printed is not None)
-        with create_bag(target) as out:
+        with replaced_bag(target) as out:
             for message in bag.messages():
                 connection = message.connection
                 messages.add_definition(connection.type, connection.definition)
@@ -113,18 +102,10 @@ def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, opened:
     is_in_place = target.resolve() == path.resolve()
     if is_in_place and backup.exists() and not args.force:
         raise UsageError(f"Skipping {path}. Backup path {backup} already exists.")
-    working = target.with_name(f"{target.name}.part")
-    with lock_bag(target):
-        working.unlink(missing_ok=True)
-        try:
-            with opened(path) as (size, messages), create_bag(working, compression=compression) as out:
-                meter = ProgressMeter(str(target), size, is_quiet=args.quiet)
-                for message in messages:
-                    out.write(message)
-                    meter.step(len(message.data))
-            meter.finish()
-            if is_in_place:
-                path.replace(backup)
-            working.replace(target)
-        finally:
-            working.unlink(missing_ok=True)
+    replaced = replaced_bag(target, compression=compression, backup=backup if is_in_place else None)
+    with replaced as out, opened(path) as (size, messages):
+        meter = ProgressMeter(str(target), size, is_quiet=args.quiet)
+        for message in messages:
+            out.write(message)
+            meter.step(len(message.data))
+    meter.finish()

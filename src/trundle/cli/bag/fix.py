@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from trundle.diagnostics import UsageError
-from trundle.ros import BagConnection, BagMessage, BagReader, Migrator, create_bag, lock_bag, open_bag
+from trundle.ros import BagConnection, BagMessage, BagReader, Migrator, open_bag, replaced_bag
 
 from .rules import Migration, load_rules, migrations, unmigrated_types
 
@@ -47,17 +47,10 @@ def encrypt(args: argparse.Namespace) -> int:
 
 
 def _write(bag: BagReader, target: Path, plans: dict[BagConnection, tuple[BagConnection, Convert]]) -> None:
-    working = target.with_name(f"{target.stem}.part{target.suffix}")
-    with lock_bag(target):
-        working.unlink(missing_ok=True)
-        try:
-            with create_bag(working) as out:
-                for message in bag.messages():
-                    connection, convert = plans[message.connection]
-                    out.write(BagMessage(connection, message.stamp_ns, convert(message.data)))
-            working.replace(target)
-        finally:
-            working.unlink(missing_ok=True)
+    with replaced_bag(target) as out:
+        for message in bag.messages():
+            connection, convert = plans[message.connection]
+            out.write(BagMessage(connection, message.stamp_ns, convert(message.data)))
 
 
 def _plan(connection: BagConnection, migration: Migration, rules: Migrator) -> tuple[BagConnection, Convert]:

@@ -3,7 +3,6 @@
 `trundle play`, Foxglove and rosbag tools read them; `/record` has the whole record of a picture as JSON.
 """
 
-import os
 from io import BytesIO
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import numpy as np
 from msgspec import json
 from PIL import Image
 
-from trundle.ros import BagConnection, BagMessage, Messages, create_bag
+from trundle.ros import BagConnection, BagMessage, Messages, replaced_bag
 from trundle.spatial import pose_from_row
 
 from ..annotation import Numbers, ObjectAnnotation, PictureAnnotation
@@ -33,13 +32,10 @@ class McapFormat(DatasetFormat):
         """Write the shards that are not there yet."""
         messages = _Encoder(plan.categories)
         for path, pictures in missing_shards(plan, folder / "mcap", "mcap", read):
-            half = path.with_name(f".part.{path.name}")
-            half.unlink(missing_ok=True)
-            with create_bag(half, compression="lz4") as bag:
+            with replaced_bag(path, compression="lz4") as bag:
                 for picture in pictures:
                     for message in messages.encode(folder, picture):
                         bag.write(message)
-            os.replace(half, path)
 
 
 class _Encoder:

@@ -6,9 +6,9 @@ from .bag import BagWriter as BagWriter
 from .bag import Chunk as Chunk
 from .bag import UnindexedBagError as UnindexedBagError
 from .files import create_bag as create_bag
-from .files import lock_bag as lock_bag
 from .files import open_bag as open_bag
 from .files import recover_messages as recover_messages
+from .files import replaced_bag as replaced_bag
 from .play import Player as Player
 from .play import PlayerOptions as PlayerOptions
 from .record import Recorder as Recorder

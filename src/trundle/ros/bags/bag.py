@@ -14,7 +14,7 @@ class BagError(RosError):
 
 def recording_failure(path: Path, error: OSError) -> str:
     """Error message for a failed recording."""
-    return f"{path}: {error.strerror}; trundle bag reindex recovers its messages"
+    return f"{path}: {error.strerror}; trundle bag reindex --output-dir=FOLDER recovers its messages"
 
 
 class UnindexedBagError(BagError):

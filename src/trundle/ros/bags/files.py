@@ -1,7 +1,8 @@
 """Opens bags by content, creates them by file name, and recovers unindexed ones."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from trundle.file_lock import FileLock
@@ -69,6 +70,38 @@ def lock_bag(path: Path) -> FileLock:
         return FileLock(path.with_name(path.name.removesuffix(".active")))
     except OSError as error:
         raise BagError(f"{path} cannot be written: {error.strerror}") from None
+
+
+@contextmanager
+def replaced_bag(path: Path, *, compression: str = "none", backup: Path | None = None) -> Generator[BagWriter]:
+    """Yield a writer of a bag that replaces the one at `path` at the end, but not after an error.
+
+    Args:
+        path: of the bag.
+        compression: as of `create_bag`.
+        backup: new name of the bag that is replaced; None: it is removed.
+
+    Raises:
+        BagError: the bag cannot be written, or another program writes it.
+    """
+    half = path.with_name(f"{path.name}.part")
+    with lock_bag(path):
+        half.unlink(missing_ok=True)
+        writer = None
+        try:
+            writer = create_bag(half, compression=compression)
+            yield writer
+            writer.close()
+            if backup is not None:
+                path.replace(backup)
+            half.replace(path)
+        except BaseException as error:
+            if writer is not None:
+                writer.abandon()
+            half.unlink(missing_ok=True)
+            if isinstance(error, OSError):
+                raise BagError(f"{path} cannot be written: {error.strerror}") from None
+            raise
 
 
 def recover_messages(path: Path) -> Iterator[BagMessage]:

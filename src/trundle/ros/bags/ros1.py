@@ -78,7 +78,9 @@ class Ros1Writer:
         try:
             self._writer.open()
         except (WriterError, OSError) as error:
-            raise BagError(f"{path} cannot be written: {error}") from None
+            self._writer.abandon()
+            why = error.strerror if isinstance(error, OSError) else error
+            raise BagError(f"{path} cannot be written: {why}") from None
         self._connections: dict[BagConnection, Any] = {}
 
     def write(self, message: BagMessage) -> None:
