@@ -1,14 +1,19 @@
 """Statements about a release agree in all places."""
 
 import re
+import shlex
+import tomllib
 from pathlib import Path
 
 import pytest
 
 import trundle
+from trundle.extras import rospy_requirements
 
 ROOT = Path(__file__).parents[1]
 CITATION = ROOT / "CITATION.cff"
+OF_AN_INDEX = ("mujoco-warp",)
+"""Packages of others that the documentation names."""
 
 
 @pytest.mark.skipif(not CITATION.is_file(), reason="CITATION.cff is not part of the sdist")
@@ -24,3 +29,41 @@ def test_the_container_has_all_that_the_build_reads() -> None:
     let_through = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
 
     assert {"src", "cpp", "web", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= let_through
+
+
+def _pip_lines(*folders: str) -> list[tuple[str, list[str]]]:
+    """Each `pip install …` of the documentation with its requirements."""
+    files = [ROOT / "README.md", ROOT / "packaging/trundle-rospy/README.md"]
+    files += [path for folder in folders for path in (ROOT / folder).rglob("*.md") if "decisions" not in path.parts]
+    lines = [found for path in files for found in re.findall(r"pip install ([^`\n]+)", path.read_text())]
+    return [(line, [word for word in shlex.split(line, comments=True) if not word.startswith("-")]) for line in lines]
+
+
+@pytest.mark.skipif(not (ROOT / "packaging").is_dir(), reason="the documentation's paths are those of a checkout")
+def test_every_pip_install_of_the_documentation_names_a_folder_of_the_checkout() -> None:
+    """Before the first release an index knows neither trundle nor trundle-rospy."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+    lines = _pip_lines("docs")
+    assert len(lines) > 5
+    for line, words in lines:
+        for word in words:
+            folder, _, extra = word.rstrip("]").partition("[")
+            if folder in OF_AN_INDEX:
+                continue
+            assert (ROOT / folder / "pyproject.toml").is_file(), line
+            assert not extra or extra in extras, line
+
+
+@pytest.mark.skipif(not (ROOT / "packaging").is_dir(), reason="the advice's path is that of a checkout")
+def test_advice_for_another_python_names_this_checkout() -> None:
+    assert rospy_requirements() == shlex.join([str(ROOT), str(ROOT / "packaging/trundle-rospy")])
+
+
+def test_extras_that_messages_name_are_there() -> None:
+    """`pip install 'trundle[x]'` finds the installed Trundle, and brings what its extra needs."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+    named = [
+        extra for path in (ROOT / "src").rglob("*.py") for extra in re.findall(r"trundle\[(\w+)\]", path.read_text())
+    ]
+    assert named
+    assert set(named) <= set(extras)

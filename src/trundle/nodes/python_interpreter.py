@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+from trundle.extras import rospy_requirements
 from trundle.files import open_file
 from trundle.packages import MANIFESTS, Packages
 from trundle.rospy.environment import RUN_PYTHON2
@@ -74,7 +75,7 @@ def missing_rospy_advice(module: str) -> str:
     """Advice for a Python without ROS modules."""
     return (
         f"its Python has no {module}; `#!/usr/bin/env python3` as its first line runs it with Trundle's Python, and "
-        "`pip install trundle-rospy` brings ROS' packages to its own"
+        f"`python -m pip install {rospy_requirements()}` brings ROS' packages to its own"
     )
 
 
