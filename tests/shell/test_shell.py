@@ -92,6 +92,27 @@ def test_roscd_changes_the_folder(shell, tmp_path: Path) -> None:
     assert "No such package/stack 'none'" in done.stderr
 
 
+@pytest.mark.parametrize("shell_name", ["bash", "zsh", "sh", "fish"])
+def test_tutorials_copy_files_of_packages_from_opt_ros(run, shell_name: str, tmp_path: Path) -> None:
+    if shutil.which(shell_name) is None:
+        pytest.skip(f"{shell_name} is not installed")
+    share = "/opt/ros/indigo/share"
+    copy = f"cp -r {share}/gazebo_ros/launch 'a b' copied; cp {share}/none_such/a.txt .; ls copied copied/launch"
+    start = f"{sys.executable} -m trundle activate --shell fish | source" if shell_name == "fish" else ""
+    start = start or f'eval "$({sys.executable} -m trundle activate)"'
+    for name in ("copied", "a b"):
+        (tmp_path / name).mkdir()
+
+    done = run(shell_name, "-c", f"{start}; {copy}; trundle_deactivate; type cp")
+
+    assert "empty_world.launch" in done.stdout
+    assert "a b" in done.stdout
+    said = [line for line in done.stderr.splitlines() if line.startswith(("trundle: ", "rospack: "))]
+    assert said[0].startswith(f"trundle: {share}/gazebo_ros is ")
+    assert said[1].startswith("rospack: error: no package 'none_such'")
+    assert "function" not in done.stdout.splitlines()[-1]
+
+
 @pytest.mark.parametrize("shell_name", ["bash", "zsh", "sh"])
 def test_activate_adds_the_commands_and_takes_them_away(run, shell_name: str, temporary: Path) -> None:
     if shutil.which(shell_name) is None:

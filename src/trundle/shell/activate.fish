@@ -17,6 +17,21 @@ function roscd
     set -l target ($TRUNDLE_SHELL/bin/roscd $argv); and cd $target
 end
 
+function cp
+    set -l words
+    for word in $argv
+        set -l parts (string match -r '^(/opt/ros/[^/]+/share/([^/]+))(/.*)?$' -- $word)
+        if test (count $parts) -ge 3; and not test -e $word
+            if set -l found ($TRUNDLE_SHELL/bin/rospack find $parts[3])
+                printf 'trundle: %s is %s here\n' $parts[2] $found >&2
+                set word "$found$parts[4]"
+            end
+        end
+        set -a words $word
+    end
+    command cp $words
+end
+
 function trundle_deactivate
     if not set -q TRUNDLE_SHELL
         return 0
@@ -28,5 +43,5 @@ function trundle_deactivate
         set -e ROS_DISTRO ROS_VERSION _trundle_distro
     end
     set -e TRUNDLE_SHELL
-    functions -e roscd trundle_deactivate
+    functions -e roscd cp trundle_deactivate
 end

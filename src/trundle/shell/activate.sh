@@ -19,6 +19,29 @@ roscd() {
   _trundle_target="$("$TRUNDLE_SHELL/bin/roscd" "$@")" && cd "${_trundle_target:-.}"
 }
 
+# PATH: where a file of /opt/ros/DISTRO/share/PACKAGE is here; itself, if nobody has the package
+_trundle_shared() {
+  _trundle_inside="${1#/opt/ros/*/share/}"
+  _trundle_package="${_trundle_inside%%/*}"
+  if _trundle_found="$("$TRUNDLE_SHELL/bin/rospack" find "$_trundle_package")"; then
+    printf 'trundle: %s is %s here\n' "${1%"${_trundle_inside#"$_trundle_package"}"}" "$_trundle_found" >&2
+    printf '%s' "$_trundle_found${_trundle_inside#"$_trundle_package"}"
+  else
+    printf '%s' "$1"
+  fi
+}
+
+cp() {
+  for _trundle_word; do
+    shift
+    case "$_trundle_word" in
+      /opt/ros/*/share/?*) [ -e "$_trundle_word" ] || _trundle_word="$(_trundle_shared "$_trundle_word")" ;;
+    esac
+    set -- "$@" "$_trundle_word"
+  done
+  command cp "$@"
+}
+
 # LIST ENTRY: the list without the first such entry
 _trundle_without() {
   _trundle_list=":$1:"
@@ -50,7 +73,8 @@ trundle_deactivate() {
     unset ROS_DISTRO ROS_VERSION
   fi
   unset TRUNDLE_SHELL _trundle_prompt _trundle_distro _trundle_target
-  unset -f roscd trundle_deactivate _trundle_without
+  unset _trundle_word _trundle_inside _trundle_package _trundle_found
+  unset -f roscd cp trundle_deactivate _trundle_without _trundle_shared
 }
 
 case $- in
