@@ -4,6 +4,7 @@ from .drive import step_towards as step_towards
 from .four_wheel import FourWheelSteering as FourWheelSteering
 from .four_wheel import Wheels as Wheels
 from .four_wheel import axle_angle as axle_angle
+from .mecanum import MecanumDrive as MecanumDrive
 from .pid import Pid as Pid
 from .speed_limit import SpeedLimit as SpeedLimit
 from .spline import JointSegment as JointSegment

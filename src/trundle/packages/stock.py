@@ -27,7 +27,7 @@ _PLUGINS = """
 _CONTROLLERS = """
     ackermann_steering_controller diff_drive_controller effort_controllers force_torque_sensor_controller
     four_wheel_steering_controller gripper_action_controller imu_sensor_controller joint_state_controller
-    joint_trajectory_controller position_controllers velocity_controllers
+    joint_trajectory_controller mecanum_drive_controller position_controllers velocity_controllers
 """
 _DESCRIPTIONS = Path(__file__).parent / "descriptions"
 STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())

@@ -21,6 +21,7 @@ CONTROLLERS: dict[str, str] = {
     "four_wheel_steering_controller/FourWheelSteeringController": f"{_HERE}.four_wheel_steering:FourWheelDrive",
     "imu_sensor_controller/ImuSensorController": f"{_HERE}.sensor_controllers:ImuSensor",
     "joint_state_controller/JointStateController": f"{_HERE}.joint_state:JointStateController",
+    "mecanum_drive_controller/MecanumDriveController": f"{_HERE}.mecanum_drive:MecanumDriveController",
     "position_controllers/GripperActionController": f"{_HERE}.gripper:PositionGripper",
     "position_controllers/JointGroupPositionController": f"{_HERE}.forward_command:PositionGroup",
     "position_controllers/JointPositionController": f"{_HERE}.forward_command:PositionForward",
