@@ -322,3 +322,41 @@ def test_a_name_with_a_slip_is_told_the_nearest(tmp_path: Path) -> None:
     )
     with pytest.raises(UsageError, match=r"no model 'rp2' \(did you mean 'rp2w'\?\); looked in "):
         packages.find_model("rp2")
+
+
+def test_a_files_own_workspace_wins_over_a_package_of_the_same_name_on_the_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for place in ("old", "new"):
+        folder = package(tmp_path / place / "src/arm")
+        write(folder / "launch/arm.launch", f"<launch><param name='from' value='{place}'/>$(find arm)</launch>")
+        write(folder / "launch/go.launch", "<launch><include file='$(find arm)/launch/arm.launch'/></launch>")
+    old, new = tmp_path / "old/src", tmp_path / "new/src"
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(old))
+    monkeypatch.chdir(tmp_path)
+
+    assert main(["launch", str(new / "arm/launch/go.launch"), "--dump-params"]) == 0
+    printed = capsys.readouterr()
+    assert "/from: new" in printed.out
+    said = f"of two packages 'arm' the file's own workspace wins: {new / 'arm'}, not {old / 'arm'}"
+    assert f"{new}/arm/launch/go.launch: warning: {said}" in printed.err.splitlines()
+
+    assert main(["launch", "arm", "go.launch", "--dump-params"]) == 0
+    printed = capsys.readouterr()
+    assert "/from: old" in printed.out
+    assert "own workspace wins" not in printed.err
+
+
+def test_a_file_elsewhere_finds_the_packages_of_the_file_that_names_it(tmp_path: Path) -> None:
+    """As a model that a launch spawns, whose text is a file in a folder of logs."""
+    arm = package(tmp_path / "ws/src/arm")
+    hand = package(tmp_path / "ws/src/hand")
+    (hand / "package.xml").rename(hand / "plain.xml")
+    launched = Packages({"HOME": "/nobody"}, start=write(arm / "launch/go.launch"))
+
+    spawned = launched.around(write(tmp_path / "logs/spawned/arm.urdf"))
+
+    assert spawned.find_package("arm") == arm
+    assert spawned.find_package("hand") == hand
+    beside = tmp_path / "logs/spawned"
+    assert spawned.resolve("package://arm/meshes/arm.stl", beside=beside, at=AT) == arm / "meshes/arm.stl"

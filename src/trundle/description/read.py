@@ -48,7 +48,14 @@ def load(
         UnknownArgumentError: the file has no such argument.
         UsageError: no such model.
     """
-    path = _find(what, packages)
+    loaded = _load(_find(what, packages), report, packages=packages, seed=seed, arguments=arguments)
+    packages.warn_passed_over(report, Source(what))
+    return loaded
+
+
+def _load(
+    path: Path, report: Diagnostics, *, packages: Packages, seed: int, arguments: Mapping[str, str]
+) -> LoadedDescription:
     if is_stream(path):
         return _load_stream(path, report, packages=packages, seed=seed)
     if os.path.isdir(path):

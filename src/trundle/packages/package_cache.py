@@ -23,6 +23,8 @@ class PackageCache:
         """Unreadable folders, with the reason."""
         self.added_models: list[Path] = []
         """Folders of models that were added to the model path."""
+        self.passed_over: dict[str, str] = {}
+        """Package → sentence on another one of its name; "": there is none, or it was reported."""
         self.configured: dict[Path, list[Path]] = {}
         """Package folder → files that were written for it, as CMake's `configure_file` would."""
         self.exports: dict[Path, list[dict[str, str]]] = {}

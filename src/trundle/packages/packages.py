@@ -6,7 +6,7 @@ from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
-from trundle.diagnostics import DescriptionError, Source, UsageError, nearest
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError, nearest
 from trundle.files import is_stream
 from trundle.repositories import repository_hint
 
@@ -42,12 +42,13 @@ class Packages:
         Args:
             environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
             start: its package and workspace are searched too.
-            known: another instance whose cache is shared.
+            known: another instance, whose cache is shared and whose packages are searched last.
         """
         start = start.absolute()
         self._environment = environment
         self._start = start
         self._cache = PackageCache(environment) if known is None else known._cache
+        self._earlier = known
 
     def around(self, file: Path) -> "Packages":
         """Return the same resources, searched around another file."""
@@ -57,7 +58,12 @@ class Packages:
 
     def find_package(self, name: str) -> Path | None:
         """Return the folder of a ROS package, or None."""
-        return self._ros.find(name)
+        found = self._ros.find(name)
+        if name not in self._cache.passed_over:
+            other = self._ros.passed_over(name)
+            what = f"of two packages {name!r} the file's own workspace wins: {found}, not {other}"
+            self._cache.passed_over[name] = "" if other is None else what
+        return found
 
     def find_folder(self, name: str) -> Path | None:
         """Return the folder of `$(find name)`.
@@ -65,7 +71,7 @@ class Packages:
         For a stock package that is not installed it does not exist; for a sensor description package it is Trundle's
         substitute. Files of the package that CMake would configure, and that are not there, are written first.
         """
-        found = self._ros.find(name)
+        found = self.find_package(name)
         if found is not None and found not in self._cache.configured and not found.is_relative_to(SHIPPED):
             self._cache.configured[found] = write_configured_files(found, replace=False)
         found = found or DESCRIPTIONS.get(name)
@@ -90,6 +96,13 @@ class Packages:
     def workspace_of(self, package: Path) -> Path | None:
         """Return the workspace around the start that contains a package, unless ROS_PACKAGE_PATH does."""
         return self._ros.workspace_of(package)
+
+    def warn_passed_over(self, report: Diagnostics, at: Source) -> None:
+        """Warn once of packages on ROS_PACKAGE_PATH that were passed over for those of a file's own workspace."""
+        for name, what in self._cache.passed_over.items():
+            if what:
+                self._cache.passed_over[name] = ""
+                report.warn(at, what)
 
     @property
     def configured_files(self) -> list[Path]:
@@ -214,7 +227,8 @@ class Packages:
 
     @cached_property
     def _ros(self) -> RosPackages:
-        return RosPackages(self._environment, self._start, self._cache)
+        earlier = None if self._earlier is None else self._earlier._ros
+        return RosPackages(self._environment, self._start, self._cache, earlier=earlier)
 
     @cached_property
     def _gazebo(self) -> GazeboPaths:

@@ -34,21 +34,34 @@ def fetched_folder(environment: Mapping[str, str]) -> Path:
 class RosPackages:
     """Index of packages, built on first use."""
 
-    def __init__(self, environment: Mapping[str, str], start: Path, cache: PackageCache) -> None:
+    def __init__(
+        self,
+        environment: Mapping[str, str],
+        start: Path,
+        cache: PackageCache,
+        *,
+        earlier: "RosPackages | None" = None,
+    ) -> None:
         """Search ROS_PACKAGE_PATH, the workspace around `start`, beside the package of `start`, then inside it.
+
+        The workspace of a file comes before ROS_PACKAGE_PATH.
 
         Args:
             environment: with the search paths.
             start: a file or folder.
             cache: earlier results of the same environment.
+            earlier: searched last, such as the packages of the launch file that names `start`.
         """
         entries = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
         start = self._start = _real(start)
         self._cache = cache
         self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
         self._around = list(workspaces(start))
-        self.roots = distinct_folders([*self._on_path, *self._around])
+        first = self._around if os.path.isfile(start) else []
+        others = [] if earlier is None else earlier.roots
+        self.roots = distinct_folders([*first, *self._on_path, *self._around, *others])
         """Folders of packages."""
+        self._earlier = earlier
         own = own_package(start, cache.wide)
         self._guessed = [] if own is None or own.parent in map(_real, self.roots) else [own, own.parent]
         self._fetched = fetched_folder(environment)
@@ -57,7 +70,8 @@ class RosPackages:
 
     def find(self, name: str) -> Path | None:
         """Return the folder of a package, by its manifest's name, else by folder name."""
-        return self.all().get(name) or self._folders.get(name) or self._right_below.get(name)
+        found = self.all().get(name) or self._folders.get(name) or self._right_below.get(name)
+        return found or (self._earlier.find(name) if self._earlier is not None else None)
 
     def all(self) -> Mapping[str, Path]:
         """Return every package with a manifest, by name; the first of a name wins."""
@@ -67,6 +81,8 @@ class RosPackages:
                 self._crawl(root)
             for root in self._guessed:
                 self._crawl(root, most=_MAX_GUESSED)
+            for name, folder in ({} if self._earlier is None else self._earlier.all()).items():
+                self._by_name.setdefault(name, folder)
             self._crawl(self._fetched)
             self._crawl(SHIPPED)
             if os.path.isdir(_CHECKOUT_EXAMPLES / "smartcar"):
@@ -77,6 +93,21 @@ class RosPackages:
                 if name not in self._folders:
                     self._by_name.setdefault(name, folder)
         return self._by_name
+
+    def passed_over(self, name: str) -> Path | None:
+        """Return the package of this name on ROS_PACKAGE_PATH, if the one of the file's own workspace is found."""
+        found = self.find(name)
+        if found is None or not any(found.is_relative_to(root) for root in self._around):
+            return None
+        others = (
+            folder
+            for root in self._on_path
+            for folder, named in self._cache.crawls.get((root, None), [])
+            if named == name
+        )
+        other = next(others, None)
+        inside = [root.parent for root in self._around]
+        return None if other is None or any(other.is_relative_to(each) for each in inside) else other
 
     def workspace_of(self, folder: Path) -> Path | None:
         """Return the workspace around `start` that contains a package; None if it is elsewhere or on

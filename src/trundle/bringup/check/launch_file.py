@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import Diagnostics, Source
 from trundle.drawing.tree import TreeNode
 from trundle.launch import LaunchPlan, ParamCommand, read_launch
 from trundle.packages import Packages
@@ -77,6 +77,7 @@ def check_launch(
         texts=texts,
         check_readable=packages.check_readable,
     )
+    packages.warn_passed_over(report, Source(file))
     report_missing_nodes(plan.nodes, packages, environment, report)
     return LaunchFindings(plan)
 

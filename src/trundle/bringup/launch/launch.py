@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.packages import Packages
 from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
@@ -84,6 +84,7 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
         env=env,
         namespace="/" + (request.namespace or env.get("ROS_NAMESPACE", "")).strip("/"),
     )
+    packages.warn_passed_over(report, Source(str(start)))
     for path in packages.configured_files:
         show.line(f"wrote {path} from its template, as catkin_make does")
     show.findings()
