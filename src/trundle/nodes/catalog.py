@@ -39,6 +39,8 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
         "pointcloud_to_laserscan",
         "pointcloud_to_laserscan_node",
     ): "trundle.nodes.pointcloud_to_laserscan:PointCloudToLaserScan",
+    ("robot_localization", "ekf_localization_node"): "trundle.nodes.robot_localization:EkfLocalization",
+    ("robot_localization", "ukf_localization_node"): "trundle.nodes.robot_localization:EkfLocalization",
     ("robot_state_publisher", "robot_state_publisher"): "trundle.nodes.robot_state_publisher:RobotStatePublisher",
     ("robot_state_publisher", "state_publisher"): "trundle.nodes.robot_state_publisher:StatePublisher",
     ("rosapi", "rosapi_node"): "trundle.nodes.rosapi:Rosapi",

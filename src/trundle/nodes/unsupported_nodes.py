@@ -23,7 +23,7 @@ ALTERNATIVES: dict[str, str] = {
     "moveit_setup_assistant": "a tool that writes files; run the real one once, Trundle reads its output",
     "octomap_server": _NAVIGATION,
     "rtabmap_ros": _NAVIGATION,
-    "robot_localization": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
+    "robot_localization": _NAVIGATION,
     "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "laser_scan_matcher": _NAVIGATION,
     "interactive_marker_twist_server": "a handle to drag in rviz; teleop_twist_keyboard drives as well",

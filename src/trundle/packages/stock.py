@@ -13,7 +13,7 @@ _TOOLS = (
 )
 _NODES = """
     arbotix_controllers arbotix_python controller_manager depthimage_to_laserscan dynamic_reconfigure image_view
-    joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan
+    joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan robot_localization
     robot_state_publisher rosapi rosbridge_server rqt_bag rqt_console rqt_graph rqt_gui rqt_image_view
     rqt_joint_trajectory_controller rqt_plot rqt_publisher rqt_reconfigure rqt_robot_monitor rqt_robot_steering
     rqt_service_caller rqt_tf_tree rqt_topic rviz teleop_twist_joy teleop_twist_keyboard tf tf2_ros tf2_tools

@@ -29,16 +29,17 @@ class RosParameters(Parameters):
 
     def sections(self, name: str) -> list[Self]:
         """The dictionaries of a list."""
-        return [type(self)(item, f"{self.where}/{name}[{i}]") for i, item in enumerate(self._items(name))]
+        return [type(self)(item, f"{self.where}/{name}[{i}]") for i, item in enumerate(self.items(name))]
 
     def texts(self, name: str) -> list[str]:
         """A list of texts; absent is empty."""
-        texts = self._items(name)
+        texts = self.items(name)
         if not all(isinstance(text, str) for text in texts):
             raise ParamError(f"{self._label(name)}: {texts!r} is not a list of texts")
         return texts
 
-    def _items(self, name: str) -> list[Any]:
+    def items(self, name: str) -> list[Any]:
+        """A list of any values; absent is empty."""
         value = self._tree.get(name)
         if not isinstance(value, list | NoneType):
             raise ParamError(f"{self._label(name)}: {value!r} is not a list")

@@ -1,0 +1,1 @@
+from .ekf import EkfLocalization as EkfLocalization
