@@ -1,5 +1,5 @@
 // The Python module `_contact_laws`: contact laws that MuJoCo lacks, applied between collision detection and the
-// solver, and the recording of contacts.
+// solver, the recording of contacts, and the commands of motors.
 //
 // MuJoCo calls them by mjcb_control in every step of every model; a model without tables costs a comparison.
 // mjcb_sensor runs after the solver. Callbacks that were installed before are called first.
@@ -25,6 +25,7 @@
 #include "joint_stop.h"
 #include "law_tables.h"
 #include "midpoint.h"
+#include "motor_bindings.h"
 #include "mujoco_api.h"
 #include "plain_metric.h"
 #include "plane_cylinder.h"
@@ -264,4 +265,5 @@ NB_MODULE(_contact_laws, module) {
              nb::arg("always_actuated"));
   module.def("report_efforts", trundle::report, nb::arg("model"), nb::arg("data"));
   trundle::bind_recorder(module);
+  trundle::bind_motors(module);
 }

@@ -1,5 +1,6 @@
 from collections.abc import Sequence
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -77,3 +78,39 @@ def step(model: int, data: int, count: int, recorders: Sequence[ContactRecorder]
         time_ns: before the first step [ns].
         step_ns: length of a step [ns].
     """
+
+class MotorBank:
+    """Commands of the motors of an engine; `step.motors.Motors` says what they do."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        axes: NDArray[np.float64],
+        states: NDArray[np.float64],
+    ) -> None:
+        """Bind the engine's arrays.
+
+        Args:
+            model: of the engine.
+            data: of the engine.
+            axes: (axes, 4) degree of freedom, actuator or -1, effort and velocity limits.
+            states: (actuators, 13) last commands, all zero so far; written from now on.
+        """
+
+    def command_effort(self, axis: int, effort: float, hardware: bool) -> None: ...
+    def command_velocity(self, axis: int, velocity: float, max_effort: float, hardware: bool) -> None: ...
+    def command_position(self, axis: int, position: float, max_effort: float, rate: float) -> None: ...
+    def drive_kinematically(self, axis: int, velocity: float, hardware: bool) -> None: ...
+    def repeat(self, axis: int, command: tuple[float, float, float, float]) -> None:
+        """Give an axis a command of `command_of`."""
+
+    def command_of(self, axis: int) -> tuple[float, float, float, float]:
+        """Return target, largest effort, rate and constant effort of an axis' direct command."""
+
+    @property
+    def switches(self) -> int:
+        """Number of times that a command switched a motor on or off."""
+
+def wake_tree(model: int, data: int, dof: int) -> None:
+    """Wake the tree of a degree of freedom, if it sleeps at rest. Model and data by their addresses."""

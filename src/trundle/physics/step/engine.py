@@ -78,9 +78,9 @@ class Engine:
         self._sleep_policy = SleepPolicy(compiled, self._data)
         self.reader = StateReader(compiled, self._data)
         self.writer = StateWriter(compiled, self._data, wake=self._sleep_policy.wake, changed=self.reader.invalidate)
-        self.motors = Motors(compiled, self._data, self._sleep_policy.wake)
+        self.motors = Motors(compiled, self._data)
         self._laws = ContactLaws(compiled, self._data)
-        self.motors.always_enabled = self._laws.is_active
+        self.motors.enable(always=self._laws.is_active)
         self._scratch = ScratchEngine(compiled)
         self.dynamics = Dynamics(compiled, self._scratch)
         self._contact_query = ContactQuery(compiled, self._data, self._scratch)
@@ -164,7 +164,7 @@ class Engine:
 
     def _update_laws(self) -> None:
         """Disable sleeping while a law forbids it."""
-        self.motors.always_enabled = self._laws.is_active
+        self.motors.enable(always=self._laws.is_active)
         if self._laws.prevents_sleep:
             self._sleep_policy.disable()
 
@@ -336,6 +336,6 @@ class Engine:
         mujoco.mj_copyData(self._data, self._model, state.data)
         self._steps, self._sleep_policy.has_state_only = state.steps, state.has_state_only
         self.writer.was_teleported = state.was_teleported
-        self.motors.always_enabled = self._laws.is_active
+        self.motors.enable(always=self._laws.is_active)
         self.motors.restore(state.motors)
         self.reader.invalidate()

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _contact_laws
 from ..compile.compiled_world import CompiledWorld
 from .contact_recorder import RecordingStepper
 
@@ -121,5 +122,4 @@ class SleepPolicy:
 
     def wake(self, dof: int) -> None:
         """Wake the tree of a degree of freedom after a command."""
-        if self.is_on and self._data.tree_asleep[self._model.dof_treeid[dof]] >= 0 and self._data.qvel[dof] == 0.0:
-            self._data.qvel[dof] = _WAKING_SPEED
+        _contact_laws.wake_tree(self._model._address, self._data._address, dof)
