@@ -8,6 +8,7 @@ import pytest
 from trundle import simulation
 from trundle.diagnostics import Diagnostics, Source
 from trundle.model import PhysicsSettings, World
+from trundle.plugins import Plugin
 from trundle.simulation import Simulation, Snapshot
 
 MS = 1_000_000
@@ -231,3 +232,22 @@ def test_a_hook_that_is_removed_is_called_no_more() -> None:
     sim.step()
 
     assert calls == [MS, MS, 2 * MS]
+
+
+def test_a_method_that_does_nothing_is_not_called_and_does_not_cut_the_stride(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plugin with `before_step` alone had a snapshot taken for its inherited `after_step`, at every step."""
+
+    class Every5(Plugin):
+        period_ns = 5 * MS
+
+        def before_step(self, sim: Simulation) -> None:
+            strides.append(sim.steps)
+
+    sim, strides = empty_world(), list[int]()
+    monkeypatch.setattr(sim, "snapshot", lambda: pytest.fail("nobody looks"))
+    sim.add_hook(Every5(), period_ns=5 * MS)
+    sim.add_hook(Plugin())
+    sim.run(0.011)
+
+    assert strides == [0, 5, 10]
+    assert len(sim.hooks) == 1

@@ -20,7 +20,8 @@ Write a class like this in `rp2w.py` beside `model.sdf`, name `librp2w.so` (or `
             self.joint.command_effort(0.5)
 """
 
-from typing import TYPE_CHECKING, Self
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Self, TypeVar
 
 from trundle.model import PluginTag, Visual
 
@@ -29,15 +30,26 @@ if TYPE_CHECKING:  # a run without ROS starts without its modules, and a check w
     from trundle.simulation import LinkHandle, ModelHandle, Simulation, Snapshot
 
 
+_Method = TypeVar("_Method", bound=Callable[..., None])
+
+
+def _does_nothing(method: _Method) -> _Method:
+    """Mark a method that the simulation calls only where a plugin overrides it."""
+    method.__dict__["does_nothing"] = True
+    return method
+
+
 class Hooks:
     """Hooks of all plugins; they run on the simulation's thread."""
 
     period_ns: int = 0
     """Period of the two hooks in simulation time [ns]; 0: every physics step, as in Gazebo."""
 
+    @_does_nothing
     def before_step(self, sim: "Simulation") -> None:
         """Write efforts, speeds and wrenches; called when due, before the physics step."""
 
+    @_does_nothing
     def after_step(self, snapshot: "Snapshot") -> None:
         """Read the state and publish; called when due, after the physics step."""
 

@@ -3,7 +3,8 @@
 A hook is any object with `before_step(simulation)`, `after_step(snapshot)` or both. It is due at multiples of its
 period; between due times the engine runs in C. At one instant every due `after_step` reads the world, then every due
 `before_step` acts on it; each in the order of registration. Hooks that share work also have a `prepare(snapshot)`,
-which is called on all due hooks before the first `after_step`.
+which is called on all due hooks before the first `after_step`. A method with a true attribute `does_nothing`, as those
+of a base class that leaves them to override, is never due.
 """
 
 from collections.abc import Callable
@@ -38,6 +39,11 @@ class AfterStep(Protocol):
     def after_step(self, snapshot: Snapshot, /) -> None:
         """Read the snapshot; never write."""
         ...
+
+
+def _method(hook: object, name: str) -> Callable[..., None] | None:
+    method = getattr(hook, name, None)
+    return None if getattr(method, "does_nothing", False) else method
 
 
 class PeriodicTimer:
@@ -93,10 +99,11 @@ class ScheduledHook(Generic[WorldT]):
         self.enabled = enabled
         self.was_enabled = True
         """Value of `enabled` at the last check."""
-        self.before: Callable[[WorldT], None] | None = getattr(hook, "before_step", None)
-        self.after: Callable[[Snapshot], None] | None = getattr(hook, "after_step", None)
+        self.before: Callable[[WorldT], None] | None = _method(hook, "before_step")
+        self.after: Callable[[Snapshot], None] | None = _method(hook, "after_step")
         self.prepare: Callable[[Snapshot], None] | None = getattr(hook, "prepare", None)
-        assert self.before or self.after, f"{hook!r} has neither before_step nor after_step"
+        has_method = hasattr(hook, "before_step") or hasattr(hook, "after_step")
+        assert has_method, f"{hook!r} has neither before_step nor after_step"
         self._clock = clock
         self.retime(period_ns, now_ns=now_ns)
 

@@ -26,7 +26,9 @@ class Schedule(Generic[WorldT]):
         name: str | None,
     ) -> None:
         """Register a hook from now [ns] on; see `Simulation.add_hook`."""
-        self._hooks.append(ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled, name=name))
+        scheduled = ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled, name=name)
+        if scheduled.before is not None or scheduled.after is not None:
+            self._hooks.append(scheduled)
 
     def retime(self, hook: object, period_ns: Period, *, now_ns: int) -> None:
         """Change a hook's period [ns] from now [ns] on; it keeps its place in the order."""

@@ -223,7 +223,7 @@ class Simulation:
         """Register a periodic hook.
 
         Args:
-            hook: an object with before_step(simulation), after_step(snapshot) or both.
+            hook: an object with before_step(simulation), after_step(snapshot) or both; one without work is left out.
             period_ns: period [ns]; 0: every step, which costs Python at every step.
             enabled: checked before each stride; while False, the hook costs no stride.
             name: what a profile calls it; None: by its class.
