@@ -32,7 +32,7 @@ export function useShown(element: { readonly current: Element | null }): boolean
   useEffect(() => {
     const { current } = element;
     if (current === null) return;
-    const observer = new IntersectionObserver(([entry]) => setShown(entry?.isIntersecting === true));
+    const observer = new IntersectionObserver((entries) => setShown(entries.at(-1)?.isIntersecting === true)); // the newest is last
     observer.observe(current);
     return () => observer.disconnect();
   }, [element]);
