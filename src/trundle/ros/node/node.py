@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 _FAREWELL_S = 1.0
 """Timeout of unregistering at another program's master: a program must end within two seconds of Ctrl-C."""
+_LOCAL_FAREWELL_S = 10.0
+"""Timeout of unregistering at a master of this process, which answers nobody when it is out of open files."""
 _LINK_S = 0.01
 
 
@@ -320,7 +322,7 @@ class Node:
         if self.uri:
             is_local = self.master_uri in self.loop.local.masters
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(None if is_local else _FAREWELL_S):
+                async with asyncio.timeout(_LOCAL_FAREWELL_S if is_local else _FAREWELL_S):
                     farewells = [*self.endpoints.unregister_all(), *self.params.unwatch_all()]
                     await asyncio.gather(*farewells, return_exceptions=True)
         self.loop.local.members.discard(self)
