@@ -23,8 +23,10 @@ from .target import ROOT
 
 _SLICE_S = 120.0
 """Longest turn of a target: long runs go round all of them again and again."""
-_HANG_S = 120.0
-"""Wall time after which an input hangs: other programs may keep the processors busy."""
+_HANG_S, _BUSY_S = 120.0, 60.0
+"""Wall time after which an input hangs that waits, and processor time for one that computes: other programs may keep
+the processors busy, and the first inputs load and instrument modules.
+"""
 _STARTING_S = 180.0
 _POLL_S = 0.5
 _EDGES = re.compile(rb"^#\d+\s.* cov: (\d+) .*?corp: (\d+)", re.MULTILINE)
@@ -169,21 +171,34 @@ class Campaign:
 def _watch(process: "subprocess.Popen[bytes]", folder: Path, seconds: float) -> str | None:
     """Wait for a process; return why it ended as it should not have."""
     current = folder / "current"
-    start = time.time()
+    end = time.monotonic() + seconds + 10 * _STARTING_S
+    fed, since, since_cpu = 0.0, time.monotonic() + _STARTING_S - _HANG_S, 0.0
     while process.poll() is None:
         time.sleep(_POLL_S)
-        fed = current.stat().st_mtime if current.exists() else start + _STARTING_S - _HANG_S
-        if time.time() - fed > _HANG_S:
+        now, cpu = time.monotonic(), _processor_s(process.pid)
+        if current.exists() and current.stat().st_mtime != fed:
+            fed, since, since_cpu = current.stat().st_mtime, now, cpu
+        waits, computes = now - since > _HANG_S and cpu - since_cpu < 1.0, cpu - since_cpu > _BUSY_S
+        if waits or (computes and fed):
             process.send_signal(signal.SIGABRT)  # faulthandler prints where it is
             time.sleep(_POLL_S)
             _end(process)
-            return f"hang: no end after {_HANG_S:.0f} s"
-        if time.time() - start > seconds + _STARTING_S + _HANG_S:
+            return f"hang: no end after {now - since:.0f} s, {cpu - since_cpu:.0f} of them of the processor"
+        if now > end:
             _end(process)
             return "hang: it did not end in time"
     _end(process)
     code = process.returncode
     return None if code == 0 else f"crash: the process ended with {code}"
+
+
+def _processor_s(process: int) -> float:
+    """Return the processor time of a process [s]; 0 where it has ended."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 _FAREWELL_S = 1.0
 """Timeout of unregistering at another program's master: a program must end within two seconds of Ctrl-C."""
 _LOCAL_FAREWELL_S = 10.0
-"""Timeout of unregistering at a master of this process, which answers nobody when it is out of open files."""
+"""Timeout of unregistering at a master of this process, which answers no call when it is out of open files."""
 _LINK_S = 0.01
 
 
