@@ -59,7 +59,8 @@ def main(args: argparse.Namespace) -> int:
             while args.loop:
                 player.play(poll)
         say("\nDone.\n")
-        time.sleep(_CONNECTED_S)  # give the loop time to send the last messages
+        loop.flush_deliveries()  # the last messages are sent; slow subscribers get a moment more
+        time.sleep(_CONNECTED_S)
     return 0
 
 
