@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import cast
 
 import pytest
+from tests.graphs import PATIENCE_S, running_graph
 
 import trundle
 from trundle.bringup import lockstep
@@ -29,10 +30,10 @@ def test_a_start_that_never_rests_ends_when_asked_to() -> None:
     assert said == []  # it was not given up
 
 
-async def _hold_up(passes: int) -> None:
+async def _hold_up(passes: int, seconds: float) -> None:
     """Let each pass of the loop take as long as on a machine with a load of 60."""
     for _ in range(passes):
-        time.sleep(0.25)
+        time.sleep(seconds)
         await asyncio.sleep(0)
 
 
@@ -40,11 +41,27 @@ def test_nodes_settle_on_a_machine_where_each_pass_takes_a_quarter_of_a_second()
     said: list[str] = []
     with GraphLoop() as loop:
         steps = Lockstep(loop, end_ns=None, recorder=None, say=said.append)
-        busy = loop.spawn(_hold_up(12))
+        busy = loop.spawn(_hold_up(12, 0.25))
         loop.call_soon(lambda: None)
         steps.wait_settled(lambda: None, lambda: False, lambda: False)
         assert not busy.done()  # it had settled before
     assert said == []
+
+
+def test_a_node_that_waits_for_a_service_lets_a_slow_machine_start() -> None:
+    """It asks the master every 50 ms, in which fifty passes of the loop do not fit there."""
+    with running_graph() as graph:
+        steps = Lockstep(graph.loop, end_ns=None, recorder=None, say=lambda _: None)
+        node = graph.node("n")
+        waiting = graph.loop.spawn(node.wait_for_service("/not_there"))
+        slow = graph.loop.spawn(_hold_up(10_000, 0.005))
+        graph.ready(node)
+
+        graph.loop.run(steps.wait_started(lambda: False), PATIENCE_S)
+
+        assert not slow.done()
+        waiting.cancel()
+        slow.cancel()
 
 
 def test_what_the_process_does_is_waited_for_and_named(

@@ -162,13 +162,13 @@ def test_a_hidden_relay_waits_for_its_first_message_however_long_it_takes(stage)
     looks: list[str] = []
     stage.start("topic_tools/relay", "in copy", stealth=True, monitor_topic="other", monitor_rate=0.1)
     (node,) = (node for _, node in stage._running)
-    ask = node.master.call
+    ask = node.master.poll
 
     def asked(method: str, *arguments: object):
         looks.append(method)
         return ask(method, *arguments)
 
-    node.master.call = asked
+    node.master.poll = asked
     stage.until(lambda: looks.count("getSystemState") >= 3)
     source = stage.speak("/in", STRING)
     source.publish({"data": "to learn the type"})

@@ -52,8 +52,10 @@ class Relay:
         Until the first message, which determines the output's type, stay subscribed.
         """
         node = self._node
+        ask = node.master.call
         while not node.closed.is_set():
-            _, subscribers, _ = await node.master.call("getSystemState")
+            _, subscribers, _ = await ask("getSystemState")
+            ask = node.master.poll
             if not output.is_typed or any(
                 topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers
             ):

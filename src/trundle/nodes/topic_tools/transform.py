@@ -52,8 +52,10 @@ class Transform:
         """Wait for a topic that is a prefix of the input, the longest one; the rest is a field path."""
         parts = self._source.strip("/").split("/")
         starts = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
+        ask = self._node.master.call
         while True:
-            topics = {str(name) for name, _ in await self._node.master.call("getTopicTypes")}
+            topics = {str(name) for name, _ in await ask("getTopicTypes")}
+            ask = self._node.master.poll
             for count, name in starts:
                 if name in topics:
                     self._fields = parts[count:]

@@ -100,14 +100,15 @@ class LocalGraph:
         """Number of services that nodes of this process have registered so far."""
         self._service_change: set[asyncio.Future[None]] = set()
 
-    async def wait_service_change(self, seen: int, timeout_s: float) -> None:
-        """Wait until `service_changes` is not `seen` any more, or for the timeout."""
+    async def wait_service_change(self, seen: int, timeout_s: float) -> bool:
+        """Wait until `service_changes` is not `seen` any more; False after the timeout."""
         if self.service_changes != seen:
-            return
+            return True
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._service_change.add(future)
         await asyncio.wait([future], timeout=timeout_s)
         self._service_change.discard(future)
+        return future.done()
 
     def notify_service_change(self) -> None:
         """Wake those waiting for a service: a node of this process has registered one."""

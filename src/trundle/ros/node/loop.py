@@ -30,7 +30,7 @@ _CALM_PASSES = 5
 nothing outside the process.
 """
 _SPINS = 200
-"""Passes after which `idle` starts to sleep between passes."""
+"""Passes after which `idle` sleeps between passes with work in progress."""
 _NAP_S = 0.001
 SLICE_NS = 100_000
 """Linux' shortest time slice: the loop then preempts a busy thread instead of waiting for its 3 ms slice."""
@@ -219,7 +219,7 @@ class GraphLoop:
         calm, seen, spins = 0, self._calls, 0
         while calm < passes:
             spins += 1
-            await asyncio.sleep(0 if spins < _SPINS else _NAP_S)
+            await asyncio.sleep(0 if calm or spins < _SPINS else _NAP_S)
             if unless():
                 return False
             calm = 0 if self.work.is_busy or self._calls != seen else calm + 1

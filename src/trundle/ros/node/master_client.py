@@ -25,9 +25,16 @@ class MasterClient:
             MasterUnreachableError: the connection is refused, or breaks.
             MasterError: the answer's code is not 1.
         """
+        with self._work.pending(f"the answer of the ROS master at {self._uri} to {method}"):
+            return await self.poll(method, *arguments)
+
+    async def poll(self, method: str, *arguments: object) -> Any:
+        """`call` for a question that is asked again and again: no work in progress, which a run in lockstep waits for.
+
+        A pass of the loop takes longer than the time between two questions on a slow machine.
+        """
         try:
-            with self._work.pending(f"the answer of the ROS master at {self._uri} to {method}"):
-                return await call_value(self._uri, method, self._caller, *arguments)
+            return await call_value(self._uri, method, self._caller, *arguments)
         except (OSError, WireError) as error:
             raise MasterUnreachableError(self._uri, shortage(error) or str(error)) from None
         except FaultError as error:

@@ -75,14 +75,16 @@ async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None
         ServiceError: timeout.
     """
     notice = WaitNotice(f"the service {name}", node.log.info)
+    look_up = node.master.call
     try:
         async with asyncio.timeout(timeout_s):
             while True:
                 seen = node.loop.local.service_changes  # before the look-up: one registered meanwhile wakes, too
                 with contextlib.suppress(MasterError):
-                    await node.master.call("lookupService", name)
+                    await look_up("lookupService", name)
                     return
-                await node.loop.local.wait_service_change(seen, _POLL_S)
+                is_new = await node.loop.local.wait_service_change(seen, _POLL_S)
+                look_up = node.master.call if is_new else node.master.poll
                 notice.poll()
     except TimeoutError:
         raise ServiceError(f"no node provided the service {name} within {timeout_s:g} s") from None
