@@ -9,6 +9,7 @@ dataclasses: their module takes longer to load than light commands take to run.
     └── UsageError                the request itself is wrong (a taken port, an unknown name)
 """
 
+import os
 from collections.abc import Collection, Iterable
 from typing import Literal, NamedTuple, TypeAlias, TypedDict
 
@@ -16,6 +17,8 @@ Severity: TypeAlias = Literal["error", "warning", "info"]
 _CONTROLS = (*range(0x20), *range(0x7F, 0xA0), 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A))
 """Line breaks, terminals' commands, and marks that change the order in which text is shown."""
 _ESCAPES = {code: repr(chr(code))[1:-1] for code in _CONTROLS}
+_SLIP = 0.75
+"""Similarity of a name with a slip of the finger or two."""
 _NAMED = 3
 """Most further lines listed for one message."""
 _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
@@ -76,11 +79,26 @@ class UnknownArgumentError(DescriptionError):
         self.name = name
 
 
-def nearest(name: str, names: Collection[str]) -> str | None:
-    """Return the most similar of some names; None if none is similar."""
+def nearest(name: str, names: Collection[str], *, similarity: float = 0.6) -> str | None:
+    """Return the most similar of some names; None if none is similar, on a scale from 0 to 1."""
     from difflib import get_close_matches  # lazy: slow to import, rarely needed
 
-    return next(iter(get_close_matches(name, sorted(names), n=1)), None)
+    return next(iter(get_close_matches(name, sorted(names), n=1, cutoff=similarity)), None)
+
+
+def did_you_mean(name: str, names: Collection[str]) -> str:
+    """Return ` (did you mean 'NAME'?)` for the most similar of some names; "" if none is similar."""
+    near = nearest(name, names, similarity=_SLIP)
+    return "" if near is None else f" (did you mean {near!r}?)"
+
+
+def similar_file(path: str) -> str:
+    """Return ` (did you mean 'NAME'?)` for a file beside a missing one; "" if none has a similar name."""
+    try:
+        names = os.listdir(os.path.dirname(path) or ".")
+    except (OSError, ValueError):
+        return ""
+    return did_you_mean(os.path.basename(path), names)
 
 
 class DiagnosticJson(TypedDict):

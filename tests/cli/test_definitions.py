@@ -48,7 +48,7 @@ def test_types_and_packages_are_listed(capsys: pytest.CaptureFixture[str]) -> No
         (["msg", "show", "Nothing"], "trundle msg: error: no message type 'Nothing' in any package\n"),
         (["srv", "package", "nobody"], "trundle srv: error: no service types of a package 'nobody'\n"),
         (["msg", "md5", "a::B"], "trundle msg: error: invalid message type 'a::B'; types are written "),
-        (["msg", "show", "std_msgs/Str"], "trundle msg: error: no message type 'std_msgs/Str'; messages of std_msgs: "),
+        (["msg", "show", "std_msgs/Str"], "trundle msg: error: no message type 'std_msgs/Str' (did you mean "),
     ],
 )  # fmt: skip
 def test_what_is_not_there_is_said(capsys: pytest.CaptureFixture[str], arguments: list[str], error: str) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from trundle.description import load
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Model
 from trundle.packages import Packages
 
@@ -91,3 +91,69 @@ def test_faults_that_urdfdom_refuses_are_read_with_a_warning(
     assert len(robot(tmp_path, text, report).links) == 2
     (said,) = report.warnings
     assert warning in said
+
+
+def test_a_material_without_a_name_is_a_fault_as_to_urdfdom(tmp_path: Path) -> None:
+    report = Diagnostics()
+    ball = "<geometry><sphere radius='1'/></geometry>"
+    first, second = (f"<visual>{ball}<material{name}/></visual>" for name in (" name=''", ""))
+    text = f'<robot name="r"><link name="base">{BODY}{first}{second}<collision>{ball}</collision></link></robot>'
+
+    (link,) = robot(tmp_path, text, report).links
+
+    assert (len(link.visuals), len(link.collisions)) == (1, 0)
+    assert [warning.partition("warning: ")[2] for warning in report.warnings][-2:] == [
+        "<material> without a name, a fault to urdfdom; as in Gazebo its <visual> is left out",
+        "link 'base': as by urdfdom, <collision> after a fault is not read",
+    ]
+
+
+def test_shapes_of_the_world_link_are_left_out_with_a_warning(tmp_path: Path) -> None:
+    report = Diagnostics()
+    text = f"""<robot name="r"><link name="world"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+<link name="base">{BODY}</link>
+<joint name="j" type="fixed"><parent link="world"/><child link="base"/></joint></robot>"""
+
+    assert [link.name for link in robot(tmp_path, text, report).links] == ["base"]
+    (said,) = report.warnings
+    assert "link 'world' is the world itself: as in Gazebo its shapes are left out" in said
+
+
+def test_missing_meshes_of_links_without_mass_are_named(tmp_path: Path) -> None:
+    report = Diagnostics()
+    mesh = '<geometry><mesh filename="package://nobody/arm.dae"/></geometry>'
+    text = f'<robot name="r"><link name="base"><visual>{mesh}</visual></link></robot>'
+
+    assert robot(tmp_path, text, report).links == ()
+    assert any("package://nobody/arm.dae: no package 'nobody'" in warning for warning in report.warnings)
+
+
+def test_ros2_control_is_named_as_ros_2_s(tmp_path: Path) -> None:
+    report = Diagnostics()
+    control = '<ros2_control name="c" type="system"><joint name="j"/></ros2_control>'
+    robot(tmp_path, f'<robot name="r"><link name="base">{BODY}</link>{control}</robot>', report)
+
+    (said,) = report.warnings
+    assert "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission>" in said
+
+
+def test_a_file_of_macros_alone_is_a_part_to_include(tmp_path: Path) -> None:
+    macro = '<xacro:macro name="wheel" params="x"><link/></xacro:macro>'
+    text = f'<robot xmlns:xacro="http://ros.org/wiki/xacro">{macro}</robot>'
+    with pytest.raises(DescriptionError, match="no links; is it a part to include, or was a xacro macro never called"):
+        robot(tmp_path, text, Diagnostics())
+
+
+def test_meshes_of_sdf_1_0_are_named_by_an_attribute(tmp_path: Path) -> None:
+    report = Diagnostics()
+    mesh = '<geometry><mesh filename="arm.stl" scale="2 2 3"/></geometry>'
+    text = (
+        f'<gazebo version="1.0"><model name="m"><link name="l"><visual name="v">{mesh}</visual></link></model></gazebo>'
+    )
+    (tmp_path / "m.sdf").write_text(text)
+    (tmp_path / "arm.stl").write_text("solid arm\nendsolid\n")
+
+    (model,) = load(str(tmp_path / "m.sdf"), report, packages=Packages({}, start=tmp_path)).world.models
+
+    (visual,) = model.links[0].visuals
+    assert (visual.geometry.path, visual.geometry.scale) == (tmp_path / "arm.stl", (2.0, 2.0, 3.0))

@@ -201,6 +201,10 @@ def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp
             "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane",
             "write model://ground_plane, which is here",
         ),
+        (
+            "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane/3/files/meshes/plane.dae",
+            "write model://ground_plane/meshes/plane.dae, which is here",
+        ),
         ("http://example.org/cup.dae", "nothing is fetched from the network; copy the file beside this one"),
         ("ftp://example.org/cup.dae", "ftp:// is not supported; use package://, model://, file:// or relative paths"),
         ("meshes/lost.dae", "no such file .*meshes/lost.dae"),

@@ -20,7 +20,7 @@ LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf
             LINK.format('<joint name="hinge" type="revolute"><parent>a</parent><child>wheel</child></joint>'),
             "joint.sdf:3: error: joint 'hinge': no link 'wheel'; links here: 'a'",
         ),
-        ("no.urdf", '<robot name="r"/>', "no.urdf:1: error: the robot has no links; was a xacro macro never called?"),
+        ("no.urdf", '<robot name="r"/>', "no.urdf:1: error: the robot has no links; is it a part to include"),
     ],
 )
 @pytest.mark.parametrize("command", ["run", "check"])
@@ -51,6 +51,36 @@ def test_a_refused_file_is_still_json(trundle, tmp_path: Path) -> None:
         "models": [],
         "diagnostics": [{"severity": "error", "file": "empty.sdf", "line": 1, "message": "the file is empty"}],
     }
+
+
+def test_a_run_of_no_file_is_still_json_and_names_a_similar_one(trundle, tmp_path: Path) -> None:
+    (tmp_path / "robot.sdf").write_text("<sdf version='1.6'/>")
+
+    done = trundle("run", "robt.sdf", "--json", "--headless")
+
+    said = "no such file or folder (did you mean 'robot.sdf'?)"
+    assert (done.returncode, done.stderr) == (1, f"robt.sdf: error: {said}\n")
+    found = {"severity": "error", "file": "robt.sdf", "line": None, "message": said}
+    assert json.loads(done.stdout) == {"models": [], "diagnostics": [found]}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("msg show geometry_msgs/Twsit", "no message type 'geometry_msgs/Twsit' (did you mean 'geometry_msgs/Twist'?)"),
+        ("msg show Twiist", "no message type 'Twiist' in any package (did you mean 'Twist'?)"),
+        ("srv show std_srvs/Emtpy", "no service type 'std_srvs/Emtpy' (did you mean 'std_srvs/Empty'?)"),
+        ("launch gazebo_ros empty_wrld.launch", "has no empty_wrld.launch (did you mean 'empty_world.launch'?)"),
+        ("launch robot.lanch", "no such file: robot.lanch (did you mean 'robot.launch'?)"),
+    ],
+)
+def test_a_name_with_a_slip_is_told_the_nearest(trundle, tmp_path: Path, words: str, said: str) -> None:
+    (tmp_path / "robot.launch").write_text("<launch/>")
+
+    done = trundle(*words.split())
+
+    assert done.returncode == 1
+    assert said in done.stderr
 
 
 def test_a_missing_package_says_where_was_looked(trundle, tmp_path: Path) -> None:

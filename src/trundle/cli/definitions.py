@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from trundle.diagnostics import UsageError
+from trundle.diagnostics import UsageError, did_you_mean
 from trundle.packages import Packages
 from trundle.ros import MessageError, Messages, open_bag
 
@@ -70,7 +70,8 @@ class _Types:
             raise UsageError(f"invalid {self.what} type {name!r}; types are written package_name/Type")
         found = [name] if "/" in name else [each for each in self.names() if each.partition("/")[2] == name]
         if not found:
-            raise MessageError(f"no {self.what} type {name!r} in any package")
+            near = did_you_mean(name, {each.partition("/")[2] for each in self.names()})
+            raise MessageError(f"no {self.what} type {name!r} in any package{near}")
         return found
 
     def md5(self, name: str) -> str:

@@ -5,6 +5,8 @@ import json
 import sys
 from pathlib import Path
 
+from trundle.diagnostics import DescriptionError, Diagnostic, Source, TrundleError
+
 from .options import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access
 from .quiet_imports import quiet_imports
 from .speed import read_speed
@@ -78,7 +80,16 @@ def main(args: argparse.Namespace) -> int:
         timeline_mb=args.timeline,
         on_instability=args.on_instability,
     )
-    outcome = run(args.file, options)
+    try:
+        outcome = run(args.file, options)
+    except TrundleError as error:
+        if args.json:  # as `check --json`, for scripts that read it whatever happens
+            at, what = (
+                (error.at, error.what) if isinstance(error, DescriptionError) else (Source(args.file), str(error))
+            )
+            refusal = {"models": [], "diagnostics": [Diagnostic("error", at, what).as_json()]}
+            print(json.dumps(refusal))
+        raise
     if args.json:
         json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
         print()

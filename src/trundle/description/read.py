@@ -7,7 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from urllib.parse import unquote
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source, UnknownArgumentError
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UnknownArgumentError, did_you_mean, similar_file
 from trundle.files import is_stream, read_stream, read_text
 from trundle.model import Model
 from trundle.packages import Packages, model_file, refuse_ros2, refuse_ros2_language, refuse_template
@@ -212,4 +212,5 @@ def _find(what: str, packages: Packages) -> Path:
     hint = ""
     if path.suffix == ".world":
         hint = f"; worlds that come with Trundle: {known}; others are searched along GAZEBO_RESOURCE_PATH"
-    raise DescriptionError(Source(what), f"no such file or folder{hint}")
+    near = similar_file(str(path)) or did_you_mean(what, packages.worlds())
+    raise DescriptionError(Source(what), f"no such file or folder{near}{hint}")

@@ -1,6 +1,7 @@
 """Resolution of package://, model://, file:// and relative URIs to paths."""
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -28,6 +29,8 @@ HELD = ".held"
 
 _LONGEST = 200
 """Longest name or URI in a message."""
+_FUEL_MODEL = re.compile(r"/models/([^/]+)(?:/(?:\d+|tip)(?:/files(/.*[^/]))?)?/?$")
+"""Path of a model on Fuel, or of a file of one of its versions."""
 _MAX_NAMED = 3
 _MAX_SLIP = 2
 """Most letters by which a name that was meant is longer or shorter."""
@@ -286,11 +289,12 @@ class Packages:
         folder = self._gazebo.find_downloaded(url)
         if folder is not None:
             return folder, folder
-        local = unquote(url.rstrip("/").rpartition("/")[2]).lower().replace(" ", "_")
+        model = _FUEL_MODEL.search(unquote(url))
+        local, inside = ("", "") if model is None else (model[1].lower().replace(" ", "_"), model[2] or "")
         if "fuel" not in url:
             advice = "copy the file beside this one"
-        elif self._gazebo.find_model(local) is not None:
-            advice = f"write model://{local}, which is here"
+        elif local and self._gazebo.find_model(local) is not None:
+            advice = f"write model://{local}{inside}, which is here"
         else:
             advice = "fetch it with `gz fuel download -u URL`, or put its folder on GAZEBO_MODEL_PATH"
         raise DescriptionError(at, f"{_shown(url)}: nothing is fetched from the network; {advice}")

@@ -237,6 +237,11 @@ def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
     if filename in SENSOR_PLUGINS:
         raise _misplaced(tag, "sensor")
     what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
+    if "ros2_control" in filename:
+        raise DescriptionError(
+            tag.at,
+            f"plugin {tag.name!r}: {filename} is ROS 2's; ROS 1's is libgazebo_ros_control.so, with <transmission>",
+        )
     looked = f"looked for {python_file_name(filename)} in {', '.join(map(str, folders))}"
     raise DescriptionError(tag.at, f"{what}: {looked}{_compiled(tag, environment)}")
 

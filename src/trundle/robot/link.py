@@ -67,6 +67,10 @@ def _read_shape(node: XmlNode, materials: Materials | None, report: Diagnostics)
     if geometry is None:
         return None
     material = node.find("material")
+    if material is not None and materials is not None and material.attribute("name") is None:
+        material.mark_all_read()
+        report.warn(material.at, "<material> without a name, a fault to urdfdom; as in Gazebo its <visual> is left out")
+        return None
     look = RobotMaterial() if material is None or materials is None else materials.find(material)
     shape = RobotShape(
         name=node.attribute("name") or "",

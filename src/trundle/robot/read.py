@@ -27,6 +27,9 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     if root.tag != "robot":
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
     name = root.attribute("name")
+    if not root.all("link"):
+        what = "the robot has no links; is it a part to include, or was a xacro macro never called?"
+        raise DescriptionError(root.at, what)
     if not name:
         raise DescriptionError(root.at, "<robot> needs a name")
     version = root.attribute("version")
@@ -38,6 +41,10 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     joints = [_read_joint(node, report) for node in root.all("joint")]
     for tag in _FOR_OTHERS:
         root.all(tag)
+    for control in root.all("ros2_control"):
+        control.mark_all_read()
+        what = "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission> for each joint"
+        report.warn(control.at, f"{what}, the plugin libgazebo_ros_control.so and controllers in a launch file")
     root.attributes()
     root.report_unread(report)
     first = _root(root, links, joints)
@@ -56,8 +63,6 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
 
 
 def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> str:
-    if not links:
-        raise DescriptionError(node.at, "the robot has no links; was a xacro macro never called?")
     names: dict[str, RobotLink] = {}
     for link in links:
         if link.name in names:

@@ -281,7 +281,10 @@ def test_of_piped_documents_a_latch_keeps_the_first(graph: Any) -> None:
     ("arguments", "complaint"),
     [
         (["/cmd", "geometry_msgs/Twist", "{linaer: 1}"], "has no field 'linaer'; fields here: 'linear', 'angular'\n"),
-        (["/cmd", "geometry_msgs/Twits", "{}"], "ERROR: no message type 'geometry_msgs/Twits'; messages of geometry"),
+        (
+            ["/cmd", "geometry_msgs/Twits", "{}"],
+            "ERROR: no message type 'geometry_msgs/Twits' (did you mean 'geometry_msgs/Twist'?)",
+        ),
         (["/cmd", STRING, "[1"], "error: Argument error: "),
         (["/cmd", STRING, "5"], "field 'data' is a string, got 5"),
         (["/cmd", STRING, "-1", "-r", "5", "x"], "You cannot select both -r and -1"),

@@ -197,7 +197,11 @@ def test_fields_left_out_are_zero_and_now_and_auto_are_filled_in(messages: Messa
         ("sensor_msgs/JointState", {"name": "a"}, "field 'name' is a list"),
         ("sensor_msgs/Imu", {"orientation_covariance": [1.0]}, "exactly 9 elements, got 1"),
         ("std_msgs/Header", {"stamp": "soon"}, "field 'stamp': a time is"),
-        ("std_msgs/Sting", {}, "no message type 'std_msgs/Sting'; messages of std_msgs: .*String"),
+        (
+            "std_msgs/Sting",
+            {},
+            r"no message type 'std_msgs/Sting' \(did you mean 'std_msgs/String'\?\); messages of std_msgs: ",
+        ),
         ("Twist", {}, "package/Name"),
         ("nope_msgs/X", {}, "no messages of a package 'nope_msgs' are known"),
     ],

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from trundle.diagnostics import UsageError
+from trundle.diagnostics import UsageError, did_you_mean, similar_file
 from trundle.files import is_stream, read_standard_input, read_stream
 from trundle.packages import Packages
 
@@ -46,7 +46,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         files = [word for word in rest if word not in texts]
         missing = [word for word in files if not os.path.isfile(word)]
         if missing:
-            raise UsageError(f"no such file: {', '.join(missing)}")
+            raise UsageError(f"no such file: {', '.join(each + similar_file(each) for each in missing)}")
         if texts.count("-") > 1:
             raise UsageError("standard input ('-') can be read only once")
         return LaunchRequest(
@@ -56,7 +56,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
             namespace=special.get("__ns", ""),
         )
     if len(rest) == 1:
-        raise UsageError(f"no such file: {rest[0]}")
+        raise UsageError(f"no such file: {rest[0]}{similar_file(rest[0])}")
     package = packages.find_package(rest[0]) and packages.find_folder(rest[0])
     if package is None:
         what = f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either"
@@ -92,4 +92,5 @@ def _in_package(folder: Path, package: str, name: str) -> Path:
     if found:
         return found[0]
     there = sorted(path.name for path in folder.rglob("*.launch"))
-    raise UsageError(f"package {package!r} ({folder}) has no {name}; launch files there: {', '.join(there) or 'none'}")
+    what = f"package {package!r} ({folder}) has no {name}{did_you_mean(name, there)}"
+    raise UsageError(f"{what}; launch files there: {', '.join(there) or 'none'}")

@@ -104,6 +104,7 @@ class _Lowering:
         # All joints at zero: Gazebo's conversion ignores mimics, and their offsets do not affect link frames.
         poses = root_from_links(self.robot, {joint.name: 0.0 for joint in self.robot.joints})
         dropped = massless_lumps(self.robot, self.lumps, self.report)
+        self._name_missing_meshes(dropped)
         links = tuple(
             self._link(lump, poses[lump.name])
             for lump in self.lumps.values()
@@ -146,6 +147,19 @@ class _Lowering:
             plugins=plugins,
             canonical_link=canonical,
         )
+
+    def _name_missing_meshes(self, dropped: set[str]) -> None:
+        """Warn of meshes of dropped links that are not there, and of shapes on the world."""
+        for name in sorted(dropped):
+            for part, _ in self.lumps[name].parts:
+                for shape in (*self.links[part].visuals, *self.links[part].collisions):
+                    if isinstance(shape.geometry, RobotMesh):
+                        self._path(shape.geometry.uri, shape)
+        if WORLD in self.lumps:
+            world = self.links[WORLD]
+            if world.visuals or world.collisions:
+                what = f"link {WORLD!r} is the world itself: as in Gazebo its shapes are left out"
+                self.report.warn(world.at, f"{what}; a link below it, at a fixed joint, keeps them")
 
     def _first(self, names: set[str]) -> str | None:
         """Return the first of some links in Gazebo's order: from the root down, children sorted by joint name.

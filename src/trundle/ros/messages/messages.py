@@ -9,6 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from trundle.diagnostics import did_you_mean
+
 from ..errors import MessageError
 from .codec import Codec
 from .definition_search import Definitions, split_service
@@ -239,7 +241,8 @@ class Messages:
                     f"{type_name!r} is not a message type; types are written package/Name, like std_msgs/String"
                 )
             known = [other for other in self._names() if other.startswith(f"{package}/")]
-            raise UnknownTypeError(f"no message type {ros_name(key)!r}{_suggestion('messages', package, known)}")
+            near = did_you_mean(ros_name(key), known or self._names())
+            raise UnknownTypeError(f"no message type {ros_name(key)!r}{near}{_suggestion('messages', package, known)}")
         return key
 
     def _names(self) -> list[str]:
@@ -258,7 +261,8 @@ class Messages:
             if why := self._definitions.unreadable.get(f"{type_name}.srv"):
                 raise MessageError(why)
             known = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
-            raise MessageError(f"no service type {type_name!r}{_suggestion('services', package, known)}")
+            near = did_you_mean(type_name, known or list(self._definitions.services))
+            raise MessageError(f"no service type {type_name!r}{near}{_suggestion('services', package, known)}")
         request, response = f"{type_name}Request", f"{type_name}Response"
         for name, (line, half) in zip((request, response), split_service(text), strict=True):
             self._definitions.add_part(name, half, line, of=type_name)
