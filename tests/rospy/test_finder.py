@@ -1,6 +1,7 @@
 """How ROS' packages get into a Python: by PYTHONPATH, by trundle-rospy's .pth; what is installed wins."""
 
 import os
+import signal
 import subprocess
 import sys
 import sysconfig
@@ -162,3 +163,19 @@ def test_packages_are_not_searched_for_what_the_standard_library_tries_of_jython
         (package / "src/org" / name).write_text("PyStringMap = dict\n")
     code = "import copy, pickle, sys; print('org' in sys.modules)"
     assert _printed(code, **with_finder({"ROS_PACKAGE_PATH": str(tmp_path)})) == "False"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal there")
+def test_a_program_that_is_interrupted_while_python_starts_says_nothing(tmp_path: Path) -> None:
+    """Ctrl-C in a launch meets nodes that are still starting; Python calls that a fatal error of its own."""
+    (tmp_path / "sitecustomize.py").write_text("import os, time; os.write(1, b'starting'); time.sleep(100.0)\n")
+    env = with_finder({**os.environ, "PYTHONPATH": str(tmp_path)})
+    with subprocess.Popen(
+        [sys.executable, "-c", ""], env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        assert process.stdout.read(8) == b"starting"
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60.0) == 130
+        assert process.stderr.read() == b""

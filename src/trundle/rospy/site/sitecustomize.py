@@ -8,6 +8,10 @@ import sys
 from importlib.machinery import PathFinder
 
 
+_INTERRUPTED = 130
+"""Exit code of programs that Ctrl-C ended."""
+
+
 def _install():
     try:
         from trundle.rospy.finder import install
@@ -19,17 +23,28 @@ def _install():
     return True
 
 
-if not _install():  # another Python, without Trundle: one of the same version can use its libraries after its own
-    _tag, _, _libraries = os.environ.get("TRUNDLE_LIBRARIES", "").partition(":")
-    if _tag == sys.implementation.cache_tag:
+def _install_from_libraries():
+    """In another Python, without Trundle: one of the same version can use its libraries after its own."""
+    tag, _, libraries = os.environ.get("TRUNDLE_LIBRARIES", "").partition(":")
+    if tag == sys.implementation.cache_tag:
         from site import addsitedir
 
-        addsitedir(_libraries)
+        addsitedir(libraries)
         _install()
 
-_here = os.path.dirname(os.path.abspath(__file__))
-_hidden = PathFinder.find_spec("sitecustomize", [path for path in sys.path if os.path.abspath(path) != _here])
-if _hidden is not None and _hidden.loader is not None:
-    from importlib.util import module_from_spec
 
-    _hidden.loader.exec_module(module_from_spec(_hidden))
+def _run_hidden():
+    here = os.path.dirname(os.path.abspath(__file__))
+    hidden = PathFinder.find_spec("sitecustomize", [path for path in sys.path if os.path.abspath(path) != here])
+    if hidden is not None and hidden.loader is not None:
+        from importlib.util import module_from_spec
+
+        hidden.loader.exec_module(module_from_spec(hidden))
+
+
+try:
+    if not _install():
+        _install_from_libraries()
+    _run_hidden()
+except KeyboardInterrupt:  # Python would call it a fatal error, with two tracebacks
+    os._exit(_INTERRUPTED)
