@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +18,8 @@ from trundle.ros import ActionOutcome, ActionServer, MasterProxy, ServiceError
 
 STRING = "std_msgs/String"
 EMPTY = "std_srvs/Empty"
+_RETRIES_S = 2.0
+"""Time in which a subscriber tries several times to reach a publisher again."""
 PEER = """
 import asyncio, sys
 from trundle.ros import GraphLoop, MasterProxy, Node
@@ -29,6 +32,8 @@ with GraphLoop() as loop:
     match sys.argv[2]:
         case "subscriber":
             node.subscribe("/a", "std_msgs/String", lambda message: None)
+        case "publisher":
+            node.advertise("/a", "std_msgs/String", latch=True).publish({"data": "hello"})
         case "service":
             node.advertise_service("/theirs", "std_srvs/Empty", never)
         case "client":
@@ -88,6 +93,16 @@ def test_a_subscriber(graph: Any) -> None:
         publisher.publish({"data": str(number) * 100_000})
     graph.until(lambda: publisher.subscribers == 0)
     _works(graph, node)
+
+
+def test_a_publisher_is_no_warning(graph: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    """It is still registered, and nothing listens at its address: it ended, and the network is not at fault."""
+    heard: list[Any] = []
+    graph.node("n").subscribe("/a", STRING, heard.append)
+    with _peer(graph, "publisher"):
+        graph.until(lambda: heard)
+    time.sleep(_RETRIES_S)
+    assert "no messages on /a" not in capfd.readouterr().err
 
 
 def test_a_service_while_it_is_called(graph: Any) -> None:

@@ -185,6 +185,7 @@ class Subscription:
     async def _maintain_link(self, uri: str) -> None:
         """Maintain the link to one publisher while it is registered."""
         attempt = 0
+        was_connected = False
         while True:
             local = self._node.loop.local.nodes.get(uri)
             try:
@@ -192,9 +193,11 @@ class Subscription:
                     await self._connect_local(local, uri)
                 else:
                     await self._connect(uri)
-                attempt = 0
+                attempt, was_connected = 0, True
             except (OSError, RosError, FaultError) as error:
-                self._warn_unreachable(uri, str(error) or type(error).__name__, attempt)
+                has_ended = was_connected and isinstance(error, ConnectionRefusedError)  # without telling the master
+                if not has_ended:
+                    self._warn_unreachable(uri, str(error) or type(error).__name__, attempt)
             await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
             attempt += 1
 
