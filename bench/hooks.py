@@ -1,4 +1,5 @@
-"""Python beside the engine: an arm under ros_control at every step, a lidar at 100 Hz on a robot at rest.
+"""Controllers beside the engine: an arm under ros_control at every step, one whose efforts come from Python, a lidar at
+100 Hz on a robot at rest.
 
 The peer is a plain loop of `mj_step` on the same compiled model. Times are of this process' CPU, all its threads.
 """
@@ -33,6 +34,10 @@ _CONTROLLERS: dict[str, Any] = {
         "gains": dict.fromkeys(_JOINTS, _GAINS),
     },
 }
+_STATES = {
+    "/joint_states": "sensor_msgs/JointState",
+    "/arm/state": "control_msgs/JointTrajectoryControllerState",
+}
 _LINK = """<link name="{name}"><inertial><origin xyz="0 0 0.15"/><mass value="2"/>
 <inertia ixx="0.02" iyy="0.02" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
 _JOINT = """<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{next}"/><origin xyz="0 0 0.3"/>
@@ -51,8 +56,15 @@ def run() -> list[Row]:
     """Alternate simulation and loop, so that both see the machine at its fast and slow moments."""
     rows = _rows("robot at rest with a 360-ray lidar at 100 Hz (Gazebo 11: 13.6)", _robot_with_lidar(), 10.0)
     with tempfile.TemporaryDirectory() as folder, GraphLoop() as loop:
-        rows += _rows("arm of 7 joints under ros_control", _controlled_arm(Path(folder), loop), 4.0)
-    return rows
+        sim, client = _controlled_arm(Path(folder), loop)
+        rows += _rows("arm of 7 joints under ros_control", sim, 4.0)
+        for topic, kind in _STATES.items():
+            client.subscribe(topic, kind, lambda _: None)
+        time.sleep(0.5)
+        rows += _rows("the same, its states heard at 50 Hz", sim, 4.0)
+    sim = _commanded_arm()
+    rows += _rows("arm of 7 joints with efforts of a hook at every step", sim, 1.0)
+    return [*rows, _command_cost(sim)]
 
 
 def _rows(name: str, sim: Simulation, duration_s: float) -> list[Row]:
@@ -89,13 +101,49 @@ def _robot_with_lidar() -> Simulation:
     return sim
 
 
-def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
-    """Arm that follows a trajectory, set up as by a launch file."""
+class _Efforts:
+    """Hook that commands another effort of each joint at every step."""
+
+    def __init__(self, sim: Simulation) -> None:
+        self._joints = [sim["r"].joint(name) for name in _JOINTS]
+        self._count = 0
+
+    def before_step(self, _: Simulation) -> None:
+        self._count += 1
+        effort = 0.1 + 0.001 * (self._count % 7)
+        for joint in self._joints:
+            joint.command_effort(effort)
+
+
+def _commanded_arm() -> Simulation:
+    sim = _load("arm.urdf", _arm(""))
+    sim.add_hook(_Efforts(sim))
+    sim.step(1000)
+    return sim
+
+
+def _command_cost(sim: Simulation) -> Row:
+    hook, count = _Efforts(sim), 2_000
+    costs: list[float] = []
+    for _ in range(4 * _PAIRS):
+        start = time.process_time()
+        for _ in range(count):
+            hook.before_step(sim)
+        costs.append((time.process_time() - start) / (count * len(_JOINTS)))
+    return Row("JointHandle.command_effort", 1e6 * statistics.median(costs), "µs", "", None)
+
+
+def _arm(extra: str) -> str:
     links = "".join(_LINK.format(name=f"l{i}") for i in range(len(_JOINTS) + 1))
     joints = "".join(_JOINT.format(i=i, next=i + 1, axis="0 1 0" if i % 2 else "0 0 1") for i in range(len(_JOINTS)))
-    plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin>'
     weld = '<link name="world"/><joint name="w" type="fixed"><parent link="world"/><child link="l0"/></joint>'
-    urdf = f'<robot name="r">{weld}{links}{joints}{plugin}</gazebo></robot>'
+    return f'<robot name="r">{weld}{links}{joints}{extra}</robot>'
+
+
+def _controlled_arm(folder: Path, loop: GraphLoop) -> tuple[Simulation, Node]:
+    """Arm that follows a trajectory, set up as by a launch file, and a node beside it."""
+    plugin = '<plugin name="c" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin>'
+    urdf = _arm(f"<gazebo>{plugin}</gazebo>")
     core = Core(loop, port=0)
     loop.run(core.start(), _PATIENCE_S)
     loop.run(core.wait_ready(), _PATIENCE_S)
@@ -122,7 +170,7 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> Simulation:
     commands.publish({"joint_names": _JOINTS, "points": [goal]})
     time.sleep(0.2)
     sim.step(1000)
-    return sim
+    return sim, client
 
 
 def _stepped(sim: Simulation, future: Future[Any]) -> Any:

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "contact_offset.h"
-#include "contact_recorder.h"
 #include "friction_pyramid.h"
 #include "friction_slip.h"
 #include "joint_stop.h"
@@ -31,6 +30,7 @@
 #include "plane_cylinder.h"
 #include "restitution.h"
 #include "row_stepper.h"
+#include "stepping.h"
 #include "surface_motion.h"
 #include "tunnelling.h"
 #include "velocity_damping.h"
@@ -200,12 +200,16 @@ std::pair<std::vector<std::int64_t>, nb::object> take_rows(ContactRecorder& reco
   return {times_ns, array_of(rows)};
 }
 
-int step_and_record(std::uintptr_t model, std::uintptr_t data, int count,
-                    const std::vector<ContactRecorder*>& recorders, std::int64_t time_ns, std::int64_t step_ns) {
-  return step_recording(model_at(model), data_at(data), count, recorders, time_ns, step_ns);
+std::pair<int, bool> step(std::uintptr_t model, std::uintptr_t data, int count,
+                          const std::vector<ContactRecorder*>& recorders, const std::vector<StepAction*>& actions,
+                          bool acts_first, std::int64_t time_ns, std::int64_t step_ns) {
+  const EachStep each{recorders, actions, acts_first, time_ns, step_ns};
+  const nb::gil_scoped_release release;
+  const Stepped stepped = step_each(model_at(model), data_at(data), count, each);
+  return {stepped.count, stepped.goes_on};
 }
 
-void bind_recorder(nb::module_& module) {
+void bind_stepping(nb::module_& module) {
   nb::class_<ContactRecorder>(module, "ContactRecorder")
       .def(nb::init<const std::vector<int>&, int, std::size_t>(), nb::arg("geoms"), nb::arg("geom_count"),
            nb::arg("most_steps"))
@@ -216,8 +220,12 @@ void bind_recorder(nb::module_& module) {
       .def("take", take_rows)
       .def("copy", [](const ContactRecorder& self) { return ContactRecorder(self); });
   module.def("read_contacts", read_contacts, nb::arg("model"), nb::arg("data"), nb::arg("contacts"));
-  module.def("step", step_and_record, nb::arg("model"), nb::arg("data"), nb::arg("count"), nb::arg("recorders"),
-             nb::arg("time_ns"), nb::arg("step_ns"), nb::call_guard<nb::gil_scoped_release>());
+  nb::class_<StepAction>(module, "StepAction").def("checkpoint", [](nb::handle_t<StepAction> self) {
+    return nb::cpp_function(
+        [owner = nb::borrow(self), restore = nb::cast<StepAction&>(self).checkpoint()] { restore(); });
+  });
+  module.def("step", step, nb::arg("model"), nb::arg("data"), nb::arg("count"), nb::arg("recorders"),
+             nb::arg("actions"), nb::arg("acts_first"), nb::arg("time_ns"), nb::arg("step_ns"));
 }
 
 using Addresses = std::vector<std::pair<std::uintptr_t, std::uintptr_t>>;
@@ -264,6 +272,6 @@ NB_MODULE(_contact_laws, module) {
   module.def("make_row_stepper", trundle::make_row_stepper, nb::arg("workers"), nb::arg("links"), nb::arg("max_speed"),
              nb::arg("always_actuated"));
   module.def("report_efforts", trundle::report, nb::arg("model"), nb::arg("data"));
-  trundle::bind_recorder(module);
+  trundle::bind_stepping(module);
   trundle::bind_motors(module);
 }

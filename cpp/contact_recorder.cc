@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "guarded_step.h"
-
 namespace trundle {
 
 namespace {
 
 bool is_awake(const mjModel* m, const mjData* d, int geom) { return d->body_awake[m->geom_bodyid[geom]] == mjS_AWAKE; }
-
-bool all_sleep(const mjModel* m, const mjData* d) {
-  return std::all_of(d->tree_asleep, d->tree_asleep + m->ntree, [](int asleep) { return asleep >= 0; });
-}
 
 }  // namespace
 
@@ -86,27 +80,6 @@ void ContactRecorder::keep(RecordedStep step) {
   if (step.rows.empty()) return;
   steps_.push_back(std::move(step));
   if (steps_.size() > most_steps_) steps_.pop_front();
-}
-
-int step_recording(const mjModel* m, mjData* d, int count, const std::vector<ContactRecorder*>& recorders,
-                   std::int64_t time_ns, std::int64_t step_ns) {
-  SleepKey key;
-  for (int step = 0; step < count; ++step) {
-    if (step > 0 && !key.empty() && all_sleep(m, d)) {
-      d->time += m->opt.timestep;  // nothing else would change
-    } else {
-      guarded_step(m, d);
-      key = sleep_key(m, d);
-    }
-    time_ns += step_ns;
-    bool stale = false;
-    for (ContactRecorder* recorder : recorders) {
-      recorder->record(m, d, time_ns, key);
-      stale |= recorder->is_stale();
-    }
-    if (stale) return step + 1;
-  }
-  return count;
 }
 
 }  // namespace trundle

@@ -65,10 +65,4 @@ class ContactRecorder {
   RecordedStep waiting_;
 };
 
-// Step up to `count` times and record each step; return the number of steps, less than `count` if a recorder is stale.
-//
-// time_ns: before the first step. Throws std::runtime_error with MuJoCo's message where it fails.
-int step_recording(const mjModel* m, mjData* d, int count, const std::vector<ContactRecorder*>& recorders,
-                   std::int64_t time_ns, std::int64_t step_ns);
-
 }  // namespace trundle

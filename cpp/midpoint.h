@@ -26,6 +26,12 @@ void update_midpoints(const LawTables& laws, const mjModel* m, mjData* d);
 // Move midpoints' velocities to the time of the positions, for reading; d is not stepped afterwards.
 void read_velocities(const LawTables& laws, const mjModel* m, mjData* d);
 
+// Velocity of a degree of freedom at the time of the position.
+inline double velocity_at(const mjModel* m, const mjData* d, int dof) {
+  const bool is_midpoint = d->userdata[m->nu + dof] == static_cast<double>(VelocityTime::kMidpoint);
+  return is_midpoint ? d->qvel[dof] + 0.5 * m->opt.timestep * d->qacc_warmstart[dof] : d->qvel[dof];
+}
+
 // Evaluate Coriolis forces of chains of links at this step's mean velocity, without those of kinematic motors.
 void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d);
 

@@ -328,10 +328,10 @@ def test_a_bumper_that_nobody_listens_to_for_a_while_forgets(tmp_path: Path) -> 
     bumper.start(sim)
     sim.run(0.55)
     listens = False
-    assert sim.recording is None
+    assert not sim.is_recording
     sim.run(0.3)
     listens = True
-    assert sim.recording is not None
+    assert sim.is_recording
     sim.run(0.1)
 
     assert touched(readings[-1:]) == list(range(851_000_000, 901_000_000, 1_000_000))

@@ -1,3 +1,10 @@
+from ._servo import MimicAction as MimicAction
+from ._servo import PidLoop as PidLoop
+from ._servo import Servo as Servo
+from ._servo import ServoJoint as ServoJoint
+from ._servo import ServoLaw as ServoLaw
+from ._servo import ToolboxPid as ToolboxPid
+from ._servo import TrajectoryLaw as TrajectoryLaw
 from .drive import DifferentialDrive as DifferentialDrive
 from .drive import WheelOdometry as WheelOdometry
 from .drive import step_towards as step_towards
@@ -9,4 +16,3 @@ from .pid import Pid as Pid
 from .speed_limit import SpeedLimit as SpeedLimit
 from .spline import JointSegment as JointSegment
 from .spline import JointState as JointState
-from .toolbox_pid import ToolboxPid as ToolboxPid

@@ -10,7 +10,6 @@ from .step.batch import WorldRow as WorldRow
 from .step.contact import Contact as Contact
 from .step.contact import Contacts as Contacts
 from .step.contact_recorder import ContactRecorder as ContactRecorder
-from .step.contact_recorder import Recording as Recording
 from .step.dynamics import Coordinates as Coordinates
 from .step.dynamics import JointState as JointState
 from .step.engine import Engine as Engine
@@ -18,9 +17,12 @@ from .step.engine import EngineState as EngineState
 from .step.engine import SimulationUnstableError as SimulationUnstableError
 from .step.engine_snapshot import EngineSnapshot as EngineSnapshot
 from .step.instability import Divergence as Divergence
+from .step.motors import MotorAxis as MotorAxis
 from .step.motors import MotorCommand as MotorCommand
 from .step.step_timer import StepTimer as StepTimer
 from .step.step_timer import StepTimes as StepTimes
+from .step.stepper import EachStep as EachStep
+from .step.stepper import StepAction as StepAction
 from .step.surface_motion import LinkGrip as LinkGrip
 from .step.surface_motion import SurfaceMotion as SurfaceMotion
 from .step.surface_motion import TrackMotion as TrackMotion

@@ -1,4 +1,4 @@
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import mujoco
 import numpy as np
@@ -67,14 +67,32 @@ class ContactRecorder:
 
     def copy(self) -> ContactRecorder: ...
 
-def step(model: int, data: int, count: int, recorders: Sequence[ContactRecorder], time_ns: int, step_ns: int) -> int:
-    """Step up to `count` times, and record each; return how many steps, fewer if a recorder became stale.
+class StepAction:
+    """Action before each step."""
+
+    def checkpoint(self) -> Callable[[], None]:
+        """Return a function that restores what the action has changed, but for the engine."""
+
+def step(
+    model: int,
+    data: int,
+    count: int,
+    recorders: Sequence[ContactRecorder],
+    actions: Sequence[StepAction],
+    acts_first: bool,
+    time_ns: int,
+    step_ns: int,
+) -> tuple[int, bool]:
+    """Step up to `count` times; return how many steps, fewer if a recorder became stale or an action needs Python, and
+    False if one does.
 
     Args:
         model: address.
         data: address.
         count: of steps.
         recorders: record at every step.
+        actions: act before every step, in this order.
+        acts_first: before the first step, too.
         time_ns: before the first step [ns].
         step_ns: length of a step [ns].
     """

@@ -8,10 +8,13 @@ of a base class that leaves them to override, is never due.
 """
 
 from collections.abc import Callable
-from typing import Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, runtime_checkable
 
 from .snapshot import Snapshot
 from .step_clock import Period, StepClock
+
+if TYPE_CHECKING:
+    from trundle.physics import StepAction
 
 
 class SteppedWorld(Protocol):
@@ -30,6 +33,21 @@ class BeforeStep(Protocol[_WorldT]):
 
     def before_step(self, sim: _WorldT, /) -> None:
         """Write efforts, velocities and wrenches."""
+        ...
+
+
+@runtime_checkable
+class InStep(Protocol):
+    """Hook that acts in C++ within a stride, if it is due at every step."""
+
+    def step_action(self) -> "tuple[StepAction, int] | None":
+        """Return what acts from the second step of a stride on, and the time at which `before_step` is due again [ns];
+        None: at every step. It is asked after each `before_step`.
+        """
+        ...
+
+    def finish_stride(self) -> None:
+        """Continue after the steps of a stride, which the action may have ended."""
         ...
 
 
@@ -55,6 +73,11 @@ class PeriodicTimer:
     def __init__(self, period_ns: Period, clock: StepClock, *, start_ns: Period) -> None:
         self._period_ns = period_ns
         self.restart(start_ns, clock)
+
+    @property
+    def at_every_step(self) -> bool:
+        """True if the timer is due at every step."""
+        return self._at_every_step
 
     def restart(self, start_ns: Period, clock: StepClock | None = None) -> None:
         """Set the next due time [ns], optionally on another clock."""
@@ -104,6 +127,10 @@ class ScheduledHook(Generic[WorldT]):
         self.prepare: Callable[[Snapshot], None] | None = getattr(hook, "prepare", None)
         has_method = hasattr(hook, "before_step") or hasattr(hook, "after_step")
         assert has_method, f"{hook!r} has neither before_step nor after_step"
+        self._in_step = hook if isinstance(hook, InStep) else None
+        self.action: StepAction | None = None
+        """Action of the coming steps but the first; None: `before_step` does it all."""
+        self._until_ns = 0
         self._clock = clock
         self.retime(period_ns, now_ns=now_ns)
 
@@ -141,7 +168,24 @@ class ScheduledHook(Generic[WorldT]):
     def _period_ns(self) -> Period:
         return max(self._asked_ns, self._clock.step_ns)
 
+    def find_action(self) -> "StepAction | None":
+        """Return what acts in C++ in the stride that begins; `next_step` then is that of Python."""
+        self.action = None
+        if self._in_step is not None and self.before_timer.at_every_step:
+            found = self._in_step.step_action()
+            if found is not None:
+                self.action, self._until_ns = found
+        return self.action
+
+    def finish_stride(self) -> None:
+        """Let a hook that acted in C++ continue."""
+        if self.action is not None and self._in_step is not None:
+            self._in_step.finish_stride()
+
     @property
     def next_step(self) -> int:
         """Next step at which the engine has to stop for the hook."""
-        return min([alarm.step for alarm in self._timers])
+        if self.action is None:
+            return min([alarm.step for alarm in self._timers])
+        steps = [alarm.step for alarm in self._timers if alarm is not self.before_timer]
+        return min([max(self._clock.step_at(self._until_ns), self.before_timer.step), *steps])

@@ -11,7 +11,7 @@ from trundle.spatial import Pose, Wrench, cross
 from .handle import Handle, expect_finite
 
 if TYPE_CHECKING:
-    from trundle.physics import MotorCommand
+    from trundle.physics import MotorAxis, MotorCommand
 
     from .runtime import Runtime
 
@@ -68,6 +68,15 @@ class JointHandle(Handle):
     def is_driven(self) -> bool:
         """True if the joint has an axis that can be driven or positioned."""
         return bool(self.axes) and self._simulation.engine.compiled.axis_actuator[self.axes[0]] >= 0
+
+    @property
+    def motor(self) -> "MotorAxis":
+        """First axis, for laws in C++; another one after models were spawned, deleted or edited.
+
+        Raises:
+            UsageError: there is no axis that can be driven.
+        """
+        return self._simulation.engine.motors.axis(self._driven(0))
 
     @property
     def positions(self) -> tuple[float, ...]:

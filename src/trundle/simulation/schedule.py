@@ -1,12 +1,15 @@
 """Schedule: the hooks of one simulation."""
 
 from collections.abc import Callable
-from typing import Generic
+from typing import TYPE_CHECKING, Generic
 
 from .hooks import AfterStep, BeforeStep, ScheduledHook, WorldT
 from .profiler import Profiler, StridePart
 from .snapshot import Snapshot
 from .step_clock import Period, StepClock
+
+if TYPE_CHECKING:
+    from trundle.physics import StepAction
 
 
 class Schedule(Generic[WorldT]):
@@ -78,6 +81,17 @@ def run_before(hooks: list[ScheduledHook[WorldT]], sim: WorldT, profiler: Profil
             hook.before(sim)
             if profiler is not None:
                 profiler.lap(hook.hook)
+
+
+def find_actions(hooks: list[ScheduledHook[WorldT]]) -> "list[StepAction]":
+    """Return what acts in C++ in the coming stride, in order."""
+    return [action for hook in hooks if (action := hook.find_action()) is not None]
+
+
+def finish_stride(hooks: list[ScheduledHook[WorldT]]) -> None:
+    """Let the hooks that acted in C++ continue."""
+    for hook in hooks:
+        hook.finish_stride()
 
 
 def run_after(

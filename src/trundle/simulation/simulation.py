@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from trundle.diagnostics import Diagnostics, UsageError
 from trundle.model import Joint, Model, World
-from trundle.physics import CompiledWorld, ContactRecorder, Contacts, Engine, Recording, compile_world
+from trundle.physics import CompiledWorld, ContactRecorder, Contacts, EachStep, Engine, compile_world
 from trundle.spatial import NS_PER_S
 
 from .actors import ActorPlayer, with_actors
@@ -25,7 +25,7 @@ from .joint_attachment import with_joint
 from .joint_handle import JointHandle
 from .profiler import Profiler, StridePart
 from .saved_state import SavedSimulation
-from .schedule import Schedule, run_after, run_before
+from .schedule import Schedule, find_actions, finish_stride, run_after, run_before
 from .snapshot import Snapshot
 from .step_clock import Period, StepClock, world_step_ns
 from .world_edits import (
@@ -192,25 +192,29 @@ class Simulation:
         if profiler is not None:
             profiler.lap(StridePart.SCHEDULE)
         run_before(hooks, self, profiler)
+        each = EachStep(self.time_ns, self.step_ns, self._enabled_recorders, find_actions(hooks))
         target = self._clock.step_at(self.time_ns + most_ns)
         stop = min([target, self.steps + _MAX_STRIDE, *[hook.next_step for hook in hooks], *self.loads.expiry_steps()])
-        simulated_ns = (stop - self.steps) * self.step_ns
-        recording = self.recording
         if profiler is not None:
             profiler.lap(StridePart.SCHEDULE)
-        self.engine.step(stop - self.steps, recording)
+        made = self.engine.step(stop - self.steps, None if each.is_empty else each)
         if profiler is not None:
             profiler.lap(StridePart.PHYSICS)
-        self.steps = stop
+        simulated_ns = made * self.step_ns
+        self.steps += made
+        finish_stride(hooks)
         self.loads.expire(self.steps)
         run_after(hooks, self.steps, self.snapshot, profiler)
         return simulated_ns
 
     @property
-    def recording(self) -> Recording | None:
-        """Enabled recorders of contacts, for the coming stride; None: there are none."""
-        recorders = [recorder for recorder, enabled in self._recorders if enabled()]
-        return Recording(recorders, self.time_ns, self.step_ns) if recorders else None
+    def is_recording(self) -> bool:
+        """True if a recorder of contacts is enabled."""
+        return bool(self._enabled_recorders)
+
+    @property
+    def _enabled_recorders(self) -> list[ContactRecorder]:
+        return [recorder for recorder, enabled in self._recorders if enabled()]
 
     def add_hook(
         self,

@@ -176,6 +176,7 @@ def test_mixed_commands_are_not_doubled_when_a_model_is_spawned(tmp_path: Path) 
     joint.write(0.001)
     commands = joint.handle.commands
     sim.spawn(replace(sim["m"].model, name="other"))
+    joint.rebind()
     assert joint.handle.commands == commands
     assert joint.handle.effort == pytest.approx(0.3)
     _mixed(sim, joint, lambda _: None, 1, first=True)

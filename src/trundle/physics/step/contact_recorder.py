@@ -1,21 +1,15 @@
 """Recording of contacts at every step, in C++ while the engine steps."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
-
-import mujoco
-import numpy as np
-from msgspec import Struct
-from numpy.typing import NDArray
 
 from .. import _contact_laws
 from ..compile.compiled_world import CompiledWorld
 from .contact import Contacts
-from .contact_query import ContactQuery
 
 
 class ContactRecorder:
-    """Contacts of some collisions at every step that it is passed to; see `Recording`."""
+    """Contacts of some collisions at every step that it is passed to; see `EachStep`."""
 
     def __init__(self, collisions: frozenset[str], *, most_steps: int) -> None:
         """Record nothing so far.
@@ -73,55 +67,3 @@ def _within(
 ) -> tuple[list[int], Contacts]:
     chosen = [i for i, at_ns in enumerate(times_ns) if after_ns < at_ns <= until_ns]
     return [times_ns[i] for i in chosen], contacts.select(chosen)
-
-
-class Recording(Struct, frozen=True, eq=False):
-    """Recorders of the coming steps."""
-
-    recorders: Sequence[ContactRecorder]
-    time_ns: int
-    """Time before the first of these steps [ns]."""
-    step_ns: int
-    """[ns]"""
-
-
-class RecordingStepper:
-    """Steps in C++ with recorders."""
-
-    def __init__(
-        self,
-        recording: Recording,
-        compiled: CompiledWorld,
-        data: mujoco.MjData,
-        *,
-        query: ContactQuery,
-        state: Callable[[], NDArray[np.float64]],
-    ) -> None:
-        self._recorders = recording.recorders
-        self._natives = [recorder.bind(compiled) for recorder in recording.recorders]
-        self._time_ns = self._start_ns = recording.time_ns
-        self._step_ns = recording.step_ns
-        self._addresses = compiled.model._address, data._address
-        self._query = query
-        self._state = state
-
-    def step(self, count: int) -> None:
-        """Make `count` steps, and record each."""
-        while count > 0:
-            made = _contact_laws.step(*self._addresses, count, self._natives, self._time_ns, self._step_ns)
-            self._time_ns += made * self._step_ns
-            count -= made
-            for recorder, native in zip(self._recorders, self._natives, strict=True):
-                if native.is_stale:
-                    native.set_sleeping(self._query.sleeping_contacts(recorder.collisions, self._state).rows)
-
-    def replace_last(self, contacts: Callable[[frozenset[str]], Contacts]) -> None:
-        """Record the contacts of the current state in place of the last step's."""
-        for recorder, native in zip(self._recorders, self._natives, strict=True):
-            native.replace_since(self._time_ns, contacts(recorder.collisions).rows)
-
-    def roll_back(self) -> None:
-        """Forget all steps."""
-        nothing = np.empty((0, 15))
-        for native in self._natives:
-            native.replace_since(self._start_ns + self._step_ns, nothing)

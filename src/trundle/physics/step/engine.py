@@ -20,7 +20,6 @@ from ..compile.solver_settings import silence_log
 from .contact import Contacts
 from .contact_laws import ContactLaws
 from .contact_query import ContactQuery
-from .contact_recorder import Recording, RecordingStepper
 from .dynamics import Dynamics
 from .engine_snapshot import EngineSnapshot, ScratchEngine
 from .instability import Divergence, find_divergence
@@ -30,6 +29,7 @@ from .state_reader import StateReader
 from .state_transfer import transfer_state
 from .state_writer import StateWriter
 from .step_timer import StepTimer
+from .stepper import EachStep, Stepper
 
 if TYPE_CHECKING:  # a world without belts, or alone, does not load these
     from .batch import Batch, WorldRow
@@ -102,12 +102,12 @@ class Engine:
         self.motors.switch_off()
         self.reader.invalidate()
 
-    def step(self, count: int, recording: Recording | None = None) -> None:
-        """Advance `count` time steps, with the GIL released.
+    def step(self, count: int, each: EachStep | None = None) -> int:
+        """Advance `count` time steps, with the GIL released; return their number, less if an action needs Python.
 
         Args:
             count: number of steps.
-            recording: recorders of contacts.
+            each: recorders of contacts, and actions.
 
         Raises:
             SimulationUnstableError: names the diverging link; the state is the one before this call.
@@ -117,32 +117,35 @@ class Engine:
             self._separate()
         if self._laws.is_active:
             self._laws.install()
-        efforts, taken = self._data.qfrc_actuator.copy(), self._steps
-        stepper = None if recording is None else self._recording_stepper(recording)
+        efforts, first = self._data.qfrc_actuator.copy(), self._steps
+        motors = self.motors.save() if each is not None and each.actions else None
+        stepper = None if each is None else self._stepper(each)
         self._advance(count, stepper)
         self._laws.look_ahead()
         self.reader.invalidate()
         if self._is_unstable():
-            if stepper is not None:
-                stepper.roll_back()
-            self._roll_back(efforts, taken)
-            divergence = self._find_divergence(count)
-            self._roll_back(efforts, taken)
+            divergence = self._find_divergence(count, stepper, lambda: self._roll_back(efforts, first, motors))
             raise SimulationUnstableError(divergence)
+        return self._steps - first
 
-    def _recording_stepper(self, recording: Recording) -> RecordingStepper:
-        return RecordingStepper(recording, self.compiled, self._data, query=self._contact_query, state=self._state)
+    def _stepper(self, each: EachStep) -> Stepper:
+        return Stepper(each, self.compiled, self._data, query=self._contact_query, state=self._state)
 
-    def _advance(self, count: int, stepper: RecordingStepper | None = None) -> None:
-        """Step in C, up to each update of the sleep policy."""
-        while count > 0 and not self._is_unstable():
-            some = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
-            if not self._sleep_policy.step(some, stepper):
+    def _advance(self, count: int, stepper: Stepper | None = None) -> None:
+        """Step in C, up to each update of the sleep policy; a stepper may stop before."""
+        goes_on = True
+        while count > 0 and goes_on and not self._is_unstable():
+            some = made = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
+            if stepper is not None:
+                self._sleep_policy.has_state_only = False
+                made = stepper.step(some)
+                goes_on = made == some
+            if stepper is not None or not self._sleep_policy.step(some):
                 self.motors.write_efforts()
                 if self._sleep_policy.is_on:
                     self.motors.write_sleeping_efforts(lambda: self._scratch.efforts(self._state()))
-            self._steps += some
-            count -= some
+            self._steps += made
+            count -= made
             if self._steps % DECISION_PERIOD == 0 and not self._laws.prevents_sleep and not self._is_unstable():
                 self._sleep_policy.update()
                 if stepper is not None and self._sleep_policy.has_state_only:
@@ -168,20 +171,31 @@ class Engine:
         if self._laws.prevents_sleep:
             self._sleep_policy.disable()
 
-    def _roll_back(self, efforts: NDArray[np.float64], taken: int) -> None:
+    def _roll_back(self, efforts: NDArray[np.float64], first: int, motors: MotorCommands | None) -> None:
         self._sleep_policy.set_state(self._last_state, efforts)
-        self._steps = taken
+        self._steps = first
+        if motors is not None:
+            self.motors.restore(motors)
         self.reader.invalidate()
 
-    def _find_divergence(self, count: int) -> Divergence:
-        """Repeat the steps one by one up to the bad one; afterwards the state is restored."""
+    def _find_divergence(self, count: int, stepper: Stepper | None, roll_back: Callable[[], None]) -> Divergence:
+        """Go back, and repeat the steps one by one up to the bad one; afterwards the state is restored."""
+
+        def restart() -> None:
+            if stepper is not None:
+                stepper.roll_back()
+            roll_back()
+
+        restart()
         time_s, speeds = self._data.time, np.abs(self._data.qvel)
         for _ in range(count):
             time_s, speeds = self._data.time, np.abs(self._data.qvel)
-            self._advance(1)
+            self._advance(1, stepper)
             if self._is_unstable():
                 break
-        return find_divergence(self.compiled, self._data, speeds, time_s)
+        divergence = find_divergence(self.compiled, self._data, speeds, time_s)
+        restart()
+        return divergence
 
     # -- writing
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from .. import _contact_laws
 from ..compile.compiled_world import CompiledWorld
-from .contact_recorder import RecordingStepper
 
 DECISION_PERIOD = 512
 """Steps between two decisions."""
@@ -58,17 +57,14 @@ class SleepPolicy:
         """Number of sleeping trees."""
         return int(np.count_nonzero(self._data.tree_asleep >= 0)) if self.is_on else 0
 
-    def step(self, count: int, stepper: RecordingStepper | None) -> bool:
-        """Step `count` times, by the stepper if there is one; while all trees sleep only the clock advances.
+    def step(self, count: int) -> bool:
+        """Step `count` times; while all trees sleep only the clock advances.
 
         Returns:
             True if all trees slept on; their motors' efforts stay.
         """
         model, data = self._model, self._data
         self.has_state_only = False
-        if stepper is not None:
-            stepper.step(count)
-            return False
         if count > 1 and self._all_sleep():
             efforts = data.qfrc_actuator.copy()
             mujoco.mj_step(model, data)  # trees with new commands wake

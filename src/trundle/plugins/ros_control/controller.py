@@ -1,9 +1,11 @@
 """Protocol of ros_control's controllers, and what they share."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, Self
 
+from trundle.control import ServoLaw
 from trundle.parameters import ParamError, RosParameters
 from trundle.ros import Node, Publisher, ReconfigureServer, Service, Subscription
 from trundle.simulation import ModelHandle
@@ -54,7 +56,9 @@ class ControllerContext:
 
 
 class Controller(Protocol):
-    """Controller, initially stopped; all methods run on the simulation's thread."""
+    """Controller, initially stopped; all methods run on the simulation's thread, `update` at every step unless it is an
+    `InStepController`.
+    """
 
     claims: dict[Interface | str, list[str]]
     """Interface → joints claimed for this controller alone."""
@@ -83,6 +87,24 @@ class Controller(Protocol):
     def close(self) -> None:
         """Unregister its topics, services and actions."""
         ...
+
+
+class InStepController:
+    """Base of controllers that are not updated in Python at every step."""
+
+    laws: Sequence[ServoLaw] = ()
+    """Laws in C++ that command its joints at every step."""
+
+    def due_ns(self, time_ns: int) -> float:
+        """Return when `update` is due again after a time at which it was [ns]."""
+        del time_ns
+        return math.inf
+
+    def update(self, time_ns: int, dt: float) -> None:
+        """Publish what is due; the laws were updated just before."""
+
+    def finish_stride(self) -> None:
+        """Continue after the steps of a stride, which a law may have ended with an event."""
 
 
 def group_command(message: "std_msgs.Float64MultiArray", count: int, node: Node) -> list[float]:
@@ -118,17 +140,32 @@ class PublishTimer:
 
     def __init__(self, rate_hz: float) -> None:
         self._period_ns = round(1e9 / rate_hz)
-        self._last_ns = -math.inf
+        self._last_ns: int | None = None
+        """Beginning of a period; None: there was none."""
 
     def restart(self, time_ns: int) -> None:
         """Start a period now."""
         self._last_ns = time_ns
 
-    def due(self, time_ns: int) -> bool:
-        """Return True if a period has passed; the next then begins."""
-        if time_ns < self._last_ns:  # the simulation was reset
-            self._last_ns = time_ns
-        if time_ns < self._last_ns + self._period_ns:
-            return False
-        self._last_ns = max(self._last_ns + self._period_ns, time_ns - self._period_ns)
-        return True
+    def next_ns(self, time_ns: int) -> int:
+        """Time after this one at which a period ends [ns]."""
+        last_ns = time_ns if self._last_ns is None else min(self._last_ns, time_ns)
+        return last_ns + self._passed(time_ns, last_ns) + self._period_ns
+
+    def due(self, time_ns: int, dt: float = math.inf) -> bool:
+        """Return True if a period has passed since the last time.
+
+        Args:
+            time_ns: now.
+            dt: control period [s]; a period that ended before it is over.
+        """
+        if self._last_ns is None:
+            self._last_ns = time_ns - self._period_ns
+            return True
+        self._last_ns = min(self._last_ns, time_ns)  # the simulation may have been reset
+        passed_ns = self._passed(time_ns, self._last_ns)
+        self._last_ns += passed_ns
+        return passed_ns > 0 and (dt == math.inf or time_ns - self._last_ns < round(dt * 1e9))
+
+    def _passed(self, time_ns: int, last_ns: int) -> int:
+        return (time_ns - last_ns) // self._period_ns * self._period_ns

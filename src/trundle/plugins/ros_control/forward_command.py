@@ -5,19 +5,19 @@ from typing import ClassVar, Self
 
 from trundle.ros import Message
 
-from .controller import ControllerContext, Endpoints, group_command
+from .controller import ControllerContext, Endpoints, InStepController, group_command
 from .transmissions import Interface
 
 
-class ForwardController:
-    """Forwards `~command` (std_msgs/Float64) to `joint`."""
+class ForwardController(InStepController):
+    """Forwards `~command` (std_msgs/Float64) to `joint`, which keeps it."""
 
     interface: ClassVar[Interface]
 
     def __init__(self, context: ControllerContext) -> None:
         self._joint = context.joint(context.settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
-        self._command: float | None = None
+        self._is_running = False
         self._endpoints = Endpoints()
         self._endpoints.add(
             context.node.subscribe(f"{context.name}/command", "std_msgs/Float64", self._on_command, queue_size=1)
@@ -31,17 +31,12 @@ class ForwardController:
     def start(self, time_ns: int) -> None:
         """Hold until the first command."""
         del time_ns
-        self._command = None
+        self._is_running = True
         self._joint.start()
-
-    def update(self, time_ns: int, dt: float) -> None:
-        """Write the last command."""
-        del time_ns, dt
-        if self._command is not None:
-            self._joint.command = self._command
 
     def stop(self) -> None:
         """Stop commanding."""
+        self._is_running = False
         self._joint.stop()
 
     def close(self) -> None:
@@ -49,19 +44,19 @@ class ForwardController:
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:
-        if math.isfinite(message.data):
-            self._command = float(message.data)
+        if self._is_running and math.isfinite(message.data):
+            self._joint.command = float(message.data)
 
 
-class ForwardGroup:
-    """Forwards `~command` (std_msgs/Float64MultiArray) to `joints`, in their order."""
+class ForwardGroup(InStepController):
+    """Forwards `~command` (std_msgs/Float64MultiArray) to `joints`, in their order, which keep it."""
 
     interface: ClassVar[Interface]
 
     def __init__(self, context: ControllerContext) -> None:
         self._joints = [context.joint(name, self.interface) for name in context.joint_setting()]
         self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name for joint in self._joints]}
-        self._command: list[float] = []
+        self._is_running = False
         self._node = context.node
         self._endpoints = Endpoints()
         kind = "std_msgs/Float64MultiArray"
@@ -75,18 +70,13 @@ class ForwardGroup:
     def start(self, time_ns: int) -> None:
         """Hold until the first command."""
         del time_ns
-        self._command = []
+        self._is_running = True
         for joint in self._joints:
             joint.start()
 
-    def update(self, time_ns: int, dt: float) -> None:
-        """Write the last command."""
-        del time_ns, dt
-        for joint, wanted in zip(self._joints, self._command, strict=False):
-            joint.command = wanted
-
     def stop(self) -> None:
         """Stop commanding."""
+        self._is_running = False
         for joint in self._joints:
             joint.stop()
 
@@ -95,7 +85,10 @@ class ForwardGroup:
         self._endpoints.close()
 
     def _on_command(self, message: Message) -> None:
-        self._command = group_command(message, len(self._joints), self._node) or self._command
+        values = group_command(message, len(self._joints), self._node)
+        if self._is_running:
+            for joint, value in zip(self._joints, values, strict=False):
+                joint.command = value
 
 
 class EffortForward(ForwardController):

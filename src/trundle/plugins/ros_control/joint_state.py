@@ -1,14 +1,15 @@
 """joint_state_controller/JointStateController: publishes the states of all joints."""
 
+import math
 from typing import Self
 
-from .controller import ControllerContext, Endpoints, PublishTimer
+from .controller import ControllerContext, Endpoints, InStepController, PublishTimer
 from .transmissions import Interface
 
 _STATES = ("position", "velocity", "effort")
 
 
-class JointStateController:
+class JointStateController(InStepController):
     """Publishes `<robot>/joint_states` at `publish_rate`: joints by name, then `extra_joints`."""
 
     def __init__(self, context: ControllerContext) -> None:
@@ -39,8 +40,7 @@ class JointStateController:
 
     def update(self, time_ns: int, dt: float) -> None:
         """Publish when due."""
-        del dt
-        if not self._timer.due(time_ns) or not self._states.has_subscribers:
+        if not self._timer.due(time_ns, dt) or not self._states.has_subscribers:
             return
         self._states.publish(
             {
@@ -51,6 +51,10 @@ class JointStateController:
                 "effort": [j.effort for j in self._joints] + self._extra["effort"],
             }
         )
+
+    def due_ns(self, time_ns: int) -> float:
+        """Return the time of the next message [ns]."""
+        return self._timer.next_ns(time_ns) if self._states.has_subscribers else math.inf
 
     def stop(self) -> None:
         """Do nothing: no joint is commanded."""

@@ -1,15 +1,17 @@
 """controller_manager: services that load, switch and unload controllers."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from trundle.control import Servo
 from trundle.parameters import ParamError, RosParameters
 from trundle.ros import Message, Node
 from trundle.simulation import ModelHandle
 
 from .catalog import CONTROLLERS, find_controller
-from .controller import Controller, ControllerContext
+from .controller import Controller, ControllerContext, InStepController
 from .hardware import Hardware
 
 if TYPE_CHECKING:
@@ -30,21 +32,22 @@ class _Loaded:
 class ControllerManager:
     """Services `<robot>/controller_manager/…`; all of it runs on the simulation's thread."""
 
-    def __init__(self, node: Node, namespace: str, hardware: Hardware, model: ModelHandle) -> None:
+    def __init__(self, node: Node, namespace: str, hardware: Hardware, servo: Servo, model: ModelHandle) -> None:
         """Advertise.
 
         Args:
             node: advertises the services.
             namespace: of the robot: '/' or '/rrbot'.
             hardware: joints of the robot.
+            servo: runs the laws of controllers.
             model: of the joints.
         """
         self._node = node
         self._namespace = namespace.rstrip("/")
         self._hardware = hardware
         self._model = model
+        self._servo = servo
         self._loaded: dict[str, _Loaded] = {}
-        self._time_ns = 0
         services: tuple[tuple[str, str, Callable[[Message], dict[str, Any]]], ...] = (
             ("list_controllers", "ListControllers", self._list),
             ("list_controller_types", "ListControllerTypes", self._types),
@@ -57,18 +60,34 @@ class ControllerManager:
             node.advertise_service(f"{self._namespace}/controller_manager/{name}", f"{_PACKAGE}/{kind}", handler)
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Update every running controller."""
-        self._time_ns = time_ns
-        for loaded in self._loaded.values():
-            if loaded.state == "running":
-                loaded.controller.update(time_ns, dt)
+        """Update every running controller, after the laws."""
+        for controller in self._running:
+            controller.update(time_ns, dt)
+
+    def due_ns(self, time_ns: int) -> float | None:
+        """Return when `update` is due again after a time at which it was [ns]; None: at every step."""
+        in_step = [each for each in self._running if isinstance(each, InStepController)]
+        return (
+            min((each.due_ns(time_ns) for each in in_step), default=math.inf)
+            if len(in_step) == len(self._running)
+            else None
+        )
+
+    def finish_stride(self) -> None:
+        """Let the controllers continue that act in C++."""
+        for controller in self._running:
+            if isinstance(controller, InStepController):
+                controller.finish_stride()
 
     def restart(self, time_ns: int) -> None:
         """Restart the running controllers after a reset or an emergency stop."""
-        for loaded in self._loaded.values():
-            if loaded.state == "running":
-                loaded.controller.stop()
-                loaded.controller.start(time_ns)
+        for controller in self._running:
+            controller.stop()
+            controller.start(time_ns)
+
+    @property
+    def _running(self) -> list[Controller]:
+        return [loaded.controller for loaded in self._loaded.values() if loaded.state == "running"]
 
     def _types(self, _request: "controller_manager_msgs.ListControllerTypesRequest") -> dict[str, Any]:
         names = sorted(CONTROLLERS)
@@ -159,8 +178,10 @@ class ControllerManager:
         for joint in self._hardware.values():
             joint.read()
         for name in starts:
-            self._loaded[name].controller.start(self._time_ns)
+            self._loaded[name].controller.start(self._servo.time_ns)
             self._loaded[name].state = "running"
+        running = [each for each in self._running if isinstance(each, InStepController)]
+        self._servo.set_laws([law for each in running for law in each.laws])
         return True
 
     def _switch_error(self, name: str, state: str) -> str:

@@ -1,51 +1,21 @@
 """Controllers with a PID loop around one joint, or around each of a group."""
 
 import math
-from dataclasses import dataclass
 from typing import ClassVar, Self
 
-from trundle.control import ToolboxPid
+from trundle.control import PidLoop, ToolboxPid
 from trundle.parameters import RosParameters
 from trundle.ros import Message
 
-from .controller import ControllerContext, Endpoints, group_command
+from .controller import ControllerContext, Endpoints, InStepController, group_command
 from .gains import reconfigurable_pid
-from .hardware import JointHardware
 from .transmissions import Interface
 
 _STATE_EVERY = 10
 """Updates per message on `~state`, as in the original."""
 
 
-@dataclass(slots=True)
-class _PidLoop:
-    joint: JointHardware
-    pid: ToolboxPid
-    of_speed: bool
-    """True: velocity loop; False: position loop."""
-    wanted: float = 0.0
-
-    def start(self) -> None:
-        """Hold the current position, or zero velocity."""
-        self.joint.start()
-        self.pid.reset()
-        self.wanted = 0.0 if self.of_speed else self.joint.position
-
-    @property
-    def value(self) -> float:
-        return self.joint.velocity if self.of_speed else self.joint.position
-
-    def error(self) -> float:
-        if self.of_speed:
-            return self.wanted - self.joint.velocity
-        self.wanted = min(max(self.wanted, self.joint.lower), self.joint.upper)
-        return self.joint.error(self.wanted)
-
-    def update(self, dt: float) -> None:
-        self.joint.command = self.pid.command(self.error(), dt)
-
-
-class PidController:
+class PidController(InStepController):
     """Loop of `joint` with gains `pid`, by `~command` (std_msgs/Float64); publishes `~state`
     (control_msgs/JointControllerState)."""
 
@@ -56,10 +26,10 @@ class PidController:
         joint = context.joint(context.settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [joint.name]}
         self._endpoints = Endpoints()
-        self._loop = _PidLoop(
-            joint, reconfigurable_pid(context.node, context.settings.section("pid"), self._endpoints), self.of_speed
-        )
-        self._updates = 0
+        self._joint = joint
+        self._pid = reconfigurable_pid(context.node, context.settings.section("pid"), self._endpoints)
+        self._loop = PidLoop(joint, self._pid, self.of_speed)
+        self.laws = (self._loop,)
         self._state = context.node.advertise(f"{context.name}/state", "control_msgs/JointControllerState", queue_size=1)
         commands = context.node.subscribe(f"{context.name}/command", "std_msgs/Float64", self._on_command, queue_size=1)
         self._endpoints.add(self._state, commands)
@@ -71,19 +41,22 @@ class PidController:
 
     def start(self, time_ns: int) -> None:
         """Hold until the first command."""
-        del time_ns
-        self._loop.start()
+        self._loop.start(time_ns)
+
+    def due_ns(self, time_ns: int) -> float:
+        """Return the time of the next message [ns]."""
+        if not self._state.has_subscribers:
+            return math.inf
+        return time_ns + (_STATE_EVERY - self._loop.updates % _STATE_EVERY) * self._loop.period_ns
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Command the loop's effort or velocity."""
-        self._loop.update(dt)
-        self._updates += 1
-        if self._updates % _STATE_EVERY == 0 and self._state.has_subscribers:
+        """Publish when due."""
+        if self._loop.updates % _STATE_EVERY == 0 and self._state.has_subscribers:
             self._publish_state(time_ns, dt)
 
     def stop(self) -> None:
         """Stop commanding."""
-        self._loop.joint.stop()
+        self._joint.stop()
 
     def close(self) -> None:
         """Unregister its topics."""
@@ -91,19 +64,19 @@ class PidController:
 
     def _on_command(self, message: Message) -> None:
         if math.isfinite(message.data):
-            self._loop.wanted = float(message.data)
+            self._loop.target = float(message.data)
 
     def _publish_state(self, time_ns: int, dt: float) -> None:
-        loop, pid = self._loop, self._loop.pid
+        loop, joint, pid = self._loop, self._joint, self._pid
         self._state.publish(
             {
                 "header": {"stamp": time_ns},
-                "set_point": loop.wanted,
-                "process_value": loop.value,
-                "process_value_dot": 0.0 if loop.of_speed else loop.joint.velocity,
+                "set_point": loop.target,
+                "process_value": joint.velocity if self.of_speed else joint.position,
+                "process_value_dot": 0.0 if self.of_speed else joint.velocity,
                 "error": loop.error(),
                 "time_step": dt,
-                "command": loop.joint.command,
+                "command": joint.command,
                 "p": pid.p,
                 "i": pid.i,
                 "d": pid.d,
@@ -113,18 +86,17 @@ class PidController:
         )
 
 
-class EffortGroupPosition:
+class EffortGroupPosition(InStepController):
     """effort_controllers/JointGroupPositionController: loops of `joints`, each with gains `<joint>/pid`."""
 
     def __init__(self, context: ControllerContext) -> None:
         self._node, self._endpoints = context.node, Endpoints()
+        self._joints = [context.joint(name, "EffortJointInterface") for name in context.joint_setting()]
         self._loops = [
-            _PidLoop(context.joint(name, "EffortJointInterface"), self._pid(context.settings, name), of_speed=False)
-            for name in context.joint_setting()
+            PidLoop(joint, self._gains(context.settings, joint.name), of_speed=False) for joint in self._joints
         ]
-        self.claims: dict[Interface | str, list[str]] = {
-            "EffortJointInterface": [loop.joint.name for loop in self._loops]
-        }
+        self.laws = self._loops
+        self.claims: dict[Interface | str, list[str]] = {"EffortJointInterface": [joint.name for joint in self._joints]}
         kind = "std_msgs/Float64MultiArray"
         self._endpoints.add(context.node.subscribe(f"{context.name}/command", kind, self._on_command, queue_size=1))
 
@@ -135,20 +107,13 @@ class EffortGroupPosition:
 
     def start(self, time_ns: int) -> None:
         """Hold until the first command."""
-        del time_ns
         for loop in self._loops:
-            loop.start()
-
-    def update(self, time_ns: int, dt: float) -> None:
-        """Command the loop's effort or velocity."""
-        del time_ns
-        for loop in self._loops:
-            loop.update(dt)
+            loop.start(time_ns)
 
     def stop(self) -> None:
         """Stop commanding."""
-        for loop in self._loops:
-            loop.joint.stop()
+        for joint in self._joints:
+            joint.stop()
 
     def close(self) -> None:
         """Unregister its topics."""
@@ -157,9 +122,9 @@ class EffortGroupPosition:
     def _on_command(self, message: Message) -> None:
         values = group_command(message, len(self._loops), self._node)
         for loop, value in zip(self._loops, values, strict=False):
-            loop.wanted = value
+            loop.target = value
 
-    def _pid(self, settings: RosParameters, joint: str) -> ToolboxPid:
+    def _gains(self, settings: RosParameters, joint: str) -> ToolboxPid:
         return reconfigurable_pid(self._node, settings.section(joint).section("pid"), self._endpoints)
 
 

@@ -3,6 +3,7 @@
 import asyncio
 from typing import Self
 
+from trundle.control import Servo
 from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.parameters import RosParameters, TagParameters
@@ -19,6 +20,7 @@ from .transmissions import read_transmissions
 _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
 _POLL_S = 0.5
 _LAG_STEPS = 5
+_NEVER_NS = 2**62
 _OLD_INDIGO = "legacyModeNS"
 
 
@@ -52,8 +54,8 @@ class GazeboRosControl(Plugin):
         parameters.report_unread()
         self._endpoints = Endpoints()
         self._hardware: dict[str, JointHardware] = {}
+        self._servo = Servo([])
         self._manager: ControllerManager | None = None
-        self._last_ns = sim.time_ns
         node.loop.spawn(self._find_robot())
 
     @classmethod
@@ -63,32 +65,43 @@ class GazeboRosControl(Plugin):
             raise TrundleError("ros_control needs the ROS graph, which --no-ros leaves out")
         return cls(sim, model, node, tag)
 
+    def is_wanted(self) -> bool:
+        """True if there is a robot to control."""
+        return self._manager is not None
+
     def before_step(self, sim: Simulation) -> None:
         """Read joints, update controllers and write commands."""
-        if self._manager is None:
+        servo, joints = self._servo, self._hardware.values()
+        dt = servo.read(sim.time_ns, sim.step_ns)
+        if dt <= 0.0 or self._manager is None:  # the first step after a reset
             return
-        # A state from before a reset that was undone may be old; no period is longer than a step more.
-        dt = min(sim.time_ns - self._last_ns, self.period_ns + sim.step_ns) / 1e9
-        self._last_ns = sim.time_ns
-        if dt <= 0.0:  # the first step after a reset
-            return
-        joints = self._hardware.values()
-        for joint in joints:
-            joint.read()
         if self._held and not self._stops:
             self._held = []
             self._manager.restart(sim.time_ns)
+        servo.update(dt)
         self._manager.update(sim.time_ns, dt)
         if self._stops:
             self._held = self._held or [joint.resting_command for joint in joints]
             for joint, command in zip(joints, self._held, strict=True):
                 joint.command = command
-        for joint in joints:
-            joint.write(dt)
+        servo.write(dt)
+        sim.engine.reader.invalidate()  # kinematic drives change velocities
+
+    def step_action(self) -> tuple[Servo, int] | None:
+        """Return what reads, updates and writes at every step, until a controller has to do more."""
+        if self._manager is None or self._stops or self._held:
+            return None
+        due_ns = self._manager.due_ns(self._sim.time_ns)
+        return None if due_ns is None else (self._servo, int(min(due_ns, _NEVER_NS)))
+
+    def finish_stride(self) -> None:
+        """Settle goals that ended in a stride."""
+        if self._manager is not None:
+            self._manager.finish_stride()
 
     def reset(self) -> None:
         """Hold the joints' current positions, and restart the controllers."""
-        self._last_ns = self._sim.time_ns
+        self._servo.restart(self._sim.time_ns)
         for joint in self._hardware.values():
             joint.read()
             joint.stop()
@@ -137,17 +150,22 @@ class GazeboRosControl(Plugin):
         except TrundleError as error:
             self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
             return
-        self._last_ns = self._sim.time_ns
-        self._sim.on_change(self._update_lag)  # the time step may change
-        self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._model)
+        self._servo = Servo(list(self._hardware.values()))
+        self._servo.longest_ns = self.period_ns  # a state from before a reset that was undone may be old
+        self._servo.restart(self._sim.time_ns)
+        self._sim.on_change(self._rebind)
+        self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._servo, self._model)
         self._node.log.info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
 
     @property
     def _lag_s(self) -> float:
         return max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
 
-    def _update_lag(self) -> None:
+    def _rebind(self) -> None:
+        """Follow the joints in a new engine, perhaps with another time step."""
         for joint in self._hardware.values():
+            if joint.handle.is_valid:
+                joint.rebind()
             joint.lag_s = self._lag_s
 
 

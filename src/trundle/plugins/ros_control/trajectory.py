@@ -1,23 +1,24 @@
 """JointTrajectoryController of position_, velocity_ and effort_controllers."""
 
 import asyncio
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from trundle.control import ToolboxPid
+from trundle.control import ToolboxPid, TrajectoryLaw
 from trundle.ros import ActionOutcome, ActionServer, ServiceError, to_nsec
 
-from .controller import ControllerContext, Endpoints, PublishTimer
+from .controller import ControllerContext, Endpoints, InStepController, PublishTimer
 from .gains import reconfigurable_pid
 from .tolerances import JointTolerances, goal_tolerances, read_tolerances
-from .trajectory_goal import NO_GOAL, GoalError, JointPath, PathReader, PathSegment, holding_path, stopping_path
+from .trajectory_goal import NO_GOAL, GoalError, JointPath, PathReader, holding_path, stopping_path
 from .transmissions import Interface
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs, trajectory_msgs
 
 
-class TrajectoryController:
+class TrajectoryController(InStepController):
     """Follows trajectories of `~command` (trajectory_msgs/JointTrajectory) and the action `~follow_joint_trajectory`;
     publishes `~state`, and answers `~query_state`.
 
@@ -35,12 +36,14 @@ class TrajectoryController:
         self._names = names = [joint.name for joint in self._joints]
         self.claims: dict[Interface | str, list[str]] = {self.interface: names}
         self._endpoints = Endpoints()
-        self._pids: list[ToolboxPid] = []
+        pids: list[ToolboxPid] = []
         if self.interface != "PositionJointInterface":
             gains = settings.section("gains")
-            self._pids = [reconfigurable_pid(node, gains.section(name), self._endpoints) for name in names]
+            pids = [reconfigurable_pid(node, gains.section(name), self._endpoints) for name in names]
         forward = settings.section("velocity_ff")
-        self._forward = [forward.number(name, 0.0) for name in names]
+        self._pids = pids
+        self._law = TrajectoryLaw(self._joints, pids, [forward.number(name, 0.0) for name in names])
+        self.laws = (self._law,)
         self._tolerances = read_tolerances(settings.section("constraints"), names)
         self._reader = PathReader(
             names,
@@ -52,15 +55,10 @@ class TrajectoryController:
         self._states = PublishTimer(settings.number("state_publish_rate", 50.0, above=0.0))
         self._monitors = PublishTimer(settings.number("action_monitor_rate", 20.0, above=0.0))
         self._paths: list[JointPath] = []
-        self._desired: list[tuple[float, float, float]] = []
-        """Position, velocity and acceleration of each joint at the last update."""
-        self._time_ns = self._period_ns = 0
         self._goal = NO_GOAL
         """Number of the last goal of the action."""
         self._settled: Callable[[ActionOutcome], None] | None = None
         """Called once with the outcome of the action's goal."""
-        self._arrived: set[int] = set()
-        """Joints that have reached the goal."""
         self._is_running = False
         self._advertise(context)
 
@@ -87,34 +85,41 @@ class TrajectoryController:
 
     def start(self, time_ns: int) -> None:
         """Hold the current positions, or slow down to rest."""
-        self._time_ns, self._period_ns = time_ns, 0
         for joint in self._joints:
             joint.start()
         for pid in self._pids:
             pid.reset()
-        self._desired = [(joint.position, joint.velocity, 0.0) for joint in self._joints]
+        self._law.start(time_ns)
         self._hold()
         self._states.restart(time_ns)
         self._is_running = True
 
+    def due_ns(self, time_ns: int) -> float:
+        """Return the time of the next message [ns]."""
+        feedback_ns = math.inf if self._settled is None else self._monitors.next_ns(time_ns)
+        return min(self._states.next_ns(time_ns) if self._state.has_subscribers else math.inf, feedback_ns)
+
     def update(self, time_ns: int, dt: float) -> None:
-        """Command the paths' current state."""
-        self._time_ns, self._period_ns = time_ns, round(dt * 1e9)
-        segments = [path.at(time_ns) for path in self._paths]
-        self._desired = [each.segment.sample(time_ns) for each in segments]
-        if self._settled is not None:
-            self._check_tolerances(segments)
-        for number, (joint, (position, velocity, _)) in enumerate(zip(self._joints, self._desired, strict=True)):
-            if not self._pids:
-                joint.command = position
-                continue
-            slope = velocity - joint.velocity
-            command = self._pids[number].command(joint.shortest_error(position), dt, slope=slope)
-            joint.command = command + self._forward[number] * velocity
+        """Settle the action's goal, and publish when due."""
+        self.finish_stride()
         if self._settled is not None and self._monitors.due(time_ns):
-            self._server.publish_feedback(self._state_fields(segments[0]))
-        if self._states.due(time_ns) and self._state.has_subscribers:
-            self._state.publish(self._state_fields(segments[0]))
+            self._server.publish_feedback(self._state_fields())
+        if self._states.due(time_ns, dt) and self._state.has_subscribers:
+            self._state.publish(self._state_fields())
+
+    def finish_stride(self) -> None:
+        """Settle the action where a joint has left its path or missed its goal, or all have reached it; the joints
+        follow their paths as before.
+        """
+        event = self._law.take_event()
+        if event is None:
+            return
+        code, joint, error = event
+        if not code:
+            self._settle("succeeded", 0, "")
+            return
+        kind = "path" if code == GoalError.PATH_TOLERANCE_VIOLATED else "goal"
+        self._settle("aborted", code, f"{self._names[joint]} {kind} error {error:.6f}")
 
     def stop(self) -> None:
         """Stop commanding."""
@@ -151,21 +156,24 @@ class TrajectoryController:
         if not trajectory.points:
             self._hold(goal)
             return
-        next_ns = self._time_ns + self._period_ns
-        self._paths = self._reader.read(trajectory, self._paths, next_ns, tolerances, goal)
+        next_ns = self._law.time_ns + self._law.period_ns
+        self._follow(self._reader.read(trajectory, self._paths, next_ns, tolerances, goal))
 
     def _log_refused(self, error: GoalError) -> None:
         (self._node.log.warn if error.is_late else self._node.log.error)(str(error))
 
     def _hold(self, goal: int = NO_GOAL) -> None:
         """Hold the current positions; with a stop_trajectory_duration, slow down to rest."""
+        time_ns = self._law.time_ns
         if not self._stop_ns:
-            self._paths = [holding_path(joint.position, self._time_ns, goal=goal) for joint in self._joints]
+            self._follow([holding_path(joint.position, time_ns, goal=goal) for joint in self._joints])
             return
-        self._paths = [
-            stopping_path(position, velocity, self._time_ns, self._stop_ns, goal=goal)
-            for position, velocity, _ in self._desired
-        ]
+        states = self._law.desired
+        self._follow([stopping_path(x, v, time_ns, self._stop_ns, goal=goal) for x, v, _ in states])
+
+    def _follow(self, paths: list[JointPath]) -> None:
+        self._paths = paths
+        self._law.set_paths([path.rows() for path in paths])
 
     def _query(self, request: "control_msgs.QueryTrajectoryStateRequest") -> dict[str, Any]:
         time_ns = to_nsec(request.time)
@@ -203,6 +211,7 @@ class TrajectoryController:
             self._settle("preempted", 0, "another goal came")
             self._node.loop.call_soon(accept)
             self._settled = settle
+            self._law.watches = True
 
         assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
         self._node.deliver(begin)
@@ -219,55 +228,28 @@ class TrajectoryController:
         self._reader.check_joints(goal.trajectory, error, GoalError.INVALID_JOINTS)
         self._begin(goal.trajectory, goal_tolerances(self._tolerances, goal, self._names), self._goal + 1)
         self._goal += 1
-        self._arrived.clear()
+        self._law.begin_goal(self._goal)
 
     def _abandon(self, settle: Callable[[ActionOutcome], None]) -> None:
         """Hold after a goal was cancelled, unless another has replaced it."""
         if self._settled is settle:
-            self._settled = None
+            self._settled, self._law.watches = None, False
             self._hold()
-
-    def _check_tolerances(self, segments: Sequence[PathSegment]) -> None:
-        """Settle the action where a joint has left its path or missed its goal, or all have reached it; the joints
-        follow their paths as before.
-        """
-        for number, (joint, path, on) in enumerate(zip(self._joints, self._paths, segments, strict=True)):
-            if on.goal != self._goal:
-                continue
-            position, velocity, _ = self._desired[number]
-            errors = joint.shortest_error(position), velocity - joint.velocity
-            if self._time_ns < on.segment.end_ns:
-                if not on.tolerances.path.allows(*errors):
-                    text = f"{joint.name} path error {errors[0]:.6f}"
-                    self._settle("aborted", GoalError.PATH_TOLERANCE_VIOLATED, text)
-                    return
-            elif on is path.segments[-1]:
-                if on.tolerances.goal.allows(*errors):
-                    self._arrived.add(number)
-                elif self._time_ns >= on.segment.end_ns + on.tolerances.time_ns + joint.settling_ns:
-                    text = f"{joint.name} goal error {errors[0]:.6f}"
-                    self._settle("aborted", GoalError.GOAL_TOLERANCE_VIOLATED, text)
-                    return
-        if len(self._arrived) == len(self._joints):
-            self._settle("succeeded", 0, "")
 
     def _settle(self, status: Any, code: int, text: str) -> None:
         if self._settled is not None:
             settle, self._settled = self._settled, None
+            self._law.watches = False
             settle(_outcome(status, code, text))
 
-    def _state_fields(self, first: PathSegment) -> dict[str, Any]:
-        """Fields of a JointTrajectoryControllerState, and of the action's feedback.
-
-        Args:
-            first: segment of the first joint, whose time counts.
-        """
-        joints = self._joints
-        positions, velocities, accelerations = (list(values) for values in zip(*self._desired, strict=True))
-        elapsed_ns = self._time_ns - first.segment.start_ns
-        from_start_ns = first.from_start_ns
+    def _state_fields(self) -> dict[str, Any]:
+        """Fields of a JointTrajectoryControllerState, and of the action's feedback; the first joint's time counts."""
+        joints, time_ns = self._joints, self._law.time_ns
+        positions, velocities, accelerations = (list(values) for values in zip(*self._law.desired, strict=True))
+        first = self._paths[0].at(time_ns)
+        elapsed_ns, from_start_ns = time_ns - first.segment.start_ns, first.from_start_ns
         return {
-            "header": {"stamp": self._time_ns},
+            "header": {"stamp": time_ns},
             "joint_names": self._names,
             "desired": {
                 "positions": positions,

@@ -6,7 +6,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 NO_GOAL = 0
 """Number of no action's goal."""
 _MAX_POINTS = 100_000
+SegmentRow: TypeAlias = tuple[int, int, tuple[float, ...], int, tuple[float, float, float, float], int]
 _OTHER_JOINTS = "Cannot create trajectory from message. It does not contain the expected joints."
 _SIZES = "Size mismatch in trajectory point position, velocity or acceleration data."
 _NO_POSITIONS = "Size mismatch between trajectory point and vector specifying whether joints wrap around."
@@ -50,6 +51,13 @@ class PathSegment(Struct, frozen=True):
     from_start_ns: int = 0
     """time_from_start of its first point [ns]."""
 
+    @property
+    def row(self) -> SegmentRow:
+        """Numbers for `TrajectoryLaw.set_paths`."""
+        curve, path, goal = self.segment, self.tolerances.path, self.tolerances.goal
+        limits = path.position, path.velocity, goal.position, goal.velocity
+        return curve.start_ns, curve.end_ns, curve.coefficients, self.goal, limits, self.tolerances.time_ns
+
 
 class JointPath:
     """Segments that a joint follows, in order of their starts; each ends where the next one starts."""
@@ -58,6 +66,10 @@ class JointPath:
         """Make a path of at least one segment."""
         self.segments = segments
         self._starts = [each.segment.start_ns for each in segments]
+
+    def rows(self) -> list[SegmentRow]:
+        """Return the segments for `TrajectoryLaw.set_paths`."""
+        return [each.row for each in self.segments]
 
     def index_at(self, time_ns: int) -> int:
         """Index of the segment at a time; −1 before the first."""

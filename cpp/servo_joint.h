@@ -1,0 +1,85 @@
+// Joint behind a hardware interface of ros_control: a state to read, and a command to write.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "motor_bank.h"
+#include "toolbox_pid.h"
+
+namespace trundle {
+
+enum class Interface { kEffort = 0, kVelocity = 1, kPosition = 2 };
+
+// Limits and kind of a joint; infinite limits are none.
+struct JointTraits {
+  double lower, upper;           // [rad or m]
+  double max_effort, max_speed;  // [N·m or N], [rad/s or m/s]
+  bool is_continuous;            // revolute without limits
+  bool is_prismatic;
+};
+
+// Axis of an engine, by the addresses of its position and velocity; `sign` is that of both.
+struct ServoAxis {
+  std::shared_ptr<MotorBank> bank;
+  int axis, qpos, dof;
+  double sign;
+};
+
+class ServoJoint {
+ public:
+  // pid: efforts from position or velocity errors; null: position or velocity is driven directly.
+  // lag_s: time constant of driven positions [s].
+  ServoJoint(ServoAxis axis, Interface interface, std::shared_ptr<ToolboxPid> pid, const JointTraits& traits,
+             double lag_s);
+
+  // Follow another engine's axis. Throws std::invalid_argument if it has none such.
+  void bind(ServoAxis axis);
+
+  // Read position and velocity; the effort is known between strides only.
+  void read();
+  void read_effort();
+
+  // Difference of a position to the joint's; the shorter way round if continuous.
+  double error(double position) const;
+
+  // The same; the shorter way round unless prismatic, as of joint_trajectory_controller.
+  double shortest_error(double position) const;
+
+  // Time that a driven position has to settle: gazebo_ros_control sets it at once.
+  std::int64_t settling_ns() const;
+
+  // Command that holds the position read last, or zero effort or velocity.
+  double resting_command() const { return interface_ == Interface::kPosition ? position : 0.0; }
+
+  // Command zero effort, zero velocity, or the last position.
+  void stop();
+
+  // Command the current position, or zero, until the controller writes.
+  void start();
+
+  // Apply the command for a control period [s].
+  void write(double dt);
+
+  // Return a function that restores the joint, but for the engine.
+  std::function<void()> checkpoint();
+
+  const JointTraits& traits() const { return traits_; }
+
+  double command = 0.0;  // [N·m or N], [rad or m] or [rad/s or m/s], by the interface
+  double position = 0.0, velocity = 0.0, effort = 0.0;
+  double lag_s;
+
+ private:
+  void write_velocity(double dt);
+  void write_position(double dt);
+
+  Interface interface_;
+  std::shared_ptr<ToolboxPid> pid_;
+  JointTraits traits_;
+  bool is_at_rest_ = true;
+  ServoAxis axis_;
+};
+
+}  // namespace trundle

@@ -1,0 +1,93 @@
+"""Steps with what C++ does at each of them: actions before it, recording of contacts after it."""
+
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+import mujoco
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from .. import _contact_laws
+from ..compile.compiled_world import CompiledWorld
+from .contact import Contacts
+from .contact_query import ContactQuery
+from .contact_recorder import ContactRecorder
+
+StepAction: TypeAlias = _contact_laws.StepAction
+
+
+class EachStep(Struct, frozen=True, eq=False):
+    """Recorders and actions of the coming steps."""
+
+    time_ns: int
+    """Time before the first of these steps [ns]."""
+    step_ns: int
+    """[ns]"""
+    recorders: Sequence[ContactRecorder] = ()
+    actions: Sequence[StepAction] = ()
+    """Actions before each step but the first, for which they have acted."""
+
+    @property
+    def is_empty(self) -> bool:
+        """True if there is nothing to do."""
+        return not self.recorders and not self.actions
+
+
+class Stepper:
+    """Steps in C++ from one time on."""
+
+    def __init__(
+        self,
+        each: EachStep,
+        compiled: CompiledWorld,
+        data: mujoco.MjData,
+        *,
+        query: ContactQuery,
+        state: Callable[[], NDArray[np.float64]],
+    ) -> None:
+        """Save the actions' state.
+
+        Args:
+            each: recorders and actions.
+            compiled: the world.
+            data: its state.
+            query: evaluates contacts of sleeping bodies.
+            state: returns the state (mjSTATE_INTEGRATION).
+        """
+        self._each = each
+        self._natives = [recorder.bind(compiled) for recorder in each.recorders]
+        self._restores = [action.checkpoint() for action in each.actions]
+        self._time_ns = each.time_ns
+        self._addresses = compiled.model._address, data._address
+        self._query = query
+        self._state = state
+
+    def step(self, count: int) -> int:
+        """Make `count` steps, or fewer if an action needs Python; return their number."""
+        each, left, goes_on = self._each, count, True
+        while left > 0 and goes_on:
+            acts_first = self._time_ns > each.time_ns
+            made, goes_on = _contact_laws.step(
+                *self._addresses, left, self._natives, each.actions, acts_first, self._time_ns, each.step_ns
+            )
+            self._time_ns += made * each.step_ns
+            left -= made
+            for recorder, native in zip(each.recorders, self._natives, strict=True):
+                if native.is_stale:
+                    native.set_sleeping(self._query.sleeping_contacts(recorder.collisions, self._state).rows)
+        return count - left
+
+    def replace_last(self, contacts: Callable[[frozenset[str]], Contacts]) -> None:
+        """Record the contacts of the current state in place of the last step's."""
+        for recorder, native in zip(self._each.recorders, self._natives, strict=True):
+            native.replace_since(self._time_ns, contacts(recorder.collisions).rows)
+
+    def roll_back(self) -> None:
+        """Forget all steps."""
+        nothing = np.empty((0, 15))
+        for native in self._natives:
+            native.replace_since(self._each.time_ns + self._each.step_ns, nothing)
+        for restore in self._restores:
+            restore()
+        self._time_ns = self._each.time_ns
