@@ -3,6 +3,7 @@
 import math
 from typing import Self
 
+from trundle.control import MimicAction
 from trundle.diagnostics import TrundleError
 from trundle.model import PluginTag
 from trundle.parameters import TagParameters
@@ -32,6 +33,9 @@ class MimicJoint(Plugin):
         self._multiplier, self._offset = parameters.number("multiplier", 1.0), parameters.number("offset", 0.0)
         self._sensitiveness, max_effort = parameters.number("sensitiveness", 0.0), parameters.number("maxEffort", 1.0)
         self._max_effort = max_effort if "hasPID" in parameters else math.inf
+        self._sim = sim
+        self._action: MimicAction | None = None
+        sim.on_change(self._forget_action)
         parameters.ignore("robotNamespace", "namespace")
         parameters.report_unread()
 
@@ -47,3 +51,26 @@ class MimicJoint(Plugin):
         if abs(target - self._follower.position) >= self._sensitiveness:
             speed = (target - self._follower.position) * 1e9 / (_LAG_STEPS * sim.step_ns)
             self._follower.command_velocity(speed, max_effort=self._max_effort)
+
+    def step_action(self) -> tuple[MimicAction, float] | None:
+        """Return what sets the follower's velocity at every step; None beside a timed effort, which that would end."""
+        has_timed_effort = (self._follower, 0) in self._sim.loads.expiries.efforts
+        if not self._leader.is_driven or has_timed_effort:
+            return None
+        if self._action is None:
+            self._action = MimicAction(
+                self._leader.motor,
+                self._follower.motor,
+                multiplier=self._multiplier,
+                offset=self._offset,
+                min_error=self._sensitiveness,
+                max_effort=self._max_effort,
+                lag_steps=_LAG_STEPS,
+            )
+        return self._action, math.inf
+
+    def finish_stride(self) -> None:
+        """Do nothing: no event ends a stride."""
+
+    def _forget_action(self) -> None:
+        self._action = None

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from trundle.physics import StepAction
 
 
+_NEVER_NS = 2**62
+
+
 class SteppedWorld(Protocol):
     """World that hooks act on."""
 
@@ -40,9 +43,9 @@ class BeforeStep(Protocol[_WorldT]):
 class InStep(Protocol):
     """Hook that acts in C++ within a stride, if it is due at every step."""
 
-    def step_action(self) -> "tuple[StepAction, int] | None":
-        """Return what acts from the second step of a stride on, and the time at which `before_step` is due again [ns];
-        None: at every step. It is asked after each `before_step`.
+    def step_action(self) -> "tuple[StepAction, float] | None":
+        """Return what acts from the second step of a stride on, and the time at which `before_step` is due again [ns],
+        or infinity; None: at every step. It is asked after each `before_step`.
         """
         ...
 
@@ -174,7 +177,7 @@ class ScheduledHook(Generic[WorldT]):
         if self._in_step is not None and self.before_timer.at_every_step:
             found = self._in_step.step_action()
             if found is not None:
-                self.action, self._until_ns = found
+                self.action, self._until_ns = found[0], int(min(found[1], _NEVER_NS))
         return self.action
 
     def finish_stride(self) -> None:

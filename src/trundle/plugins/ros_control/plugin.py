@@ -20,7 +20,6 @@ from .transmissions import read_transmissions
 _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
 _POLL_S = 0.5
 _LAG_STEPS = 5
-_NEVER_NS = 2**62
 _OLD_INDIGO = "legacyModeNS"
 
 
@@ -87,12 +86,12 @@ class GazeboRosControl(Plugin):
         servo.write(dt)
         sim.engine.reader.invalidate()  # kinematic drives change velocities
 
-    def step_action(self) -> tuple[Servo, int] | None:
+    def step_action(self) -> tuple[Servo, float] | None:
         """Return what reads, updates and writes at every step, until a controller has to do more."""
         if self._manager is None or self._stops or self._held:
             return None
         due_ns = self._manager.due_ns(self._sim.time_ns)
-        return None if due_ns is None else (self._servo, int(min(due_ns, _NEVER_NS)))
+        return None if due_ns is None else (self._servo, due_ns)
 
     def finish_stride(self) -> None:
         """Settle goals that ended in a stride."""
