@@ -12,12 +12,12 @@ from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.scene_user import rviz_text
 
-from trundle.page import GraphAddress, JointSlider, PageServer, RvizFile, Session
+from trundle.page import TERMINAL, GraphAddress, JointSlider, NodeTerminal, PageServer, RvizFile, Session
 from trundle.page_address import PageAddress
 
 AXE = Path(__file__).parents[2] / "web/node_modules/axe-core/axe.min.js"
 PANELS = ("Plots", "Topics", "Log", "Graph", "Timeline", "Nodes", "Parameters", "Services", "TF tree", "Images")
-CONTROLS = ("Reconfigure", "Joints", "Steering", "Joystick")
+CONTROLS = ("Reconfigure", "Joints", "Steering", "Joystick", "Terminal")
 SIDES = ("World", "Displays", "Inspector", "Views", "Tool properties")
 RVIZ = rviz_text(
     {"Class": "rviz/LaserScan", "Name": "Scan", "Enabled": True, "Topic": "/scan"},
@@ -52,9 +52,11 @@ def server(graph: Graph) -> Iterator[PageServer]:
         images=("/image",),
         sliders=(JointSlider(name="arm", lower=-1.0, upper=1.0, position=0.5),),
         joystick=True,
+        terminals=(NodeTerminal(name="/drive"), NodeTerminal(name="/watch", ended="/watch has died")),
     )
     address = GraphAddress(master_uri=graph.core.uri)
     with PageServer.start(session, at=PageAddress(port=0), graph=address, node=graph.node("owner")) as server:
+        server.put_terminal(f"{TERMINAL}0", 0, (80, 24), b"i: \x1b[31mforward\x1b[0m")
         yield server
 
 
@@ -84,6 +86,8 @@ def _dialog(user: PanelUser, keys: str, name: str) -> None:
 def test_panels_sides_and_dialogs(user: PanelUser) -> None:
     for panel in (*PANELS, *CONTROLS):
         user.open(panel)
+        if panel == "Terminal":
+            user.sees("forward")
         _check(user.page, panel)
     for side in SIDES:
         tab = user.page.get_by_role("tab", name=side)

@@ -27,6 +27,7 @@ PANELS = {
     "rqt_service_caller": "Services",
     "joint_state_publisher_gui": "Joints",
     "joy": "Joystick",
+    "xterm": "Terminal",
 }
 
 

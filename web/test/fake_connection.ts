@@ -137,6 +137,10 @@ export class FakeConnection implements Connection {
   release(topic: string): void {
     this.released.push(topic);
   }
+  readonly typed: { readonly number: number; readonly text: string; readonly size: readonly [number, number] | undefined }[] = [];
+  useTerminal(number: number, text: string, size?: readonly [number, number]): void {
+    this.typed.push({ number, text, size });
+  }
   present(selection: SharedSelection | null): void {
     this.presented.push(selection);
   }

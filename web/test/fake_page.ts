@@ -35,6 +35,7 @@ export const SESSION: Session = {
   drive_topic: "/cmd_vel",
   sliders: [],
   joystick: false,
+  terminals: [],
   foxglove: "ws://localhost:8080/",
   view_only: false,
   token: "control",

@@ -23,6 +23,7 @@ from trundle.page import (
 )
 from trundle.ros import Node
 
+from .page_terminals import PageTerminals
 from .shared_page import CMD_VEL, SharedPage
 
 _PERIOD_S = 1 / 50
@@ -51,6 +52,7 @@ class GraphPage:
         self._owner: Node | None = None
         self._move_slider: MoveJoint | None = None
         self._joysticks: list[MoveAxes] = []
+        self.terminals = PageTerminals(page)
 
     @property
     def url(self) -> str | None:
@@ -121,18 +123,32 @@ class GraphPage:
             node.log.info(f"the page is {self._owner.name}'s, at {where}")
         else:
             self._owner = node
+        try:
+            await self.serve(node)
+        finally:
+            if self._owner is node:
+                self._owner = None
+        return 0
+
+    async def serve(self, node: Node) -> None:
+        """Serve the page until its server is gone or the call is cancelled.
+
+        Args:
+            node: publishes the stop of a robot that is driven when the server dies.
+
+        Raises:
+            UsageError: the port asked for is taken.
+        """
         server = await asyncio.to_thread(self._page.acquire, node)
         try:
             while server.alive and not node.closed.is_set():
                 self._handle_requests(server)
+                self.terminals.update(server)
                 if self._report is not None:
                     self._page.show_findings(self._report)
                 await asyncio.sleep(_PERIOD_S)
         finally:
             self._page.release()
-            if self._owner is node:
-                self._owner = None
-        return 0
 
     def close(self) -> None:
         """Close the page; may be called twice and on any thread."""

@@ -32,7 +32,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="[PKG] FILE [ARG:=VALUE]",
         help="launch file ('-': standard input) and its arguments",
     )
-    add("--headless", action="store_true", help="no browser page; rviz idles")
+    add(
+        "--headless", action="store_true", help="no browser page; rviz idles, a node that wants a terminal has this one"
+    )
     add("--duration", type=float, metavar="S", help="stop after S seconds of ROS time")
     add("--speed", type=read_speed, default=1.0, metavar="X|max", help="real-time factor (1); max: as fast as possible")
     add(
@@ -115,6 +117,7 @@ def main(args: argparse.Namespace) -> int:
         opens_browser=not args.no_browser,
         renderer=args.renderer,
         output="log" if args.log else "screen" if args.screen else None,
+        reads_keys=True,
         all_required=args.required,
         wait_for_master=args.wait,
         summary=not (args.no_summary or args.quiet),

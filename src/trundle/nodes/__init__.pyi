@@ -1,5 +1,6 @@
 from .catalog import BUILTIN_NODES as BUILTIN_NODES
 from .catalog import CLIENTS as CLIENTS
+from .catalog import KEYBOARDS as KEYBOARDS
 from .catalog import ROSCPP as ROSCPP
 from .catalog import WINDOWS as WINDOWS
 from .catalog import WORLDS as WORLDS

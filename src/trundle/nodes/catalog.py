@@ -124,6 +124,11 @@ WINDOWS = frozenset(
 }
 """Nodes with a window: each opens the page."""
 
+KEYBOARDS = frozenset(
+    key for key in BUILTIN_NODES if key[1] == "teleop_twist_keyboard.py" or key[1].endswith("_teleop_key")
+)
+"""Nodes that read keys."""
+
 CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
 """Nodes that open the page of the simulated world."""
 

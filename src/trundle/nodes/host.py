@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from trundle.ros import Node
 from trundle.spatial import Pose
-from trundle.supervisor import ProcessTree
+from trundle.supervisor import ProcessTree, Terminal
 
 if TYPE_CHECKING:
     from trundle.model import World
@@ -164,6 +164,8 @@ class NodeHost:
     """None if simulation is not available."""
     env: Mapping[str, str] = field(default_factory=dict[str, str])
     """Environment set by the launch file for this node."""
+    terminal: Terminal | None = None
+    """Terminal of the node's own; None: that of this process."""
     tree: ProcessTree = field(default_factory=ProcessTree)
     """Tree of the node's own processes, which end with it."""
 

@@ -71,6 +71,7 @@ class TeleopTwistKeyboard:
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._display = host.display
+        self._terminal = host.terminal
         self._node = node
 
     async def run(self) -> int:
@@ -93,12 +94,12 @@ class TeleopTwistKeyboard:
 
         if self._display is not None and not stamped:
             self._display.drive_on(commands.topic)
-        keyboard = Keyboard(node)
+        keyboard = Keyboard(self._terminal)
         if not keyboard.is_available:
-            node.log.warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            node.log.warn(keyboard.advice(commands.topic))
             await node.closed.wait()
             return 0
-        print(f"{_HELP}\ncurrently:\tspeed {speed}\tturn {turn} ")
+        keyboard.print(f"{_HELP}\ncurrently:\tspeed {speed}\tturn {turn} ")
         move = (0, 0, 0, 0)
         now_s = asyncio.get_running_loop().time
         released_s = math.inf
@@ -110,7 +111,7 @@ class TeleopTwistKeyboard:
                     if key in _SPEEDS:
                         faster, tighter = _SPEEDS[key]
                         speed, turn = speed * faster, turn * tighter
-                        print(f"currently:\tspeed {speed}\tturn {turn} ")
+                        keyboard.print(f"currently:\tspeed {speed}\tturn {turn} ")
                     elif key is not None:
                         move = _MOVES.get(key, (0, 0, 0, 0))
                     elif now_s() >= released_s:

@@ -37,6 +37,7 @@ class Turtlebot3TeleopKey:
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
+        self._terminal = host.terminal
         self._env = {**os.environ, **host.env}
 
     async def run(self) -> int:
@@ -46,12 +47,12 @@ class Turtlebot3TeleopKey:
         model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
         fastest = _FASTEST.get(model, _OTHERS)
         commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)
-        keyboard = Keyboard(node)
+        keyboard = Keyboard(self._terminal)
         if not keyboard.is_available:
-            node.log.warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            node.log.warn(keyboard.advice(commands.topic))
             await node.closed.wait()
             return 0
-        print(_HELP)
+        keyboard.print(_HELP)
         target, control = (0.0, 0.0), (0.0, 0.0)
         with keyboard.cbreak():
             try:
@@ -61,7 +62,7 @@ class Turtlebot3TeleopKey:
                         pairs = zip(target, _STEPS[key], fastest, strict=True)
                         linear, angular = (min(max(now + step, -most), most) for now, step, most in pairs)
                         target = (linear, angular)
-                        print(f"currently:\tlinear velocity {linear:.2f}\t angular velocity {angular:.2f} ")
+                        keyboard.print(f"currently:\tlinear velocity {linear:.2f}\t angular velocity {angular:.2f} ")
                     elif key in (" ", "s"):
                         target = control = (0.0, 0.0)
                     control = (step_towards(control[0], target[0], 0.005), step_towards(control[1], target[1], 0.05))

@@ -71,6 +71,7 @@ from .requests.world import SaveReplay as SaveReplay
 from .requests.world import SaveWorld as SaveWorld
 from .requests.world import UndoReset as UndoReset
 from .session import JointSlider as JointSlider
+from .session import NodeTerminal as NodeTerminal
 from .session import RvizFile as RvizFile
 from .session import Session as Session
 from .wire import BagFile as BagFile
@@ -83,6 +84,7 @@ from .world.streams import POSES as POSES
 from .world.streams import RANGES as RANGES
 from .world.streams import SERIES as SERIES
 from .world.streams import STATE as STATE
+from .world.streams import TERMINAL as TERMINAL
 from .world.streams import ClockState as ClockState
 from .world.streams import Line as Line
 from .world.streams import Recording as Recording

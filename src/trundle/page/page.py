@@ -29,6 +29,7 @@ from .clients.protocol import (
     Presence,
     Subscribe,
     Unsubscribe,
+    UseTerminal,
     operation_decoder,
 )  # fmt: skip
 from .graph.ros_graph import RosGraph
@@ -49,6 +50,7 @@ from .wire import (
     SetSession,
     SetWorld,
     Start,
+    TerminalInput,
     ToServer,
     Uploaded,
 )  # fmt: skip
@@ -67,6 +69,8 @@ from .world.channels import (
 )
 from .world.people import PeopleChannel
 from .world.session_channel import SessionChannel
+from .world.streams import TERMINAL
+from .world.terminal_channel import TerminalChannel
 
 _NO_GRAPH = "this page has no ROS graph"
 _action_decoder = msgspec.json.Decoder(ClientAction | Definition | PlotSeries | SaveRvizAs)
@@ -150,12 +154,15 @@ class Page:
                 self._owner.receive(answer)
 
     def _box(self, stream: str) -> BoxChannel:
-        """Return the channel of a stream, that of a camera made on first use."""
+        """Return the channel of a stream, that of a camera or terminal made on first use."""
         if stream not in self._boxes:
-            camera = CameraChannel(stream, schema=self._messages.definition(IMAGE))
-            self._boxes[stream] = camera
-            self.hub.add_channels([camera])
-            self.hub.polled.append(camera)
+            if stream.startswith(TERMINAL):
+                box = TerminalChannel(stream)
+            else:
+                box = CameraChannel(stream, schema=self._messages.definition(IMAGE))
+            self._boxes[stream] = box
+            self.hub.add_channels([box])
+            self.hub.polled.append(box)
         return self._boxes[stream]
 
     def _simulated_time_ns(self) -> int | None:
@@ -264,6 +271,8 @@ class Page:
                 self._assets.fetch(client, operation)
             case Presence(selection):
                 self._people.select(client, selection)
+            case UseTerminal(number, text, size):
+                self._owner.send(TerminalInput(number, text, size))
             case PageRequest():
                 self._request(client, operation.id, message)
             case _ if self._graph is not None:

@@ -10,7 +10,7 @@ import threading
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, TypeVar
 
 import msgspec
 import numpy as np
@@ -40,6 +40,7 @@ from .wire import (
     SetSession,
     SetWorld,
     Start,
+    TerminalInput,
     ToServer,
     Uploaded,
     Watched,
@@ -60,6 +61,7 @@ from .world.streams import (
     SERIES,
     SERIES_HEADER,
     STATE,
+    TERMINAL_HEADER,
     ClockState,
     Line,
     line_pieces,
@@ -71,6 +73,7 @@ if TYPE_CHECKING:
 _STOP_TIMEOUT_S = 1.5
 _MAX_REQUESTS = 1000
 _MIN_BOX_BYTES = 4096
+_Item = TypeVar("_Item")
 
 
 class PageServer:
@@ -86,6 +89,7 @@ class PageServer:
         self._replies: queue.SimpleQueue[Served | Refused | None] = queue.SimpleQueue()
         self._requests: dict[bool, deque[Request]] = {kind: deque(maxlen=_MAX_REQUESTS) for kind in (False, True)}
         """By whether they are to nodes of the graph."""
+        self._terminal_inputs: deque[TerminalInput] = deque(maxlen=_MAX_REQUESTS)
         self._watched: frozenset[str] = frozenset()
         self._boxes: dict[str, Mailbox] = {}
         self._plotted: tuple[str, ...] = ()
@@ -209,12 +213,17 @@ class PageServer:
         Args:
             of_graph: True: requests to nodes of the graph alone; False: all others; None: all.
         """
-        taken: list[Request] = []
-        for kind, waiting in self._requests.items():
-            with contextlib.suppress(IndexError):
-                while of_graph in (None, kind):
-                    taken.append(waiting.popleft())
+        taken = [
+            request
+            for kind, waiting in self._requests.items()
+            if of_graph in (None, kind)
+            for request in _drain(waiting)
+        ]
         return taken if of_graph is not None else sorted(taken, key=lambda request: request.id)
+
+    def terminal_inputs(self) -> list[TerminalInput]:
+        """Return the keys and sizes for terminals since the last call, oldest first."""
+        return _drain(self._terminal_inputs)
 
     def respond(self, request_id: int, error: str | None = None, **fields: object) -> None:
         """Answer a request; `error` is a sentence that says why it was not done, `fields` are further ones."""
@@ -292,6 +301,10 @@ class PageServer:
         """Show what range sensors measure, and nothing of those before."""
         self._put(RANGES, line_pieces(time_ns, tuple(lines)))
 
+    def put_terminal(self, stream: str, first: int, size: tuple[int, int], output: bytes) -> None:
+        """Show the end of a terminal's output, which begins with byte `first` of all, at a size (columns, rows)."""
+        self._put(stream, [TERMINAL_HEADER.pack(first, *size), output])
+
     def put_image(self, topic: str, time_ns: int, rgb: NDArray[np.uint8]) -> None:
         """Show a camera's newest picture (height, width, 3) on its topic of the manifest; for runs without ROS."""
         assert rgb.ndim == 3, "a picture is (height, width, 3)"
@@ -366,6 +379,8 @@ class PageServer:
                         self._plotted = series
                     case Uploaded(folder):
                         self._uploads = Path(folder)
+                    case TerminalInput() as typed:
+                        self._terminal_inputs.append(typed)
                     case Driven(topics):
                         if self._stop is not None:
                             self._stop.follow(topics)
@@ -389,3 +404,12 @@ class PageServer:
         if isinstance(reply, Refused):
             raise UsageError(reply.reason)
         raise PageError(f"the page's server ended at once with exit code {self._process.wait()}")
+
+
+def _drain(waiting: deque[_Item]) -> list[_Item]:
+    """Remove and return what another thread appended, oldest first."""
+    taken: list[_Item] = []
+    with contextlib.suppress(IndexError):
+        while True:
+            taken.append(waiting.popleft())
+    return taken

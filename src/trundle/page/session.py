@@ -28,6 +28,15 @@ class JointSlider(msgspec.Struct, frozen=True, kw_only=True):
     """[rad or m]"""
 
 
+class NodeTerminal(msgspec.Struct, frozen=True, kw_only=True):
+    """A node's terminal, whose channel is `trundle/terminal/N` with its place in the list."""
+
+    name: str
+    """Name of the node."""
+    ended: str | None = None
+    """Sentence on the end of the node; None: it runs."""
+
+
 class Session(msgspec.Struct, frozen=True, kw_only=True):
     """Purpose of the page; empty lists ask for nothing."""
 
@@ -52,3 +61,4 @@ class Session(msgspec.Struct, frozen=True, kw_only=True):
     sliders: tuple[JointSlider, ...] = ()
     joystick: bool = False
     """True if a joystick is to be shown: the launch starts a joy node."""
+    terminals: tuple[NodeTerminal, ...] = ()

@@ -147,6 +147,15 @@ class Uploaded(msgspec.Struct, frozen=True, tag=True):
     folder: str
 
 
+class TerminalInput(msgspec.Struct, frozen=True, tag=True):
+    """Keys for a node's terminal, and its size."""
+
+    number: int
+    text: str
+    size: tuple[int, int] | None
+    """Columns and rows; None: as it is."""
+
+
 class Driven(msgspec.Struct, frozen=True, tag=True):
     """Topics of velocity commands that some client drives with, each with its type."""
 
@@ -154,7 +163,7 @@ class Driven(msgspec.Struct, frozen=True, tag=True):
 
 
 ToServer: TypeAlias = SetSession | SetNotice | AddFile | SetWorld | OpenMailbox | Respond
-FromServer: TypeAlias = Served | Refused | Request | Watched | Plotted | Uploaded | Driven
+FromServer: TypeAlias = Served | Refused | Request | Watched | Plotted | Uploaded | Driven | TerminalInput
 encoder = msgspec.msgpack.Encoder()
 start_decoder = msgspec.msgpack.Decoder(Start)
 to_server_decoder = msgspec.msgpack.Decoder(ToServer)

@@ -9,3 +9,6 @@ from .supervisor import Event as Event
 from .supervisor import EventKind as EventKind
 from .supervisor import Supervisor as Supervisor
 from .task import TaskJob as TaskJob
+from .terminal import HAS_PSEUDO_TERMINALS as HAS_PSEUDO_TERMINALS
+from .terminal import MAX_SIZE as MAX_SIZE
+from .terminal import Terminal as Terminal

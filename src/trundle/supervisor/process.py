@@ -3,16 +3,19 @@
 import asyncio
 import contextlib
 import os
+import shutil
 import signal
 import subprocess
+import sys
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Literal
 
 from .job import JobError, StopTimeouts
 from .process_tree import ProcessTree
+from .terminal import LEADER, Terminal
 
 _POSIX = os.name == "posix"
 _CHUNK_BYTES = 65536
@@ -32,10 +35,15 @@ class ProcessCommand:
     env: Mapping[str, str]
     """Complete environment; nothing is inherited."""
     cwd: Path | None = None
-    output: Literal["screen", "log"] = "log"
-    """Destination of standard output; standard error always goes to the screen, as in roslaunch."""
+    output: "Literal['screen', 'log', 'inherited'] | Terminal" = "log"
+    """Destination of standard output; standard error always goes to the screen, as in roslaunch.
+
+    Of a terminal the program has input and errors, too; 'inherited' are those of this process.
+    """
     log_file: Path | None = None
     """Log file for `output` 'log'; None drops the output."""
+    reads_input: bool = False
+    """True: it reads the standard input of this process, as all programs of roslaunch do."""
 
 
 class ProcessJob:
@@ -61,35 +69,66 @@ class ProcessJob:
         command = self._command
         self._last.clear()
         self._tree.watch()
+        stdin = None if command.reads_input else subprocess.DEVNULL
+        if isinstance(command.output, Terminal):
+            process = await self._start_in(command.output)
+        elif command.output == "inherited":
+            process = await self._execute(command.argv, None, None)
+        else:
+            process = await self._execute(command.argv, stdin, subprocess.PIPE)
+        self._process = process
+        self._tree.add(process.pid)
+        streams = ((process.stdout, command.output == "screen"), (process.stderr, True))
+        self._readers = [
+            asyncio.create_task(self._read(stream, to_screen=to_screen))
+            for stream, to_screen in streams
+            if stream is not None
+        ]
+        return f"with pid [{process.pid}]"
+
+    async def _start_in(self, terminal: Terminal) -> asyncio.subprocess.Process:
+        """Start the program in a terminal, whose session it leads."""
+        command = self._command
+        program = command.argv[0]
+        if shutil.which(program, path=command.env.get("PATH", os.defpath)) is None:
+            raise JobError(f"{program!r} does not exist, or cannot be run")
+        side = terminal.open()
         try:
-            self._process = await asyncio.create_subprocess_exec(
-                *command.argv,
+            return await self._execute((sys.executable, "-I", "-S", str(LEADER), *command.argv), side, side)
+        except JobError:
+            terminal.close()
+            raise
+        finally:
+            os.close(side)
+
+    async def _execute(self, argv: Sequence[str], stdin: int | None, output: int | None) -> asyncio.subprocess.Process:
+        """Start a program with descriptors as `subprocess` has them."""
+        command = self._command
+        try:
+            return await asyncio.create_subprocess_exec(
+                *argv,
                 env=self._tree.environment(command.env),
                 cwd=command.cwd,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
+                stdin=stdin,
+                stdout=output,
+                stderr=output,
                 start_new_session=_POSIX,
             )
         except FileNotFoundError as error:
-            raise JobError(f"{error.filename or command.argv[0]!r} does not exist") from None
+            raise JobError(f"{error.filename or argv[0]!r} does not exist") from None
         except (OSError, ValueError) as error:
-            raise JobError(f"{command.argv[0]!r} cannot be run: {error}") from None
-        self._tree.add(self._process.pid)
-        assert self._process.stdout is not None
-        assert self._process.stderr is not None
-        self._readers = [
-            asyncio.create_task(self._read(self._process.stdout, to_screen=command.output == "screen")),
-            asyncio.create_task(self._read(self._process.stderr, to_screen=True)),
-        ]
-        return f"with pid [{self._process.pid}]"
+            raise JobError(f"{argv[0]!r} cannot be run: {error}") from None
 
     async def wait(self) -> int:
         assert self._process is not None, "a job is started before it is waited for"
         code = await self._process.wait()
-        _, late = await asyncio.wait(self._readers, timeout=_EXIT_GRACE_S)
-        for reader in late:
-            reader.cancel()
+        if self._readers:
+            _, late = await asyncio.wait(self._readers, timeout=_EXIT_GRACE_S)
+            for reader in late:
+                reader.cancel()
+        if isinstance(self._command.output, Terminal):
+            self._command.output.close()
+            self._last.extend(self._command.output.last_lines(_KEPT_LINES))
         self._tree.discard(self._process.pid)
         return code
 

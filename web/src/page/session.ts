@@ -22,6 +22,8 @@ export interface Session {
   readonly drive_topic: string | null;
   readonly sliders: readonly { readonly name: string; readonly lower: number; readonly upper: number; readonly position: number }[];
   readonly joystick: boolean;
+  /** Terminals of nodes; `ended` is a sentence on the node's end. */
+  readonly terminals: readonly { readonly name: string; readonly ended: string | null }[];
   readonly foxglove: string;
   /** True: the server does nothing for this page that changes anything. */
   readonly view_only: boolean;

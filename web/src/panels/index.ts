@@ -14,6 +14,7 @@ import { plotsPanel } from "./plots";
 import { reconfigurePanel } from "./reconfigure";
 import { servicesPanel } from "./services";
 import { steeringPanel } from "./steering";
+import { terminalPanel } from "./terminal";
 import { tfTreePanel } from "./tf_tree";
 import { timelinePanel } from "./timeline";
 import { topicsPanel } from "./topics";
@@ -34,4 +35,5 @@ export const panels: readonly Panel[] = [
   jointsPanel,
   steeringPanel,
   joystickPanel,
+  terminalPanel,
 ];

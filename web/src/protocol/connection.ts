@@ -137,6 +137,8 @@ export interface Connection {
   request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<RequestAnswer>;
   drive(topic: string, linear: number, angular: number): void;
   release(topic: string): void;
+  /** Type into a node's terminal, and set its size (columns, rows). */
+  useTerminal(number: number, text: string, size?: readonly [number, number]): void;
   /** Show the others what is selected here. */
   present(selection: SharedSelection | null): void;
 }

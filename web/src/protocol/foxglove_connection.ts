@@ -119,6 +119,10 @@ export class FoxgloveConnection implements Connection {
     this.#socket.send({ op: "trundle/release", topic });
   }
 
+  useTerminal(number: number, text: string, size?: readonly [number, number]): void {
+    this.#socket.send({ op: "trundle/terminal", number, text, size: size ?? null });
+  }
+
   present(selection: SharedSelection | null): void {
     this.#socket.send({ op: "trundle/presence", selection });
   }

@@ -1,9 +1,7 @@
 """Jobs of a launch file's nodes: processes, or stand-ins in this process."""
 
 import contextlib
-import os
 import shlex
-import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +13,7 @@ from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.launch import LaunchNode
 from trundle.names import parse_arguments
 from trundle.nodes import (
+    KEYBOARDS,
     ROSCPP,
     BuiltinReplacement,
     Executable,
@@ -27,17 +26,14 @@ from trundle.nodes import (
 from trundle.packages import Packages
 from trundle.ros import Loggers, Node
 from trundle.rospy.environment import with_finder
-from trundle.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, RespawnPolicy, TaskJob
+from trundle.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, RespawnPolicy, TaskJob, Terminal
 from trundle.yaml_loader import load_yaml
 
 from ..graph import Graph
 from ..missing_nodes import find_launch_node, is_here, report_missing_node
+from .launch_prefix import read_prefix
 from .logs import ros_home
-
-_TERMINALS = """
-    gnome-terminal konsole lxterminal mate-terminal rxvt terminator uxterm x-terminal-emulator xfce4-terminal xterm
-"""
-"""Programs that open a window for a node."""
+from .terminals import NodeTerminals, TerminalOutput
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +46,8 @@ class Launched:
     """Path of the program, package/type of the stand-in, or why there is neither."""
     job: Job | None = None
     log_files: str = ""
+    terminal: Terminal | None = None
+    """Terminal of ours that it has; None: it has none of its own."""
 
     def failed(self) -> "Launched":
         """Copy of this, marked as not started."""
@@ -66,6 +64,7 @@ class NodeStarter:
     report: Diagnostics
     host: NodeHost
     """Interface of stand-ins to the launch."""
+    terminals: NodeTerminals
     tree: ProcessTree
     """Parent of the started processes; they end with it."""
     log_folder: Path
@@ -94,29 +93,72 @@ class NodeStarter:
         env = {**self.env, "ROS_NAMESPACE": node.namespace, "ROS_MASTER_URI": self.graph.master_uri, **dict(node.env)}
         if env["ROS_NAMESPACE"] == "/":
             del env["ROS_NAMESPACE"]
-        name = label.replace("/", "-")
         match find_launch_node(node, self.packages, env):
             case Executable(path):
-                if fault := script_fault(path):
-                    self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")
-                prefix = _split(node.launch_prefix, node)
-                if prefix and (fault := _prefix_fault(prefix, env)):
-                    what = f"launch-prefix {node.launch_prefix!r} is left out: {fault}"
-                    self.report.warn(node.at, f"node {node.full_name}: {what}")
-                    prefix = []
-                job = ProcessJob(self._command(node, label, path, env, prefix, more), show, tree=self.tree)
-                logs = f"{self.log_folder / name}*.log"
-                return Launched(node=node, kind="process", what=str(path), job=job, log_files=logs)
+                return self._prepare_process(node, label, path, env, show=show, more=more)
             case BuiltinReplacement() as stand_in:
-                if node.launch_prefix:
-                    what = f"launch-prefix {node.launch_prefix!r} is not used; the stand-in runs within this process"
-                    self.report.warn(node.at, f"node {node.full_name}: {what}")
-                log = None if (self.output or node.output) == "screen" else self.log_folder / f"{name}-stdout.log"
-                job = TaskJob(label, lambda: self._run(node, stand_in, log))
-                logs = "" if log is None else str(log)
-                return Launched(node=node, kind="stand-in", what=f"{node.package}/{node.type}", job=job, log_files=logs)
+                return self._prepare_stand_in(node, label, stand_in)
             case MissingNode(why):
                 return self._missing(node, why)
+
+    def _prepare_process(
+        self,
+        node: LaunchNode,
+        label: str,
+        path: Path,
+        env: Mapping[str, str],
+        *,
+        show: Callable[[str, str], None],
+        more: tuple[str, ...],
+    ) -> Launched:
+        if fault := script_fault(path):
+            self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")
+        prefix = read_prefix(_split(node.launch_prefix, node), env)
+        output: Literal["screen", "log"] | TerminalOutput | None = None
+        fault = prefix.fault
+        if prefix.wants_terminal:
+            output = self.terminals.find(node.full_name, is_process=True)
+            if output is not None:
+                fault = prefix.program_fault
+            elif fault is not None:
+                fault = f"{fault}, and {self.terminals.why_none(node)}"
+        if fault is not None:
+            self._warn_of_prefix(node, f"is left out: {fault}")
+        if output is None:
+            output = self.output or ("screen" if node.launch_prefix and not prefix.words else node.output)
+        command = self._command(node, label, path, env, (*prefix.words, *start_words(path, env)), more, output)
+        return Launched(
+            node=node,
+            kind="process",
+            what=f"{path}{_in_terminal(output)}",
+            job=ProcessJob(command, show, tree=self.tree),
+            log_files=f"{self.log_folder / label.replace('/', '-')}*.log",
+            terminal=output if isinstance(output, Terminal) else None,
+        )
+
+    def _prepare_stand_in(self, node: LaunchNode, label: str, stand_in: BuiltinReplacement) -> Launched:
+        terminal = None
+        prefix = read_prefix(_split(node.launch_prefix, node), {})
+        if prefix.wants_terminal and (node.package, node.type) in KEYBOARDS:
+            terminal = self.terminals.find(node.full_name, is_process=False)
+            if terminal is None:
+                self._warn_of_prefix(node, f"is left out: {self.terminals.why_none(node)}")
+        elif node.launch_prefix:
+            self._warn_of_prefix(node, "is not used; the stand-in runs within this process")
+        own = terminal if isinstance(terminal, Terminal) else None
+        name = label.replace("/", "-")
+        log = None if (self.output or node.output) == "screen" else self.log_folder / f"{name}-stdout.log"
+        return Launched(
+            node=node,
+            kind="stand-in",
+            what=f"{node.package}/{node.type}{_in_terminal(terminal)}",
+            job=TaskJob(label, lambda: self._run(node, stand_in, log, own)),
+            log_files="" if log is None else str(log),
+            terminal=own,
+        )
+
+    def _warn_of_prefix(self, node: LaunchNode, what: str) -> None:
+        self.report.warn(node.at, f"node {node.full_name}: launch-prefix {node.launch_prefix!r} {what}")
 
     def _missing(self, node: LaunchNode, why: str) -> Launched:
         report_missing_node(node, why, self.report, is_required=self.policy(node).required)
@@ -127,7 +169,9 @@ class NodeStarter:
         required = node.required or self.all_required
         return RespawnPolicy(respawn=node.respawn, respawn_delay_s=node.respawn_delay_s, required=required)
 
-    async def _run(self, node: LaunchNode, stand_in: BuiltinReplacement, log: Path | None) -> int:
+    async def _run(
+        self, node: LaunchNode, stand_in: BuiltinReplacement, log: Path | None, terminal: Terminal | None
+    ) -> int:
         given = parse_arguments(_split(node.arguments, node))
         ros_node = Node(
             given.name or node.name,
@@ -143,7 +187,7 @@ class NodeStarter:
         with contextlib.ExitStack() as files:
             if log is not None:
                 ros_node.log.quiet = files.enter_context(log.open("a", encoding="utf-8"))
-            host = replace(self.host, env=dict(node.env), tree=self.tree)
+            host = replace(self.host, env=dict(node.env), terminal=terminal, tree=self.tree)
             return await run_builtin_node(stand_in, ros_node, list(given.rest), host)
 
     def _command(
@@ -152,15 +196,18 @@ class NodeStarter:
         label: str,
         program: Path,
         env: Mapping[str, str],
-        prefix: list[str],
+        before: tuple[str, ...],
         more: tuple[str, ...],
+        output: Literal["screen", "log"] | TerminalOutput,
     ) -> ProcessCommand:
+        """Return the command line of a program, with the words before it."""
         log = self.log_folder / label.replace("/", "-")
+        if isinstance(output, Terminal):
+            env = {**env, "TERM": "xterm-256color", "COLORTERM": "truecolor"}
         return ProcessCommand(
             name=label,
             argv=(
-                *prefix,
-                *start_words(program, env),
+                *before,
                 str(program),
                 *_split(node.arguments, node),
                 *more,
@@ -170,19 +217,15 @@ class NodeStarter:
             ),
             env=with_finder(env, self.packages.package_folders()),
             cwd=program.parent if node.cwd == "node" else ros_home(env),
-            output=self.output or ("screen" if node.launch_prefix and not prefix else node.output),
+            output=output,
             log_file=log.with_name(f"{log.name}-stdout.log"),
+            reads_input=self.terminals.reads_keys,
         )
 
 
-def _prefix_fault(prefix: list[str], env: Mapping[str, str]) -> str | None:
-    """Return why a launch-prefix cannot start a node here; None: it can."""
-    program = Path(prefix[0]).name
-    if shutil.which(prefix[0], path=env.get("PATH", os.defpath)) is None:
-        return f"there is no {program} here"
-    if program in _TERMINALS.split() and not (env.get("DISPLAY") or env.get("WAYLAND_DISPLAY")):
-        return f"{program} needs a display; keys reach a node that is started by itself, with rosrun"
-    return None
+def _in_terminal(output: object) -> str:
+    """Return where the terminal of a node is, for the table of what runs."""
+    return ", in a terminal on the page" if isinstance(output, Terminal) else ""
 
 
 def _split(text: str, node: LaunchNode) -> list[str]:

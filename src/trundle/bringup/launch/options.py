@@ -27,6 +27,8 @@ class LaunchOptions:
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None
     """Output of every node; overrides the file's."""
+    reads_keys: bool = False
+    """Nodes may read the terminal in which the launch runs."""
     all_required: bool = False
     wait_for_master: bool = False
     summary: bool = True

@@ -26,9 +26,9 @@ class OpeningPage(Protocol):
 
 
 def opens_page(launched: Sequence[Launched]) -> bool:
-    """Return True if one of the started nodes opens the page, as rviz, rqt's programs and gzclient do."""
+    """Return True if one of the started nodes opens the page, as rviz, rqt's programs, gzclient and terminals do."""
     started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
-    return not (CLIENTS | WINDOWS).isdisjoint(started)
+    return not (CLIENTS | WINDOWS).isdisjoint(started) or any(entry.terminal is not None for entry in launched)
 
 
 def await_url(page: OpeningPage, is_ending: Callable[[], bool]) -> str | None:

@@ -1,6 +1,7 @@
 """Nodes of one launch under their supervisor, and the lines printed about them."""
 
 import asyncio
+import re
 from collections.abc import Awaitable, Callable, Sequence
 from typing import TypeAlias
 
@@ -10,8 +11,11 @@ from trundle.supervisor import Event, StopTimeouts, Supervisor
 
 from ..console import say
 from .nodes import Launched, NodeStarter
+from .terminals import exec_command
 
 _RULE = "=" * 80
+_NO_TERMINAL = re.compile("Inappropriate ioctl for device|EOFError: EOF when reading a line|_curses.error")
+"""Output of programs that read keys and find no terminal."""
 
 Listener: TypeAlias = Callable[[Event, str], None]
 """Takes an event of a node, and its printed line."""
@@ -37,7 +41,7 @@ class RunningNodes:
         self._unsaid = {"started", "finished", "stopping"} if quiet else set[str]()
         self._supervisor: Supervisor | None = None
         self._waiting: asyncio.Task[str | None] | None = None
-        self._logs: dict[str, str] = {}
+        self._by_label: dict[str, Launched] = {}
         self._worlds: set[str] = set()
         self._ended: set[str] = set()
         self.launched: list[Launched] = []
@@ -56,7 +60,7 @@ class RunningNodes:
                 self._worlds.add(label)
             launched = self._starter.prepare(node, label, show=_show_output)
             if launched.job is not None:
-                self._logs[label] = launched.log_files
+                self._by_label[label] = launched
                 if not await self._supervisor.start(launched.job, self._starter.policy(node)):
                     launched = launched.failed()
             self.launched.append(launched)
@@ -85,18 +89,26 @@ class RunningNodes:
 
     def _print_event(self, event: Event) -> None:
         name = event.name
+        launched = self._by_label[name]
         if event.kind == "started":
             self._ended.discard(name)
+            if launched.terminal is not None:
+                launched.terminal.begin()
         elif event.kind in ("failed", "finished", "died"):
             self._ended.add(name)
+            self._starter.terminals.recover()
+            if launched.terminal is not None:
+                launched.terminal.end(f"{launched.node.full_name} {event.text.partition(';')[0]}")
         match event.kind:
             case "started":
                 text = f"process[{name}]: {event.text}"
             case "finished" | "died":
-                log = self._logs[name]
+                log = launched.log_files
                 text = f"[{name}] process {event.text}{log and f'{chr(10)}log file: {log}'}"
                 if module := missing_ros_module(event.text):
                     text = f"{text}\n[{name}] {missing_rospy_advice(module)}"
+                elif launched.terminal is None and _NO_TERMINAL.search(event.text):
+                    text = f"{text}\n[{name}] {_terminal_advice(launched.node)}"
             case "required":
                 text = f"{_RULE}\nREQUIRED process [{name}] has died!\nInitiating shutdown!\n{_RULE}"
             case _:
@@ -116,6 +128,13 @@ def what_runs(launched: Sequence[Launched], page: str | None = None) -> str:
             *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows),
             *([] if page is None else [f"  {'page':<{widths[0]}}  {page}"]),
         ]
+    )
+
+
+def _terminal_advice(node: LaunchNode) -> str:
+    return (
+        f'it reads keys, and has no terminal: launch-prefix="xterm -e" gives it one on the page; '
+        f"or run it by itself: {exec_command(node)}"
     )
 
 

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
+from trundle.diagnostics import TrundleError
 from trundle.garbage import no_garbage
 from trundle.launch import LaunchNode, LaunchPlan
 from trundle.nodes import WORLDS, Executable, NodeHost, Simulator, find_node
@@ -27,12 +28,14 @@ from .options import LaunchOptions
 from .pages import await_url, opens_page, reserved_ports
 from .params import set_params
 from .running_nodes import Listener, RunningNodes, what_runs
+from .terminals import NodeTerminals
 
 if TYPE_CHECKING:
     from trundle.page import PageServer
 
     from ..gazebo.world import GazeboWorld
     from ..gazebo.world_setup import WorldSetup
+    from ..graph_page import GraphPage
     from ..shared_page import SharedPage
 
 _SILENCE_S = 5.0
@@ -71,6 +74,7 @@ class LaunchSession:
         self.recording_broke_off = False
         self._lockstep: Lockstep | None = None
         self._page: SharedPage | None = None
+        self._display: GraphPage | None = None
         try:
             with no_garbage():
                 self._open(ports, rosout=rosout)
@@ -118,12 +122,13 @@ class LaunchSession:
                 show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
                 self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
         page = self._page = None if options.headless else self._shared_page()
-        if page is None:
-            display = None
-        else:
+        if page is not None:
             from ..graph_page import GraphPage
 
-            display = GraphPage(page, read.report)
+            self._display = GraphPage(page, read.report)
+        display = self._display
+        terminals = NodeTerminals(None if display is None else display.terminals, reads_keys=options.reads_keys)
+        self._open_things.callback(terminals.close)
         tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
         self.starter = NodeStarter(
             graph=graph,
@@ -131,6 +136,7 @@ class LaunchSession:
             env=read.env,
             report=read.report,
             host=NodeHost(display=display, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            terminals=terminals,
             tree=tree,
             log_folder=logs,
             output=options.output,
@@ -297,12 +303,21 @@ class LaunchSession:
         loop.run(running.start(is_ending, None if steps is None else steps.wait_started))
         if begins:
             self.begin()
+        if self._display is not None and self._display.terminals:
+            self._open_things.callback(loop.spawn(self._show_terminals(self._display)).cancel)
         self._read.show.findings()
         if running.launched and not options.quiet:
             page = self._page if opens_page(running.launched) else None
             url = None if page is None else await_url(page, lambda: is_ending() or running.is_over)
             self._say(what_runs(running.launched, url))
         return running
+
+    async def _show_terminals(self, display: "GraphPage") -> None:
+        """Serve the page, whichever other windows the launch has."""
+        try:
+            await display.serve(self._launcher)
+        except TrundleError as error:
+            self._read.show.line(f"the terminals of nodes cannot be shown: {error}")
 
     def begin(self) -> None:
         """Let time advance, in lockstep."""

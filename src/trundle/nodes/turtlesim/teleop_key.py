@@ -6,6 +6,9 @@ from trundle.ros import Node
 from ..host import NodeHost
 from ..keyboard import Keyboard
 
+_HELP = """Reading from keyboard
+---------------------------
+Use arrow keys to move the turtle. 'q' to quit."""
 _MOVES = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 
 
@@ -16,6 +19,7 @@ class TurtleTeleopKey:
         del arguments
         self._node = node
         self._display = host.display
+        self._terminal = host.terminal
 
     async def run(self) -> int:
         """Read keys until q, or until cancelled."""
@@ -27,12 +31,12 @@ class TurtleTeleopKey:
         commands = node.advertise("turtle1/cmd_vel", "geometry_msgs/Twist", queue_size=1)
         if self._display is not None:
             self._display.drive_on(commands.topic)
-        keyboard = Keyboard(node)
+        keyboard = Keyboard(self._terminal)
         if not keyboard.is_available:
-            node.log.warn(f"no terminal to read keys from; publish on {commands.topic} instead, such as from the page")
+            node.log.warn(keyboard.advice(commands.topic))
             await node.closed.wait()
             return 0
-        print("Reading from keyboard\n---------------------------\nUse arrow keys to move the turtle. 'q' to quit.")
+        keyboard.print(_HELP)
         with keyboard.cbreak():
             while (key := await keyboard.read_key()) != "q":
                 if key in _MOVES:

@@ -26,6 +26,7 @@ Name: TypeAlias = Annotated[str, msgspec.Meta(max_length=_MAX_NAME)]
 Names: TypeAlias = Annotated[tuple[Name, ...], msgspec.Meta(max_length=_MAX_LIST)]
 Ids: TypeAlias = Annotated[tuple[U32, ...], msgspec.Meta(max_length=_MAX_LIST)]
 Velocity: TypeAlias = float
+Size: TypeAlias = Annotated[int, msgspec.Meta(ge=2, le=500)]
 
 
 class Operation(msgspec.Struct, frozen=True, tag_field="op", rename="camel"):
@@ -159,6 +160,15 @@ class Presence(Operation, frozen=True, tag="trundle/presence"):
     selection: SharedSelection | None
 
 
+class UseTerminal(Operation, frozen=True, tag="trundle/terminal"):
+    """Type into a node's terminal, or change its size."""
+
+    number: U32
+    text: Annotated[str, msgspec.Meta(max_length=4096)] = ""
+    size: tuple[Size, Size] | None = None
+    """Columns and rows; None: as it is."""
+
+
 class PageRequest(Operation, frozen=True, tag="trundle/request"):
     """Request to the page's owner; `request` and its fields are read by `trundle.page.requests.request`."""
 
@@ -180,6 +190,7 @@ ClientOperation: TypeAlias = (
     | Drive
     | Release
     | Presence
+    | UseTerminal
     | PageRequest
 )
 operation_decoder = msgspec.json.Decoder(ClientOperation)

@@ -20,6 +20,8 @@ PERFORMANCE = "trundle/performance"
 DROPS = "trundle/drops"
 PEOPLE = "trundle/people"
 LANES = "trundle/lanes"
+TERMINAL = "trundle/terminal/"
+"""Before the number of a node's terminal."""
 
 ARRAY_HEADER = struct.Struct("<QII")
 """Time [ns], generation of the world, rows: before the poses, (bodies, 7) f64, the joints, (joints, 3) f64, and the
@@ -28,6 +30,8 @@ IMAGE_HEADER = struct.Struct("<QIII")
 """Time [ns], height, width, channels, before the pixels."""
 SERIES_HEADER = struct.Struct("<QI")
 """Number of the first row and length of the JSON that follows, before the rows (rows, 1 + series) f64."""
+TERMINAL_HEADER = struct.Struct("<QHH")
+"""Number of the first byte of the output that follows, columns, rows."""
 LINES_HEADER = struct.Struct("<QI")
 """Time [ns] and number of lines."""
 LINE_KIND = struct.Struct("<4BII")

@@ -1,0 +1,25 @@
+"""Output of a node's terminal: the end of it to each new client, then what is new."""
+
+from collections.abc import Sequence
+
+from ..clients.outbox import Buffer
+from .channels import BoxChannel
+from .streams import TERMINAL, TERMINAL_HEADER
+
+
+class TerminalChannel(BoxChannel):
+    """Channel of one terminal; a client whose messages wait gets the end of the output once they are sent."""
+
+    def __init__(self, topic: str) -> None:
+        super().__init__(topic, encoding=TERMINAL.replace("/", ".").strip("."), period_s=0.0)
+
+    def encode_change(self, message: bytes) -> Sequence[Buffer]:
+        end = 0
+        if self._newest:
+            end = TERMINAL_HEADER.unpack_from(self._newest)[0] + len(self._newest) - TERMINAL_HEADER.size
+        whole = super().encode_change(message)
+        first, columns, rows = TERMINAL_HEADER.unpack_from(message)
+        known = end - first
+        if not 0 < known <= len(message) - TERMINAL_HEADER.size:
+            return whole
+        return (TERMINAL_HEADER.pack(end, columns, rows), memoryview(message)[TERMINAL_HEADER.size + known :])

@@ -1,0 +1,142 @@
+"""Nodes that read keys where there is no page: the terminal in which the launch runs, or a sentence on what to do."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from tests.graphs import PATIENCE_S
+
+from trundle.supervisor import HAS_PSEUDO_TERMINALS
+from trundle.supervisor.terminal import LEADER
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not HAS_PSEUDO_TERMINALS, reason="Windows has no pseudo-terminals"),
+]
+
+Launch = Callable[..., subprocess.CompletedProcess[str]]
+MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
+<maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
+RAW_KEY = """#!/usr/bin/env python3
+import sys, tty
+tty.setraw(sys.stdin)
+print("raw at", sys.stdout.isatty(), end="\\r\\n", flush=True)
+print("got", repr(sys.stdin.read(1)), end="\\r\\n", flush=True)
+"""
+LINE = """#!/usr/bin/env python3
+print("line", repr(input()), flush=True)
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    folder = tmp_path / "p"
+    folder.mkdir()
+    (folder / "package.xml").write_text(MANIFEST)
+    for name, text in (("raw_key.py", RAW_KEY), ("line.py", LINE)):
+        (folder / name).write_text(text)
+        (folder / name).chmod(0o755)
+    return folder
+
+
+def write_launch(package: Path, *nodes: str) -> Path:
+    file = package / "main.launch"
+    text = "".join(f"<node {node}/>" for node in nodes)
+    file.write_text(f"<launch>{text}</launch>")
+    return file
+
+
+class Person:
+    """Person at the terminal in which a launch runs."""
+
+    def __init__(self, file: Path, env: dict[str, str]) -> None:
+        self.descriptor, theirs = os.openpty()
+        os.set_blocking(self.descriptor, False)
+        launch = (sys.executable, "-m", "trundle", "launch", "--headless", str(file))
+        self._process = subprocess.Popen(
+            [sys.executable, "-I", "-S", str(LEADER), *launch],
+            stdin=theirs,
+            stdout=theirs,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=env,
+            start_new_session=True,
+        )
+        self._theirs = theirs
+        self.read = ""
+
+    def until(self, condition: Callable[[], object]) -> None:
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < end, f"waited in vain; read: {self.read}"
+            try:
+                self.read += os.read(self.descriptor, 4096).decode()
+            except BlockingIOError:
+                time.sleep(0.01)
+
+    def type(self, keys: str) -> None:
+        os.write(self.descriptor, keys.encode())
+
+    def is_raw(self) -> bool:
+        import termios
+
+        return not termios.tcgetattr(self._theirs)[3] & termios.ICANON
+
+    def end(self) -> str:
+        """Press Ctrl-C; return what the launch said."""
+        self.type("\x03")
+        _, said = self._process.communicate(timeout=PATIENCE_S)
+        return said
+
+
+def test_the_first_node_that_asks_for_a_terminal_has_that_of_the_launch(env: dict[str, str], package: Path) -> None:
+    xterm = 'launch-prefix="xterm -e"'
+    file = write_launch(
+        package, f'pkg="p" type="raw_key.py" name="a" {xterm}', f'pkg="p" type="line.py" name="b" {xterm}'
+    )
+    person = Person(file, {**env, "ROS_PACKAGE_PATH": str(package.parent), "DISPLAY": ""})
+    person.until(lambda: "raw at True" in person.read)
+    assert person.is_raw()
+    person.type("w")
+    person.until(lambda: "got 'w'" in person.read)
+    person.until(lambda: "[a-1] process has finished cleanly" in person.read)
+    said = person.end()
+
+    assert "node /a: launch-prefix" not in said
+    why = "there is no xterm here, and another node has the only terminal; without --headless each has one on the page"
+    assert f"node /b: launch-prefix 'xterm -e' is left out: {why}; or run it by itself: trundle exec p line.py" in said
+    assert not person.is_raw()
+
+
+def test_a_node_without_a_prefix_reads_the_terminal_of_the_launch(env: dict[str, str], package: Path) -> None:
+    """As all nodes of roslaunch do."""
+    file = write_launch(package, 'pkg="p" type="line.py" name="a" output="screen"')
+    person = Person(file, {**env, "ROS_PACKAGE_PATH": str(package.parent)})
+    person.until(lambda: "process[a-1]: started" in person.read)
+    person.type("hello\n")
+    person.until(lambda: "line 'hello'" in person.read)
+    person.end()
+
+
+def test_without_any_terminal_it_is_said_what_to_do(trundle: Launch, package: Path) -> None:
+    xterm = 'launch-prefix="xterm -e"'
+    file = write_launch(
+        package,
+        f'pkg="p" type="raw_key.py" name="a" {xterm}',
+        'pkg="p" type="line.py" name="b"',
+        f'pkg="turtlesim" type="turtle_teleop_key" name="c" {xterm}',
+    )
+    done = trundle(
+        "launch", "--headless", "--duration", "5", str(file), ROS_PACKAGE_PATH=str(package.parent), DISPLAY=""
+    )
+
+    none = "there is no terminal to read keys from; without --headless the page has one; or run it by itself"
+    assert f"'xterm -e' is left out: there is no xterm here, and {none}: trundle exec p raw_key.py" in done.stderr
+    assert f"'xterm -e' is left out: {none}: trundle exec turtlesim turtle_teleop_key" in done.stderr
+    for name, program in (("a-1", "raw_key.py"), ("b-2", "line.py")):
+        advice = f'[{name}] it reads keys, and has no terminal: launch-prefix="xterm -e" gives it one on the page'
+        assert f"{advice}; or run it by itself: trundle exec p {program}" in done.stdout
