@@ -7,7 +7,6 @@ import os
 import sys
 from importlib.machinery import PathFinder
 
-
 _INTERRUPTED = 130
 """Exit code of programs that Ctrl-C ended."""
 
