@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from trundle.waiting import WaitNotice
 
-from ..errors import MasterError, MessageError, RosError, ServiceError, WireError
+from ..errors import MasterError, MasterUnreachableError, MessageError, RosError, ServiceError, WireError
 from ..messages.raw_message import Message, ServiceType
 from ..messages.typed_message import TypedMessage
 from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header, frame
@@ -69,7 +69,7 @@ async def _look_up(node: NodeContext, name: str) -> str:
 
 
 async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None) -> None:
-    """Wait until a service is available, by its global name.
+    """Wait until a service is available, by its global name; also for a master, as rospy does.
 
     Raises:
         ServiceError: timeout.
@@ -80,7 +80,7 @@ async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None
         async with asyncio.timeout(timeout_s):
             while True:
                 seen = node.loop.local.service_changes  # before the look-up: one registered meanwhile wakes, too
-                with contextlib.suppress(MasterError):
+                with contextlib.suppress(MasterError, MasterUnreachableError):
                     await look_up("lookupService", name)
                     return
                 is_new = await node.loop.local.wait_service_change(seen, _POLL_S)
