@@ -1,6 +1,10 @@
 """Findings as they are printed."""
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
+import io
+
+import pytest
+
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError, coloured
 
 
 def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
@@ -55,3 +59,22 @@ def test_a_name_out_of_a_file_neither_breaks_the_line_nor_commands_the_terminal(
     shown = r"no model a\nx.sdf:1: error: forged\x1b[2J\x9b2J\u202e é"
     assert report.warnings == [rf"x\n.sdf:2: warning: {shown}"]
     assert str(error) == f"x.sdf:1: error: {shown}"
+
+
+class _Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_severities_are_coloured_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    text = "a.sdf:3: warning: no mass\na.sdf: a model; 1 warning: none\ntrundle: error: no\n"
+
+    assert coloured(text, io.StringIO()) == text
+    assert coloured(text, _Terminal()).split("\n")[:3] == [
+        "a.sdf:3: \033[1;33mwarning:\033[0m no mass",
+        "a.sdf: a model; 1 warning: none",
+        "trundle: \033[1;31merror:\033[0m no",
+    ]
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert coloured(text, _Terminal()) == text

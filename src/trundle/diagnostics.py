@@ -11,12 +11,14 @@ dataclasses: their module takes longer to load than light commands take to run.
 
 import os
 from collections.abc import Collection, Iterable
-from typing import Literal, NamedTuple, TypeAlias, TypedDict
+from typing import Literal, NamedTuple, TextIO, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
 _CONTROLS = (*range(0x20), *range(0x7F, 0xA0), 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A))
 """Line breaks, terminals' commands, and marks that change the order in which text is shown."""
 _ESCAPES = {code: repr(chr(code))[1:-1] for code in _CONTROLS}
+_COLOURS = {"error": 31, "warning": 33, "info": 36}
+"""ANSI's red, yellow and cyan."""
 _SLIP = 0.75
 """Similarity of a name with a slip of the finger or two."""
 _NAMED = 3
@@ -27,6 +29,21 @@ _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
 def printable(text: str) -> str:
     """Return a text on one line, control characters as Python writes them; names out of files may have any."""
     return text.translate(_ESCAPES)
+
+
+def coloured(text: str, stream: TextIO) -> str:
+    """Colour the severity in each line of findings, if the stream is a terminal and NO_COLOR is not set."""
+    if not stream.isatty() or os.environ.get("NO_COLOR"):  # https://no-color.org
+        return text
+    return "\n".join(map(_coloured_line, text.split("\n")))
+
+
+def _coloured_line(line: str) -> str:
+    for severity, colour in _COLOURS.items():
+        at, marker, what = line.partition(f" {severity}: ")
+        if marker and (at.endswith(":") or not at):
+            return f"{at} \033[1;{colour}m{severity}:\033[0m {what}"
+    return line
 
 
 class Source(NamedTuple):

@@ -60,6 +60,8 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
         ("trundle exec my_robot dri", "drive "),
         ("trundle launch my_ro", "my_robot "),
         ("trundle launch my_robot st", "start.launch "),
+        ("trundle run model://rp2w_c", "model://rp2w_camsave "),
+        ("trundle check willow", "willowgarage.world "),
     ],
 )
 def test_words_and_live_names_are_completed(complete: Any, line: str, offered: str) -> None:

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable
 from typing import TextIO
 
-from trundle.diagnostics import Diagnostics
+from trundle.diagnostics import Diagnostics, coloured
 
 
 def say(text: str, stream: TextIO | None = None) -> None:
@@ -34,7 +34,7 @@ class Console:
 
     def line(self, text: str) -> None:
         """Print one line."""
-        say(text, self._stream)
+        say(coloured(text, self._stream), self._stream)
         if self._log is not None:
             self._log(text)
 

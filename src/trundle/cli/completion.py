@@ -155,6 +155,18 @@ def _sweep_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list
     return plans if parsed_args.words else ["report", *plans]
 
 
+def _descriptions(prefix: str, **_: Any) -> list[str]:
+    """Files, models of the model path, and worlds that come with Trundle."""
+    from argcomplete.completers import FilesCompleter
+
+    from trundle.packages import Packages
+
+    packages = Packages(os.environ, start=Path.cwd())
+    models = [f"model://{name}" for name in packages.models()] if prefix.startswith("model") else []
+    worlds = [name for name in packages.worlds() if prefix and name.startswith(prefix)]
+    return [*FilesCompleter()(prefix), *models, *worlds]
+
+
 def _rule_files(prefix: str, **_: Any) -> list[str]:
     from argcomplete.completers import FilesCompleter
 
@@ -186,8 +198,12 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
 _BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
     ("bag", "genrules"): _rule_files,
     ("bag", "rules"): _rule_files,
+    ("check", "file"): _descriptions,
+    ("convert", "file"): _descriptions,
     ("exec", "executable"): _programs,
     ("launch", "words"): _launch_words,
+    ("render", "file"): _descriptions,
+    ("run", "file"): _descriptions,
     ("sweep", "words"): _sweep_words,
     ("topic", "type"): _topic_type,
 }

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from trundle import __version__
-from trundle.diagnostics import TrundleError, nearest
+from trundle.diagnostics import TrundleError, coloured, nearest
 from trundle.names import Arguments, parse_arguments
 from trundle.shortage import shortage
 
@@ -175,7 +175,8 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
     except SystemExit as stop:  # raised by argparse: 0 after --help, 2 for wrong usage
         return int(stop.code or 0)
     except TrundleError as error:
-        print(error if _has_location(str(error)) else f"{program}: error: {error}", file=sys.stderr)
+        what = str(error) if _has_location(str(error)) else f"{program}: error: {error}"
+        print(coloured(what, sys.stderr), file=sys.stderr)
         if error.missing_packages and name != "pack":
             from .fetching import offer
 

@@ -22,6 +22,7 @@ from ..plugin_error import plugin_error
 from ..realtime_pacer import RealtimePacer, shorten_gil_interval
 from ..signals import StopFlag, stop_flag
 from .run_options import RunOptions
+from .run_progress import RunProgress
 from .run_result import RunResult
 from .running_world import RunningWorld
 
@@ -138,6 +139,7 @@ def _simulate(
         if page is not None:
             page.warn(text)
 
+    progress = RunProgress(say, end_ns=end_ns) if page is None and sys.stderr.isatty() else None
     started = time.monotonic()
     while not stop.is_set() and (end_ns is None or world.simulation.time_ns < end_ns):
         try:
@@ -161,6 +163,8 @@ def _simulate(
             if (theirs := plugin_error(error)) is None:
                 raise
             raise theirs from None
+        if progress is not None:
+            progress.update(world.simulation.time_ns)
         if world.ros is not None:
             world.ros.tick(wait=pacer.speed is None)
         if world.recorder is not None and world.recorder.has_failed:
