@@ -23,18 +23,21 @@ _LIGHTS = {
     "point": mujoco.mjtLightType.mjLIGHT_POINT,
     "spot": mujoco.mjtLightType.mjLIGHT_SPOT,
 }
-_SHADED_M = 20.0
-"""Radius of shadows around a directional light's position [m]: MuJoCo's single shadow map then has a pixel per
-centimetre.
-"""
+_SHADED_M, _SHADOW_PX = 20.0, 4096
+"""MuJoCo's single shadow map has a pixel per centimetre."""
 _DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
 
 
 class EglRenderer:
     """`Renderer` with OpenGL over EGL; without textures, fog and ambient colours of materials."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, *, shadow_radius_m: float = _SHADED_M, shadow_px: int = _SHADOW_PX) -> None:
         """Load a scene into MuJoCo.
+
+        Args:
+            scene: to draw.
+            shadow_radius_m: radius of shadows around a directional light's position [m].
+            shadow_px: width and height of the shadow map [pixels].
 
         Raises:
             UsageError: no EGL on this machine, or its package is missing.
@@ -42,6 +45,8 @@ class EglRenderer:
         self._context = _make_context()
         self._background = np.array([round(255 * share) for share in scene.background[:3]], dtype=np.uint8)
         self._model = model_from_scene(scene)
+        self._model.vis.map.shadowclip = shadow_radius_m
+        self._model.vis.quality.shadowsize = shadow_px
         self._data = mujoco.MjData(self._model)
         names = [self._model.geom(i).name for i in range(self._model.ngeom)]
         self._shape_of_geom = np.array([*(int(name[1:]) for name in names), -1], dtype=np.int32)
@@ -141,7 +146,6 @@ def model_from_scene(scene: Scene) -> mujoco.MjModel:
     spec.visual.headlight.ambient = scene.ambient[:3]
     spec.visual.headlight.diffuse = spec.visual.headlight.specular = (0.0, 0.0, 0.0)
     spec.stat.extent = 1.0
-    spec.visual.map.shadowclip = _SHADED_M
     bodies = [spec.worldbody.add_body(name=f"b{i}", mocap=True) for i in range(len(scene.bodies))]
     meshes: dict[int, str] = {}
     for number, shape in enumerate(scene.shapes):
