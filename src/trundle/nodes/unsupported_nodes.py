@@ -26,7 +26,6 @@ ALTERNATIVES: dict[str, str] = {
     "robot_localization": _NAVIGATION,
     "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "laser_scan_matcher": _NAVIGATION,
-    "interactive_marker_twist_server": "a handle to drag in rviz; teleop_twist_keyboard drives as well",
     "usb_cam": _DRIVER,
     "uvc_camera": _DRIVER,
     "hokuyo_node": _DRIVER,
