@@ -96,7 +96,8 @@ def _robot_with_lidar() -> Simulation:
     ground = "<include><uri>model://ground_plane</uri></include>"
     sim = _load("robot.world", f'<sdf version="1.6"><world name="w">{ground}{models}</world></sdf>')
     for sensor in mount_sensors(sim):
-        sim.add_hook(sensor, period_ns=sensor.period_ns, enabled=sensor.enabled)
+        sensor.listen(lambda _: None)
+        sensor.start(sim)
     sim.run(2.0)
     return sim
 
