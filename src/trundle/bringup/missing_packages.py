@@ -51,6 +51,6 @@ def missing_packages(words: Sequence[str], environment: Mapping[str, str]) -> li
     return [name for name in dict.fromkeys((*nodes, *meshes)) if packages.find_folder(name) is None]
 
 
-def _run_nothing(_: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
-    del env, timeout_s
+def _run_nothing(_: Sequence[str], /, *, env: Mapping[str, str]) -> str:
+    del env
     return ""

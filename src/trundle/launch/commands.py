@@ -15,8 +15,6 @@ from .run_command import run_command
 from .values import convert_value
 from .xacro_shim import XACRO, provide_xacro
 
-_TIMEOUT_S = 60.0
-
 
 class XacroExpander(Protocol):
     """Expands a xacro file."""
@@ -29,11 +27,11 @@ class XacroExpander(Protocol):
 class CommandRunner(Protocol):
     """Runs a program until it exits."""
 
-    def __call__(self, argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
+    def __call__(self, argv: Sequence[str], /, *, env: Mapping[str, str]) -> str:
         """Return its standard output.
 
         Raises:
-            ValueError: the program cannot be run, failed or timed out; the text says which.
+            ValueError: the program cannot be run, or failed; the text says which.
         """
         ...
 
@@ -45,7 +43,6 @@ def resolve_params(
     expand_xacro: XacroExpander,
     env: Mapping[str, str],
     run: CommandRunner = run_command,
-    timeout_s: float = _TIMEOUT_S,
 ) -> tuple[LaunchParam, ...]:
     """Replace commands in the plan's parameters by their output; null values, which ROS cannot store, are reported.
 
@@ -54,7 +51,6 @@ def resolve_params(
             none, and `xacro.py` was removed in Noetic.
         env: environment of the commands.
         run: runs all other commands.
-        timeout_s: timeout of each command [s].
 
     Raises:
         DescriptionError: a command failed, at its `<param>`; the launch is aborted, as by roslaunch.
@@ -64,7 +60,7 @@ def resolve_params(
         value = param.value
         if isinstance(value, ParamCommand):
             try:
-                value = convert_value(_output(value, expand_xacro, env, run, timeout_s), value.type)
+                value = convert_value(_output(value, expand_xacro, env, run), value.type)
             except ValueError as error:
                 raise DescriptionError(param.at, f"param {param.name!r}: {error}") from None
         if value is None:
@@ -73,16 +69,14 @@ def resolve_params(
     return tuple(resolved)
 
 
-def _output(
-    command: ParamCommand, expand_xacro: XacroExpander, env: Mapping[str, str], run: CommandRunner, timeout_s: float
-) -> str:
+def _output(command: ParamCommand, expand_xacro: XacroExpander, env: Mapping[str, str], run: CommandRunner) -> str:
     argv = _split(command.line)
     if not argv:
         raise ValueError("its command is empty")
     rest = _xacro_arguments(argv)
     if rest is None:
         with provide_xacro(argv, env) as (words, variables):
-            return run(words, env=variables, timeout_s=timeout_s)
+            return run(words, env=variables)
     words = [word for word in rest if not word.startswith("-")]
     arguments = dict(word.split(":=", 1) for word in words if ":=" in word)
     files = [word for word in words if ":=" not in word]

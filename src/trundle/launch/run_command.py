@@ -1,4 +1,4 @@
-"""Runs a program and captures its output, bounded in time and size."""
+"""Runs a program and captures its output, bounded in size; it may take its time, as with roslaunch."""
 
 import contextlib
 import os
@@ -6,24 +6,22 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import IO
+
+from trundle.waiting import WaitNotice
 
 _MAX_BYTES = 64 * 1024 * 1024
 """Output limit; the largest robot descriptions are a few MB."""
 _CHUNK_BYTES = 65536
-_QUIET_S = 5.0
-"""Delay of the "still waiting" message."""
-_LAST_S = 1.0
-"""Grace period after a kill: a surviving child may hold the output open."""
+_LOOK_S = 0.5
 
 
-def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: float) -> str:
+def run_command(argv: Sequence[str], /, *, env: Mapping[str, str]) -> str:
     """Run a program without a shell; standard error is passed on.
 
     Raises:
-        ValueError: the program cannot be run, failed, timed out or wrote too much; it is killed with its children.
+        ValueError: the program cannot be run, failed, or wrote too much and was killed with its children.
     """
     pipe = subprocess.PIPE
     try:
@@ -38,26 +36,19 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str], timeout_s: fl
         assert process.stdout is not None
         assert process.stderr is not None
         readers = [_Reader(stream, lambda: _kill(process)) for stream in (process.stdout, process.stderr)]
-        due = time.monotonic() + timeout_s
-        readers[0].join(min(_QUIET_S, timeout_s))
-        if readers[0].is_alive() and timeout_s > _QUIET_S:
-            print(f"still waiting for command {argv[0]!r}, {timeout_s:g} s at most", file=sys.stderr)
-        for reader in readers:
-            reader.join(max(0.0, due - time.monotonic()))
-        is_late = any(reader.is_alive() for reader in readers)
+        notice = WaitNotice(f"command {argv[0]!r}")
         try:
-            process.wait(max(0.0, due - time.monotonic()))
-        except subprocess.TimeoutExpired:
-            is_late = True
-        if is_late:
+            while any(reader.is_alive() for reader in readers):
+                readers[0].join(_LOOK_S)
+                readers[1].join(_LOOK_S if not readers[0].is_alive() else 0.0)
+                notice.poll()
+            process.wait()
+        except BaseException:  # Ctrl-C, which a session of its own does not hear
             _kill(process)
-            for reader in readers:
-                reader.join(_LAST_S)
+            raise
     output, errors = (bytes(reader.data) for reader in readers)
     if any(reader.is_full for reader in readers):
         raise ValueError(f"command {argv[0]!r} wrote more than {_MAX_BYTES // 2**20} MiB")
-    if is_late:
-        raise ValueError(f"command {argv[0]!r} did not finish within {timeout_s:g} s")
     if process.returncode != 0:
         last = errors.decode(errors="replace").strip().splitlines()[-10:]
         said = ": " + "\n".join(last) if last else ""

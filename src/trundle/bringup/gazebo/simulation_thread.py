@@ -7,10 +7,11 @@ from collections.abc import Callable
 
 from trundle.diagnostics import TrundleError
 from trundle.ros import GraphLoop
+from trundle.waiting import WaitNotice
 
 from ..call_queue import CallQueue
 
-_END_S = 2.0
+_LOOK_S = 0.5
 _log = logging.getLogger(__name__)
 
 
@@ -75,7 +76,10 @@ class SimulationThread:
         if thread is None:
             return False
         self.ending.set()
-        thread.join(_END_S)
+        notice = WaitNotice("the simulation's last step")
+        while thread.is_alive():
+            thread.join(_LOOK_S)
+            notice.poll()
         self.calls.clear()
         self.ending.clear()
         return True

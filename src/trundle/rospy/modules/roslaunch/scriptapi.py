@@ -8,8 +8,6 @@ import rosgraph
 from .core import Node, Process, RLException
 from .parent import ROSLaunchParent
 
-_MASTER_S = 60.0
-
 
 class ROSLaunch:
     """Nodes and launch files, run by `trundle`."""
@@ -28,9 +26,8 @@ class ROSLaunch:
         """Start a master if none answers, and the chosen launch file."""
         if not rosgraph.is_master_online():
             self._core = Process("core", ["core"])
-            end = time.time() + _MASTER_S
             while not rosgraph.is_master_online():
-                if time.time() > end or not self._core.is_alive():
+                if not self._core.is_alive():
                     raise RLException("no master could be started")
                 time.sleep(0.05)
         if self.parent is not None:
