@@ -15,6 +15,7 @@ CHASSIS = "models/rp2w/links/chassis"
 NUMBERS = {
     "mass": lambda w: with_property(w, f"{CHASSIS}/inertial/mass", 5.5),
     "inertia": lambda w: with_property(w, f"{CHASSIS}/inertial/moments", (0.2, 0.3, 0.4)),
+    "inertia of no body": lambda w: with_property(w, f"{CHASSIS}/inertial/moments", (0.1, 0.2, 0.4)),
     "friction": lambda w: with_property(w, "models/rp2w/links/*/collisions/*/friction", 0.31),
     "gravity": lambda w: with_property(w, "gravity", (0.1, 0.0, -3.7)),
     "all": lambda w: NUMBERS["mass"](NUMBERS["friction"](NUMBERS["gravity"](w))),

@@ -135,15 +135,27 @@ def test_a_thickness_of_zero_is_mended_aloud_at_its_source() -> None:
     assert world.model.geom("m::a::plate").size == pytest.approx([0.1, 0.5e-4, 0.15])
 
 
-def test_moments_that_belong_to_no_body_are_mended_aloud() -> None:
+@pytest.mark.parametrize(
+    ("written", "use", "used"),
+    [
+        ((1.0, 1.0, 4.0), "uses them as written", (1.0, 1.0, 4.0)),
+        ((1.0, 1.0, 34.0), "raises the two smaller by 2.09091", (3.0909091, 3.0909091, 34.0)),
+    ],
+)
+def test_moments_that_belong_to_no_body_are_used_unless_they_are_far_off(
+    written: tuple[float, float, float], use: str, used: tuple[float, float, float]
+) -> None:
     report = Diagnostics()
-    odd = Link(name="a", at=Source("robot.sdf", 5), inertial=Inertial(mass=1.0, moments=(1.0, 1.0, 4.0)))
+    odd = Link(name="a", at=Source("robot.sdf", 5), inertial=Inertial(mass=1.0, moments=written))
     world = compiled(model(odd), report=report)
+    moments = ", ".join(f"{moment:g}" for moment in written)
     assert report.warnings == [
-        "robot.sdf:5: warning: link 'a': principal moments 1, 1, 4 kg·m² violate the triangle inequality; "
-        "physics raises the two smaller by 1"
+        f"robot.sdf:5: warning: link 'a': principal moments {moments} kg·m² violate the triangle inequality: no body "
+        f"has them; physics {use}"
     ]
-    assert sorted(world.model.body("m::a").inertia) == pytest.approx([2.0, 2.0, 4.0])
+    assert sorted(world.model.body("m::a").inertia) == pytest.approx(used)
+    turning = world.model.dof_M0[3:]
+    assert sorted(turning) == pytest.approx(used)
 
 
 def test_a_plausible_inertia_is_taken_as_written_whatever_its_axes() -> None:

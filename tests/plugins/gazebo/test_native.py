@@ -3,7 +3,9 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import trundle
 from trundle.bringup.plugins import load_plugins
@@ -46,6 +48,50 @@ def test_what_displaces_its_own_weight_of_water_hangs_still(tmp_path: Path) -> N
 
     assert sim["m"].link("hangs").pose.position[2] == pytest.approx(0.0, abs=1e-6)
     assert sim["m"].link("rises").twist.linear[2] == pytest.approx(9.8, rel=1e-3)
+
+
+def _shape(rng: np.random.Generator) -> tuple[str, float]:
+    """Return a random shape and its volume [m³]."""
+    a, b, c = rng.uniform(0.1, 0.5, 3)
+    shapes = (
+        (f"<box><size>{a} {b} {c}</size></box>", a * b * c),
+        (f"<cylinder><radius>{a}</radius><length>{b}</length></cylinder>", math.pi * a**2 * b),
+        (f"<sphere><radius>{a}</radius></sphere>", 4 / 3 * math.pi * a**3),
+        (f"<ellipsoid><radii>{a} {b} {c}</radii></ellipsoid>", 4 / 3 * math.pi * a * b * c),
+        (f"<capsule><radius>{a}</radius><length>{b}</length></capsule>", math.pi * a**2 * (b + 4 / 3 * a)),
+    )
+    return shapes[rng.integers(len(shapes))]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_body_rises_and_rights_itself_in_any_fluid(tmp_path: Path, seed: int) -> None:
+    """Shape, density, mass, moment and centre of volume are random: m z'' = B − m g, I θ'' = −B (x cos θ + z sin θ)."""
+    rng = np.random.default_rng(seed)
+    shape, volume = _shape(rng)
+    density, ratio, moment = 10 ** rng.uniform(0, 3.2), rng.uniform(0.3, 2.0), 10 ** rng.uniform(-2, 1)
+    mass = ratio * density * volume
+    x, z = rng.uniform(-0.2, 0.2, 2)
+    moments = "".join(f"<i{axis}>{moment}</i{axis}>" for axis in ("xx", "yy", "zz"))
+    link = f"""<link name="a"><inertial><mass>{mass}</mass><inertia>{moments}</inertia></inertial>
+    <collision name="c"><pose>{x} 0 {z} 0.3 0.2 0.1</pose><geometry>{shape}</geometry></collision></link>"""
+    fluid = f"<fluid_density>{density}</fluid_density>"
+    sim = load(tmp_path, f'{link}<plugin name="p" filename="libBuoyancyPlugin.so">{fluid}</plugin>')
+    lift = density * volume * 9.8
+
+    def turn(_time: float, state: tuple[float, float]) -> tuple[float, float]:
+        angle, rate = state
+        return rate, -lift / moment * (x * math.cos(angle) + z * math.sin(angle))
+
+    seconds = min(1.0, math.sqrt(20 * moment / lift / math.hypot(x, z)))
+    sim.run(seconds)
+    seconds = sim.time_ns / 1e9
+    truth = solve_ivp(turn, (0, seconds), (0.0, 0.0), method="DOP853", rtol=1e-10, atol=1e-12).y[:, -1]
+    body = sim["m"].link("a")
+    roll, pitch, _ = body.pose.rpy
+    assert body.pose.position[2] == pytest.approx((1 / ratio - 1) * 9.8 * seconds**2 / 2, rel=0.005)
+    pitch = math.pi - pitch if abs(roll) > 1.0 else pitch
+    assert math.remainder(pitch - truth[0], math.tau) == pytest.approx(0.0, abs=0.005)
+    assert body.twist.angular[1] == pytest.approx(truth[1], rel=0.01, abs=0.01)
 
 
 def test_a_model_starts_with_the_velocity_it_is_given(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
@@ -54,6 +55,32 @@ def test_a_tank_on_running_surfaces_drives_as_told(tmp_path: Path) -> None:
     assert sim["m"].link("base").twist.linear == pytest.approx((0, 0, 0), abs=1e-4)
     assert [each.x for each in wires.said["/m/tracks_speed"]] == pytest.approx([0.5, 0.2, 1.0, 0.0])
     assert [each.y for each in wires.said["/m/tracks_speed"]] == pytest.approx([0.5, -0.2, 1.0, 0.0])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_tank_of_any_size_drives_and_turns_as_its_surfaces_run(tmp_path: Path, seed: int) -> None:
+    """On the spot, each corner of the tracks goes round as fast as the belt runs along its circle: the yaw rate is
+    s y / (x² + y²) of corners at (x, y)."""
+    rng = np.random.default_rng(seed)
+    length, half, mass, efficiency = rng.uniform(0.2, 1.2), rng.uniform(0.15, 0.6), 10 ** rng.uniform(0, 2.5), 0.5
+    track = """<link name="{side}"><pose>0 {y} 0.05 0 0 0</pose><inertial><mass>{mass}</mass><inertia><ixx>0.1</ixx>
+    <iyy>0.1</iyy><izz>0.1</izz></inertia></inertial><collision name="c"><geometry><box><size>{length} 0.01 0.1</size>
+    </box></geometry></collision></link><joint name="{side}_joint" type="fixed"><parent>base</parent>
+    <child>{side}</child></joint>"""
+    tank = f'<link name="base"><pose>0 0 0.2 0 0 0</pose>{BODY.format(mass)}</link>' + "".join(
+        track.format(side=side, y=y, mass=mass / 4, length=length) for side, y in (("left", half), ("right", -half))
+    )
+    sizes = f"<steering_efficiency>{efficiency}</steering_efficiency><tracks_separation>{2 * half}</tracks_separation>"
+    wires = Wires()
+    sim = load(tmp_path, tank + SIMPLE.format(PARTS + sizes), gravity=GRAVITY, ground=True, wires=wires)
+
+    speed, yaw = rng.uniform(-0.9, 0.9), rng.uniform(0.2, 0.8)
+    got = drive(sim, wires, speed, 0.0, seconds=1.0)
+    belt = min(yaw * half / efficiency, 1.0)
+    wanted = -belt * half / ((length / 2) ** 2 + half**2)
+    turned = drive(sim, wires, 0.0, yaw, seconds=1.5)
+    assert got == pytest.approx((speed, 0.0), abs=2e-3)
+    assert turned == pytest.approx((0.0, wanted), rel=0.02, abs=2e-3)
 
 
 def test_the_friction_of_tracks_is_the_plugins(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ from .compiled_world import CompiledWorld, index_world
 from .compliance import set_compliance
 from .contact_pairs import add_contacts
 from .contact_params import ContactParams
-from .inertia import principal_inertia
+from .inertia import possible_moments, principal_inertia, set_constants
 from .initial_positions import initial_positions
 from .joints import JointBuilder
 from .kinematic_tree import WORLD, JointEdge, KinematicTree, LinkNode
@@ -93,6 +93,8 @@ class Compiler:
         self.mass_share = {name: 1 / (1 + parts[name]) for name in self.tree.links}
         """Share of a link's mass in its body: a link that closes a loop is split into equal parts."""
         self.bodies: dict[str, mujoco.MjsBody] = {}
+        self.refused_moments: dict[str, list[float]] = {}
+        """Body → moments of inertia that MuJoCo simulates, but does not compile."""
         self.shapes: list[ShapeEntry] = []
         self.shape_names: set[str] = set()
 
@@ -113,7 +115,12 @@ class Compiler:
         """
         pair_params = self.fill()
         reserve_tables(self.spec, pair_params, self.shapes, self.world)
-        return pair_params, self.compile_spec()
+        model = self.compile_spec()
+        for name, moments in self.refused_moments.items():
+            model.body(name).inertia[:] = moments
+        if self.refused_moments:
+            set_constants(model)
+        return pair_params, model
 
     def finish(
         self,
@@ -239,7 +246,10 @@ class Compiler:
         body = parent.add_body(name=name, pos=pose.position, quat=pose.quaternion)
         if not node.fixed:
             mass, axes, moments = principal_inertia(link, self.report)
-            body.mass, body.inertia, body.explicitinertial = mass * share, [m * share for m in moments], True
+            possible = possible_moments(moments)
+            if possible != moments:
+                self.refused_moments[name] = [moment * share for moment in moments]
+            body.mass, body.inertia, body.explicitinertial = mass * share, [m * share for m in possible], True
             body.ipos, body.iquat = axes.position, axes.quaternion
         if not link.gravity or link.kinematic:
             body.gravcomp = 1.0

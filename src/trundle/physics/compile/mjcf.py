@@ -47,6 +47,11 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
     looks = _VisualWriter(compiler, scene, report, picture_of)
     looks.add()
     compiler.compile_spec()
+    for name in compiler.refused_moments:
+        report.warn(
+            world.at,
+            f"body {name!r}: MJCF takes no moments that violate the triangle inequality; there they are raised",
+        )
     return _with_pictures(with_full_precision(compiler.spec.to_xml(), compiler.spec), looks.pictures)
 
 

@@ -18,7 +18,7 @@ from .compiled_world import CompiledWorld
 from .compiler import Compiler
 from .contact_pairs import pair_friction
 from .contact_params import ContactParams, combine_surfaces
-from .inertia import principal_inertia
+from .inertia import principal_inertia, set_constants
 from .law_tables import has_row
 from .shape_entry import ShapeEntry
 
@@ -80,17 +80,8 @@ def _renumbered(base: _Base, world: World, report: Diagnostics) -> CompiledWorld
     model = copy.copy(base.model)
     changes = _Changes(base, model, report)
     changes.write(world)
-    mujoco.mj_setConst(model, mujoco.MjData(model))
-    _set_means(model)
+    set_constants(model)
     return base.compiler.finish(model, changes.params, world=world, shapes=changes.shapes, like=base.compiled)
-
-
-def _set_means(model: mujoco.MjModel) -> None:
-    """Set the statistics that scale the solver's tolerance, in MuJoCo's order of summation."""
-    if model.nv:
-        model.stat.meaninertia = sum(model.dof_M0.tolist()) / model.nv
-    if model.nbody > 1:
-        model.stat.meanmass = sum(model.body_mass[1:].tolist()) / (model.nbody - 1)
 
 
 class _Changes:
