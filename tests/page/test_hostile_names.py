@@ -15,6 +15,8 @@ from tests.page.panel_user import PanelUser
 from tests.page.scene_user import rviz_text
 from tests.system.browser import running_page
 
+from trundle.page import TERMINAL, GraphAddress, JointSlider, NodeTerminal, PageServer, RvizFile, Session
+from trundle.page_address import PageAddress
 from trundle.ros import Node
 
 pytestmark = [needs_client, pytest.mark.slow]
@@ -27,8 +29,43 @@ EVIL = {
     "direction": "a\u202etxt.exe\u200b\u2066\u200d",
     "format": "%s${x}{{constructor}}\\u003cimg src=x onerror=1\\u003e",
     "proto": "__proto__",
+    "constructor": "constructor",
     "long": "w" * 10_000,
 }
+
+TEXTS = {**EVIL, "controls": "a\x1b]0;evil\x07\x1b[31m\x08\x01\x7f\x9d0;evil\x9c"}
+"""Texts where XML and names do not keep control characters out."""
+PANELS = {
+    "Plots": "Position of <img",
+    "Topics": "/__proto__",
+    "Log": EVIL["markup"],
+    "Graph": "/n__proto__",
+    "Timeline": "/rosout",
+    "Performance": EVIL["markup"],
+    "Images": "/image",
+    "Nodes": "/n__proto__",
+    "Services": "/constructor",
+    "Parameters": EVIL["markup"],
+    "TF tree": EVIL["markup"],
+    "Reconfigure": EVIL["markup"],
+    "Joints": EVIL["markup"],
+    "Steering": "Topic",
+    "Joystick": "",
+    "Terminal": "",
+}
+"""Panels of the dock, and a text that each shows there."""
+ASKED = {
+    "Plots": EVIL["markup"],
+    "Images": EVIL["markup"],
+    "Joints": EVIL["script"],
+    "Joystick": "Left stick",
+    "Steering": "Topic",
+    "Terminal": EVIL["markup"],
+}
+"""Panels that the session of a page fills, and a text that each shows there."""
+PANEL_MS = 20_000
+"""Limit of each step in a panel."""
+_ROWS = ".dockhost :is(tbody tr, .logrow, [role=treeitem], [role=tab], .offer, svg .box, summary)"
 
 
 def _world() -> str:
@@ -39,7 +76,9 @@ def _world() -> str:
         f"<sensor name={quoteattr(name)} type='altimeter'/></link>"
         f"<link name='b'/><joint name={quoteattr(name)} type='revolute'><parent>{_text(name)}</parent><child>b</child>"
         f"<axis><xyz>0 0 1</xyz></axis></joint>"
-        f"<plugin name={quoteattr(name)} filename={quoteattr(name)}><value>{_text(name)}</value></plugin></model>"
+        f"<plugin name={quoteattr(name)} filename={quoteattr(name)}><value>{_text(name)}</value></plugin>"
+        f"<plugin name={quoteattr(name)} filename='libgazebo_ros_p3d.so'><bodyName>b</bodyName>"
+        f"<topicName>/pose_{i}</topicName></plugin></model>"
         f"<light name={quoteattr(name)} type='point'/>"
         for i, name in enumerate(EVIL.values())
     )
@@ -76,6 +115,9 @@ class Attacker:
             (advertise("/rosout", "rosgraph_msgs/Log"), self._log),
             (advertise("/tf", "tf2_msgs/TFMessage"), self._transform),
             (advertise("/text", "std_msgs/String"), lambda name: {"data": name}),
+            (advertise("/__proto__", "std_msgs/String"), lambda name: {"data": name}),
+            (advertise("/attacker/parameter_descriptions", "dynamic_reconfigure/ConfigDescription"), self._options),
+            (advertise("/attacker/parameter_updates", "dynamic_reconfigure/Config"), lambda _: self._values()),
             (advertise("/joint_states", "sensor_msgs/JointState"), lambda name: {"name": [name], "position": [0.5]}),
             (advertise("/marker", "visualization_msgs/Marker"), self._marker),
             (advertise("/diagnostics", "diagnostic_msgs/DiagnosticArray"), self._diagnostics),
@@ -83,10 +125,25 @@ class Attacker:
             (advertise("/cloud", "sensor_msgs/PointCloud2"), lambda name: {"fields": [{"name": name, "count": 1}]}),
         ]
 
+        node.advertise_service("/constructor", "std_srvs/Trigger", lambda _: {"message": EVIL["markup"]})
+        node.subscribe("/constructor", "geometry_msgs/Twist", lambda _: None)
+
     def speak(self) -> None:
-        for name in EVIL.values():
+        for name in TEXTS.values():
             for publisher, message in self._topics:
                 publisher.publish(message(name))
+
+    @staticmethod
+    def _options(_: str) -> dict[str, Any]:
+        options = [
+            {"name": name, "type": "str", "description": name, "edit_method": f"{{'enum': [{name!r}]}}"}
+            for name in TEXTS.values()
+        ]
+        return {"groups": [{"name": EVIL["markup"], "type": EVIL["script"], "parameters": options}]}
+
+    @staticmethod
+    def _values() -> dict[str, Any]:
+        return {"strs": [{"name": name, "value": name} for name in TEXTS.values()]}
 
     @staticmethod
     def _log(name: str) -> dict[str, Any]:
@@ -129,6 +186,33 @@ def url(graph: Graph, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]
         yield url
 
 
+@pytest.fixture(scope="module")
+def asked(graph: Graph) -> Iterator[str]:
+    """Page whose session has hostile texts."""
+    texts = tuple(TEXTS.values())
+    session = Session(
+        title=EVIL["markup"],
+        kind="graph",
+        robot=EVIL["script"],
+        rviz=RvizFile(name=f"{EVIL['markup']}.rviz", text=rviz_text(), writable=True),
+        fixed_frame=EVIL["markup"],
+        namespace=EVIL["quotes"],
+        remappings={EVIL["proto"]: EVIL["markup"]},
+        panels=texts,
+        plots=tuple(f"/{text}/data" for text in texts),
+        images=texts,
+        drive_topic="/constructor",
+        sliders=tuple(JointSlider(name=text, lower=-1.0, upper=1.0, position=0.0) for text in texts),
+        joystick=True,
+        terminals=tuple(NodeTerminal(name=text, ended=text) for text in texts),
+    )
+    address = GraphAddress(master_uri=graph.core.uri)
+    with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
+        for number in range(len(texts)):
+            server.put_terminal(f"{TERMINAL}{number}", 0, (80, 24), "\r\n".join(texts).encode())
+        yield server.url
+
+
 class Victim(PanelUser):
     """Person who opens everything; sees if anything ran, or would have run without a policy."""
 
@@ -151,6 +235,13 @@ class Victim(PanelUser):
         made = self.page.evaluate("document.querySelectorAll('img[src=x], script:not([src]), [onmouseover]').length")
         assert (made, self.complaints, self.faults) == (0, [], []), state
         assert self.page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{state} is too wide"
+
+    def look_around(self) -> None:
+        """Point at what the panel in front lists, and click it."""
+        for row in self.page.locator(_ROWS).all()[:8]:
+            with suppress(Exception):  # a list that changes meanwhile
+                row.hover(timeout=500)
+                row.click(timeout=500)
 
     def side(self, name: str) -> None:
         tab = self.page.get_by_role("tab", name=name, exact=True)
@@ -197,4 +288,77 @@ def test_nothing_of_them_runs_when_one_handles_what_they_name(chromium: Any, gra
         with suppress(Exception):
             row.press("ArrowRight", timeout=1000)
     user.check("displays that are open")
+    user.close()
+
+
+def _visit(user: Victim, attacker: Attacker, panel: str, text: str) -> None:
+    """Open a panel, wait until it shows a text of the attacker, and handle what is there."""
+    user.page.set_default_timeout(PANEL_MS)
+    user.open(panel)
+    end = time.monotonic() + PANEL_MS / 1000
+    while text not in user.page.locator(".dockhost").inner_text():
+        assert time.monotonic() < end, f"{panel} does not show {text!r}: {user.page.inner_text('.dockhost')[:2000]}"
+        attacker.speak()
+        user.page.wait_for_timeout(200)
+    user.check(panel)
+    user.look_around()
+    attacker.speak()
+    user.check(f"{panel}, handled")
+
+
+@pytest.fixture(scope="module")
+def attacker(graph: Graph) -> Attacker:
+    node = graph.node("attacker")
+    attacker = Attacker(node)
+    graph.ready(node)
+    return attacker
+
+
+@pytest.mark.parametrize("panel", PANELS)
+def test_nothing_of_them_runs_in_a_panel(chromium: Any, attacker: Attacker, url: str, panel: str) -> None:
+    user = Victim(chromium, url)
+    _visit(user, attacker, panel, PANELS[panel])
+    user.close()
+
+
+@pytest.mark.parametrize("panel", ASKED)
+def test_nothing_of_a_session_runs_in_a_panel(chromium: Any, attacker: Attacker, asked: str, panel: str) -> None:
+    user = Victim(chromium, asked)
+    _visit(user, attacker, panel, ASKED[panel])
+    user.close()
+
+
+def test_every_panel_is_visited(chromium: Any, asked: str) -> None:
+    user = Victim(chromium, asked)
+    titles = set(user.page.locator(".dv-tab").all_inner_texts())
+    user.button("Open a panel").click()
+    titles |= set(user.page.get_by_role("menuitem").all_inner_texts())
+
+    assert {title.strip() for title in titles} == set(PANELS)
+    user.close()
+
+
+@pytest.mark.parametrize(
+    ("page", "side"),
+    [("url", "World"), ("url", "Displays"), ("url", "Inspector"), ("url", "Views"), ("asked", "Tool properties")],
+)
+def test_nothing_of_them_runs_at_the_sides(
+    request: pytest.FixtureRequest, chromium: Any, attacker: Attacker, page: str, side: str
+) -> None:
+    user = Victim(chromium, request.getfixturevalue(page))
+    user.page.set_default_timeout(PANEL_MS)
+    user.side(side)
+    attacker.speak()
+    user.check(side)
+    user.close()
+
+
+def test_markup_that_comes_into_the_page_is_noticed(chromium: Any, asked: str) -> None:
+    """The checks above can fail."""
+    user = Victim(chromium, asked)
+    user.check("untouched")
+    user.page.evaluate("(markup) => document.body.insertAdjacentHTML('beforeend', markup)", EVIL["markup"])
+
+    with pytest.raises(AssertionError, match="with markup of the attacker"):
+        user.check("with markup of the attacker")
     user.close()
