@@ -73,6 +73,17 @@ def test_a_missing_module_is_told_where_it_comes_from(module: str, advice: str) 
     assert done.stderr.splitlines()[-1].endswith(advice)
 
 
+def test_a_module_of_messages_that_nobody_publishes_is_a_ros_package(tmp_path: Path) -> None:
+    program = tmp_path / "sensor.py"
+    program.write_text("from no_such_mouse.msg import Light\n")
+
+    words = [sys.executable, program]
+    done = subprocess.run(words, env=with_finder(os.environ), capture_output=True, text=True, check=False)
+
+    what = "trundle: 'no_such_mouse' is a ROS package that is not here"
+    assert done.stderr.splitlines()[-1] == f"{what}: put it into the workspace's src, or on ROS_PACKAGE_PATH"
+
+
 def test_the_pth_of_trundle_rospy_makes_them_importable(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
     site = next((tmp_path / "venv").glob("**/site-packages"))

@@ -1,6 +1,8 @@
 """Advice for a program that ended because its Python lacks a module."""
 
+import re
 import sys
+import traceback
 
 _PYPI = {
     "bs4": "beautifulsoup4",
@@ -38,11 +40,20 @@ def advice(error: Exception) -> str | None:
 
     if (line := python2_advice(error)) is not None:
         return line
-    return missing_module_advice(error.name) if isinstance(error, ModuleNotFoundError) and error.name else None
+    if not isinstance(error, ModuleNotFoundError) or not error.name:
+        return None
+    return missing_module_advice(error.name, has_messages=_is_imported_for_messages(error.name, error))
 
 
-def missing_module_advice(module: str) -> str:
-    """Return what brings a module that is not found."""
+def _is_imported_for_messages(module: str, error: Exception) -> bool:
+    """True if the failing line imports the module's messages, services or options, which ROS packages have."""
+    lines = (frame.line or "" for frame in traceback.extract_tb(error.__traceback__))
+    wanted = re.compile(rf"\b{re.escape(module)}\.(?:msg|srv|cfg)\b")
+    return any(wanted.search(line) for line in lines)
+
+
+def missing_module_advice(module: str, *, has_messages: bool = False) -> str:
+    """Return what brings a module that is not found; `has_messages`: a ROS package has it, published or not."""
     name = module.partition(".")[0]
     if name in _OF_THE_SYSTEM:
         return f"trundle: no module {name!r}: {_OF_THE_SYSTEM[name]}"
@@ -50,4 +61,7 @@ def missing_module_advice(module: str) -> str:
 
     if name not in _PYPI and shipped_index().find(name, "noetic") is not None:
         return f"trundle: {name!r} is a ROS package: trundle pack get {name}"
+    if has_messages:
+        what = f"trundle: {name!r} is a ROS package that is not here"
+        return f"{what}: put it into the workspace's src, or on ROS_PACKAGE_PATH"
     return f"trundle: no module {name!r} in this Python; {sys.executable} -m pip install {_PYPI.get(name, name)}"
