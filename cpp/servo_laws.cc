@@ -30,12 +30,12 @@ MotionState sample(const PathSegment& segment, std::int64_t time_ns) {
 
 bool is_beyond(double tolerance, double error) { return 0.0 < tolerance && tolerance < std::abs(error); }
 
-void mark_update(ServoLaw& law, std::int64_t time_ns, double dt) {
-  law.time_ns = time_ns;
-  law.period_ns = static_cast<std::int64_t>(std::nearbyint(dt * 1e9));
-}
-
 }  // namespace
+
+void ServoLaw::mark_update(std::int64_t time, double dt) {
+  time_ns = time;
+  period_ns = static_cast<std::int64_t>(std::nearbyint(dt * 1e9));
+}
 
 void PidLoop::start(std::int64_t time) {
   time_ns = time;
@@ -52,7 +52,7 @@ double PidLoop::error() {
 }
 
 bool PidLoop::update(std::int64_t time, double dt) {
-  mark_update(*this, time, dt);
+  mark_update(time, dt);
   joint_->command = pid_->command(error(), dt);
   ++updates;
   return true;
@@ -101,7 +101,7 @@ void TrajectoryLaw::start(std::int64_t time) {
 }
 
 bool TrajectoryLaw::update(std::int64_t time, double dt) {
-  mark_update(*this, time, dt);
+  mark_update(time, dt);
   std::vector<const PathSegment*> segments(joints_.size());
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     segments[i] = &segment_at(*paths_[i], time);

@@ -26,6 +26,9 @@ class ServoLaw {
   virtual std::function<void()> checkpoint() = 0;
 
   std::int64_t time_ns = 0, period_ns = 0;  // of the last update
+
+ protected:
+  void mark_update(std::int64_t time, double dt);
 };
 
 // PID loop around one joint.

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "drive_law.h"
 #include "servo.h"
 
 namespace nb = nanobind;
@@ -150,6 +151,43 @@ void bind_laws(nb::module_& module) {
       .def("start", &TrajectoryLaw::start, "time_ns"_a);
 }
 
+using Pair = std::tuple<double, double>;
+
+void make_drive(DiffDriveLaw* self, DiffDriveLaw::Joints left, DiffDriveLaw::Joints right, double wheel_radius,
+                double separation, const Pair& radii, const std::array<std::array<double, 6>, 2>& limits,
+                std::int64_t timeout_ns, bool open_loop, std::size_t window) {
+  const auto limit = [](const std::array<double, 6>& of) {
+    return SpeedLimit{of[0], of[1], of[2], of[3], of[4], of[5]};
+  };
+  const auto [left_radius, right_radius] = radii;
+  new (self) DiffDriveLaw(std::move(left), std::move(right), {wheel_radius, separation, left_radius, right_radius},
+                          {limit(limits[0]), limit(limits[1])}, timeout_ns, open_loop, window);
+}
+
+std::vector<Pair> speeds_of(const DiffDriveLaw& law) {
+  std::vector<Pair> found;
+  for (const auto& [linear, angular] : law.speeds()) found.emplace_back(linear, angular);
+  return found;
+}
+
+void bind_drive(nb::module_& module) {
+  nb::class_<DiffDriveLaw, ServoLaw>(module, "DiffDriveLaw")
+      .def("__init__", make_drive, "left"_a, "right"_a, nb::kw_only(), "wheel_radius"_a, "separation"_a, "radii"_a,
+           "limits"_a, "timeout_ns"_a, "open_loop"_a, "window"_a)
+      .def("start", &DiffDriveLaw::start)
+      .def(
+          "set_command",
+          [](DiffDriveLaw& self, std::int64_t stamp_ns, double linear, double angular) {
+            self.set_command(stamp_ns, {linear, angular});
+          },
+          "stamp_ns"_a, "linear"_a, "angular"_a)
+      .def_prop_ro("place",
+                   [](const DiffDriveLaw& self) { return State{self.place().x, self.place().y, self.place().yaw}; })
+      .def_prop_ro("speeds", speeds_of)
+      .def_prop_ro("limited",
+                   [](const DiffDriveLaw& self) { return Pair{self.limited().linear, self.limited().angular}; });
+}
+
 void bind_actions(nb::module_& module) {
   nb::class_<Servo, StepAction>(module, "Servo")
       .def(nb::init<std::vector<std::shared_ptr<ServoJoint>>>(), "joints"_a)
@@ -187,5 +225,6 @@ NB_MODULE(_servo, module) {
   nb::module_::import_("trundle.physics._contact_laws");  // has the base classes
   trundle::bind_joints(module);
   trundle::bind_laws(module);
+  trundle::bind_drive(module);
   trundle::bind_actions(module);
 }

@@ -1,3 +1,4 @@
+from ._servo import DiffDriveLaw as DiffDriveLaw
 from ._servo import MimicAction as MimicAction
 from ._servo import PidLoop as PidLoop
 from ._servo import Servo as Servo

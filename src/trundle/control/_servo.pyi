@@ -6,6 +6,7 @@ from typing import TypeAlias
 from trundle.physics import MotorAxis, StepAction
 
 _State: TypeAlias = tuple[float, float, float]
+_Limits: TypeAlias = tuple[float, float, float, float, float, float]
 _Segment: TypeAlias = tuple[int, int, tuple[float, ...], int, tuple[float, float, float, float], int]
 
 class ToolboxPid:
@@ -195,6 +196,54 @@ class TrajectoryLaw(ServoLaw):
 
     def start(self, time_ns: int) -> None:
         """Take the joints' states for the desired ones."""
+
+class DiffDriveLaw(ServoLaw):
+    """Wheel speeds of diff_drive_controller from a body twist, and odometry from wheel positions."""
+
+    def __init__(
+        self,
+        left: Sequence[ServoJoint],
+        right: Sequence[ServoJoint],
+        *,
+        wheel_radius: float,
+        separation: float,
+        radii: tuple[float, float],
+        limits: Sequence[_Limits],
+        timeout_ns: int,
+        open_loop: bool,
+        window: int,
+    ) -> None:
+        """Stand at the origin of the odometry.
+
+        Args:
+            left: wheels.
+            right: wheels.
+            wheel_radius: nominal one [m].
+            separation: of the wheels [m].
+            radii: of left and right wheels as they roll [m].
+            limits: least and largest velocity, acceleration and jerk, forwards and of turning.
+            timeout_ns: age from which on a command is zero [ns].
+            open_loop: True if the odometry is from the commands.
+            window: number of speeds that are kept.
+        """
+
+    def start(self) -> None:
+        """Stop, and integrate odometry from the current wheel positions."""
+
+    def set_command(self, stamp_ns: int, linear: float, angular: float) -> None:
+        """Drive with a speed [m/s] and yaw rate [rad/s], of a time [ns]."""
+
+    @property
+    def place(self) -> _State:
+        """x, y [m] and yaw [rad] of the odometry."""
+
+    @property
+    def speeds(self) -> list[tuple[float, float]]:
+        """Speed [m/s] and yaw rate [rad/s] of the last updates, the latest at the end."""
+
+    @property
+    def limited(self) -> tuple[float, float]:
+        """Speed [m/s] and yaw rate [rad/s] that the wheels have been commanded, within the limits."""
 
 class Servo(StepAction):
     """Joints of a robot, with the laws that command them; acts before each step."""

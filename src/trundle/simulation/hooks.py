@@ -177,7 +177,7 @@ class ScheduledHook(Generic[WorldT]):
         if self._in_step is not None and self.before_timer.at_every_step:
             found = self._in_step.step_action()
             if found is not None:
-                self.action, self._until_ns = found[0], int(min(found[1], _NEVER_NS))
+                self.action, self._until_ns = found[0], int(min(max(found[1], 0), _NEVER_NS))
         return self.action
 
     def finish_stride(self) -> None:

@@ -1,10 +1,12 @@
 """Laws of ros_control as rules in Python, at every step, to which the C++ is compared."""
 
 import math
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from trundle.control import DifferentialDrive, SpeedLimit, WheelOdometry
 from trundle.model import JointType
 from trundle.plugins.ros_control.trajectory_goal import JointPath, PathSegment
 from trundle.plugins.ros_control.transmissions import Interface
@@ -181,10 +183,94 @@ class PythonTrajectory:
         return (0, 0, 0.0) if len(self._arrived) == len(self._joints) else None
 
 
+class PythonDiffDrive:
+    """Wheel speeds and odometry of diff_drive_controller."""
+
+    def __init__(
+        self,
+        left: Sequence[PythonJoint],
+        right: Sequence[PythonJoint],
+        *,
+        wheel_radius: float,
+        separation: float,
+        radii: tuple[float, float],
+        limits: Sequence[tuple[float, ...]],
+        timeout_ns: int,
+        open_loop: bool,
+        window: int,
+    ) -> None:
+        self._left, self._right, self._radii = left, right, radii
+        self._drive = DifferentialDrive(wheel_radius=wheel_radius, separation=separation)
+        names = SpeedLimit.__struct_fields__
+        self._limits = [SpeedLimit(**dict(zip(names, each, strict=True))) for each in limits]
+        self._timeout_ns, self._open_loop = timeout_ns, open_loop
+        self._odometry = WheelOdometry(self._drive)
+        self._history = [(0.0, 0.0), (0.0, 0.0)]
+        self._speeds: deque[tuple[float, float]] = deque(maxlen=window)
+
+    def start(self) -> None:
+        for joint in (*self._left, *self._right):
+            joint.start()
+        self._wheel_angles = self._turns()
+        self._command: tuple[int, float, float] | None = None
+
+    def set_command(self, stamp_ns: int, linear: float, angular: float) -> None:
+        self._command = stamp_ns, linear, angular
+
+    @property
+    def place(self) -> tuple[float, float, float]:
+        return self._odometry.x, self._odometry.y, self._odometry.yaw
+
+    @property
+    def speeds(self) -> list[tuple[float, float]]:
+        return list(self._speeds)
+
+    @property
+    def limited(self) -> tuple[float, float]:
+        return self._history[0][0], self._history[1][0]
+
+    def update(self, time_ns: int, dt: float) -> None:
+        self._count(dt)
+        is_old = self._command is None or time_ns - self._command[0] > self._timeout_ns
+        targets = (0.0, 0.0) if is_old or self._command is None else self._command[1:]
+        for number, wanted in enumerate(targets):
+            last, before = self._history[number]
+            self._history[number] = (self._limits[number].limit(wanted, last, before, dt), last)
+        (linear, _), (angular, _) = self._history
+        half = angular * self._drive.separation / 2
+        for joints, speed, radius in zip(
+            (self._left, self._right), (linear - half, linear + half), self._radii, strict=True
+        ):
+            for joint in joints:
+                joint.command = speed / radius
+
+    def _turns(self) -> tuple[float, float]:
+        left, right = (sum(joint.position for joint in side) / len(side) for side in (self._left, self._right))
+        return left, right
+
+    def _count(self, dt: float) -> None:
+        if self._open_loop:
+            (linear, _), (angular, _) = self._history
+            half = angular * self._drive.separation / 2
+            left, right = (linear - half) * dt, (linear + half) * dt
+        else:
+            now = self._turns()
+            left, right = (
+                (new - old) * radius for new, old, radius in zip(now, self._wheel_angles, self._radii, strict=True)
+            )
+            self._wheel_angles = now
+        radius = self._drive.wheel_radius
+        distance, turn = self._odometry.update(left / radius, right / radius)
+        self._speeds.append((distance / dt, turn / dt))
+
+
+PythonLaw: TypeAlias = PythonLoop | PythonTrajectory | PythonDiffDrive
+
+
 class PythonServo:
     """Hook that reads, updates and writes at every step."""
 
-    def __init__(self, joints: Sequence[PythonJoint], laws: Sequence[PythonLoop | PythonTrajectory]) -> None:
+    def __init__(self, joints: Sequence[PythonJoint], laws: Sequence[PythonLaw]) -> None:
         self._joints, self._laws, self._last_ns = joints, laws, 0
 
     def before_step(self, sim: Simulation) -> None:

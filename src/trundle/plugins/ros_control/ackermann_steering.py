@@ -77,7 +77,7 @@ class AckermannSteering:
     def update(self, time_ns: int, dt: float) -> None:
         """Update and publish odometry, and write the limited command."""
         self._count(dt)
-        if self._odometry.due(time_ns):
+        if self._odometry.due(time_ns, dt):
             count = max(1, len(self._speeds))
             linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
             self._odometry.publish(time_ns, self._place, (linear, 0.0, angular))

@@ -35,8 +35,15 @@ class BaseOdometry:
         """Start a period now."""
         self._timer.restart(time_ns)
 
-    def due(self, time_ns: int) -> bool:
-        """Return True if a message is due; the next period then begins."""
+    @property
+    def next_ns(self) -> float:
+        """Time of the next message [ns]."""
+        has_listeners = self._broadcaster is not None or self._topic.has_subscribers
+        return self._timer.next_ns if has_listeners else math.inf
+
+    def due(self, time_ns: int, dt: float) -> bool:
+        """Return True if a message is due in a control period [s]; the next one then begins."""
+        self._timer.skip(time_ns, dt)
         return self._timer.due(time_ns)
 
     def publish(self, time_ns: int, place: tuple[float, float, float], speed: tuple[float, float, float]) -> None:

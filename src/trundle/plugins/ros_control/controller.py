@@ -140,32 +140,28 @@ class PublishTimer:
 
     def __init__(self, rate_hz: float) -> None:
         self._period_ns = round(1e9 / rate_hz)
-        self._last_ns: int | None = None
-        """Beginning of a period; None: there was none."""
+        self._last_ns = -math.inf
 
     def restart(self, time_ns: int) -> None:
         """Start a period now."""
         self._last_ns = time_ns
 
-    def next_ns(self, time_ns: int) -> int:
-        """Time after this one at which a period ends [ns]."""
-        last_ns = time_ns if self._last_ns is None else min(self._last_ns, time_ns)
-        return last_ns + self._passed(time_ns, last_ns) + self._period_ns
+    @property
+    def next_ns(self) -> float:
+        """Time at which the period has passed [ns]."""
+        return self._last_ns + self._period_ns
 
-    def due(self, time_ns: int, dt: float = math.inf) -> bool:
-        """Return True if a period has passed since the last time.
+    def skip(self, time_ns: int, dt: float) -> None:
+        """Skip the periods that ended before a control period [s]: it had no listeners."""
+        passed_ns = time_ns - round(dt * 1e9) - self._last_ns
+        if self._period_ns <= passed_ns < math.inf:
+            self._last_ns += passed_ns // self._period_ns * self._period_ns
 
-        Args:
-            time_ns: now.
-            dt: control period [s]; a period that ended before it is over.
-        """
-        if self._last_ns is None:
-            self._last_ns = time_ns - self._period_ns
-            return True
-        self._last_ns = min(self._last_ns, time_ns)  # the simulation may have been reset
-        passed_ns = self._passed(time_ns, self._last_ns)
-        self._last_ns += passed_ns
-        return passed_ns > 0 and (dt == math.inf or time_ns - self._last_ns < round(dt * 1e9))
-
-    def _passed(self, time_ns: int, last_ns: int) -> int:
-        return (time_ns - last_ns) // self._period_ns * self._period_ns
+    def due(self, time_ns: int) -> bool:
+        """Return True if a period has passed; the next then begins."""
+        if time_ns < self._last_ns:  # the simulation was reset
+            self._last_ns = time_ns
+        if time_ns < self._last_ns + self._period_ns:
+            return False
+        self._last_ns = max(self._last_ns + self._period_ns, time_ns - self._period_ns)
+        return True

@@ -99,7 +99,7 @@ class FourWheelDrive:
             yaw + turning * dt,
         )
         self._samples.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
-        if self._odometry.due(time_ns):
+        if self._odometry.due(time_ns, dt):
             self._odometry.publish(time_ns, self._place, (forward, sideways, turning))
             self._publish_angles(time_ns)
         self._drive(time_ns, dt)

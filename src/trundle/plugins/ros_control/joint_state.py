@@ -40,7 +40,8 @@ class JointStateController(InStepController):
 
     def update(self, time_ns: int, dt: float) -> None:
         """Publish when due."""
-        if not self._timer.due(time_ns, dt) or not self._states.has_subscribers:
+        self._timer.skip(time_ns, dt)
+        if not self._timer.due(time_ns) or not self._states.has_subscribers:
             return
         self._states.publish(
             {
@@ -54,7 +55,8 @@ class JointStateController(InStepController):
 
     def due_ns(self, time_ns: int) -> float:
         """Return the time of the next message [ns]."""
-        return self._timer.next_ns(time_ns) if self._states.has_subscribers else math.inf
+        del time_ns
+        return self._timer.next_ns if self._states.has_subscribers else math.inf
 
     def stop(self) -> None:
         """Do nothing: no joint is commanded."""

@@ -96,15 +96,17 @@ class TrajectoryController(InStepController):
 
     def due_ns(self, time_ns: int) -> float:
         """Return the time of the next message [ns]."""
-        feedback_ns = math.inf if self._settled is None else self._monitors.next_ns(time_ns)
-        return min(self._states.next_ns(time_ns) if self._state.has_subscribers else math.inf, feedback_ns)
+        del time_ns
+        feedback_ns = math.inf if self._settled is None else self._monitors.next_ns
+        return min(self._states.next_ns if self._state.has_subscribers else math.inf, feedback_ns)
 
     def update(self, time_ns: int, dt: float) -> None:
         """Settle the action's goal, and publish when due."""
         self.finish_stride()
         if self._settled is not None and self._monitors.due(time_ns):
             self._server.publish_feedback(self._state_fields())
-        if self._states.due(time_ns, dt) and self._state.has_subscribers:
+        self._states.skip(time_ns, dt)
+        if self._states.due(time_ns) and self._state.has_subscribers:
             self._state.publish(self._state_fields())
 
     def finish_stride(self) -> None:
