@@ -7,6 +7,8 @@ import pytest
 from tests.gazebo_server import Gazebo, until
 from tests.plugins.ros_control.controlled import Robot, driven, standing
 
+from trundle.control import Servo
+from trundle.plugins.ros_control.plugin import GazeboRosControl
 from trundle.ros import Message, ServiceError
 
 _LIMIT = '<limit lower="-2" upper="2" effort="200" velocity="10"/>'
@@ -188,6 +190,25 @@ def test_stopping_a_controller_preempts_its_goal(robot: Robot) -> None:
     robot.ask("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2)
     until(lambda: results)
     assert results[0].status.status == PREEMPTED
+
+
+def test_trajectories_act_in_the_step_and_a_gripper_in_python(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    actions: list[object] = []
+    step_action = GazeboRosControl.step_action
+
+    def recorded(plugin: GazeboRosControl) -> tuple[Servo, float] | None:
+        actions.append(step_action(plugin))
+        return step_action(plugin)
+
+    monkeypatch.setattr(GazeboRosControl, "step_action", recorded)
+    ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)))
+    until(lambda: robot.joint("a").position[0] > 0.0)
+    assert set(actions) == {None}
+    robot.ask("switch_controller", "SwitchController", stop_controllers=["hand"], strictness=2)
+    count = len(actions)
+    until(lambda: len(actions) > count + 5)
+
+    assert None not in actions[count + 1 :]
 
 
 def test_a_goal_that_cannot_be_reached_is_given_up(robot: Robot) -> None:

@@ -66,12 +66,9 @@ class ControllerManager:
 
     def due_ns(self, time_ns: int) -> float | None:
         """Return when `update` is due again after a time at which it was [ns]; None: at every step."""
-        in_step = [each for each in self._running if isinstance(each, InStepController)]
-        return (
-            min((each.due_ns(time_ns) for each in in_step), default=math.inf)
-            if len(in_step) == len(self._running)
-            else None
-        )
+        running = self._running
+        due_ns = [each.due_ns(time_ns) for each in running if isinstance(each, InStepController)]
+        return min(due_ns, default=math.inf) if len(due_ns) == len(running) else None
 
     def finish_stride(self) -> None:
         """Let the controllers continue that act in C++."""
