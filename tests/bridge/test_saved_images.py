@@ -19,11 +19,17 @@ def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # py
     monkeypatch.chdir(tmp_path)
 
 
-def saved(described: Any, path: str) -> Any:
-    """Two pictures, 0.1 s, of a camera with this <path>."""
+def started(described: Any, path: str) -> Any:
+    """A camera with this <path>."""
     sim = described(eye("camera", inside=f'<save enabled="true"><path>{path}</path></save>') + WALL)
     (camera,) = mount_cameras(sim, NativeRenderer)
     camera.start(sim)
+    return sim
+
+
+def saved(described: Any, path: str) -> Any:
+    """Two pictures, 0.1 s, of a camera with this <path>."""
+    sim = started(described, path)
     sim.run(0.1)
     return sim
 
@@ -105,3 +111,17 @@ def test_a_folder_that_cannot_be_made_ends_the_saving_with_one_warning(described
     (warning,) = saved(described, "saved_images/shots").report.warnings
 
     assert "Not a directory; saving stopped" in warning
+
+
+def test_a_picture_that_does_not_fit_on_the_disk_is_removed(described: Any, tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource", reason="this system limits no files")
+    sim, before = started(described, "saved_images/shots"), resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
+    try:
+        sim.run(0.1)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+    (warning,) = sim.report.warnings
+    assert "File too large; saving stopped" in warning
+    assert list((tmp_path / "saved_images/shots").iterdir()) == []

@@ -91,8 +91,7 @@ class ImageSaver:
                 self._stop(f"{self._folder}: a link in it leads out of {self._root}; saving stopped")
                 return
             self._folder.mkdir(parents=True, exist_ok=True)
-            with self._create() as file:
-                file.write(data.getbuffer())
+            self._write(data.getbuffer())
         except OSError as error:
             self._stop(f"{error.filename or self._folder}: {error.strerror or error}; saving stopped")
             return
@@ -101,6 +100,16 @@ class ImageSaver:
     def _stop(self, why: str) -> None:
         self._is_stopped = True
         self._report.warn(self._at, why)
+
+    def _write(self, data: memoryview) -> None:
+        """Write the next image; what does not fit is removed."""
+        file = self._create()
+        try:
+            with file:
+                file.write(data)
+        except OSError:
+            os.unlink(file.name)
+            raise
 
     def _create(self) -> BinaryIO:
         """Create the next image's file; the first one's decides the number in brackets."""
