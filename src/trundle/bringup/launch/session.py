@@ -241,6 +241,11 @@ class LaunchSession:
         return self._gazebo is not None and self._gazebo.paused
 
     @property
+    def is_busy(self) -> bool:
+        """True while something in this process is at work that needs no time to pass."""
+        return self.graph.loop.work.is_busy
+
+    @property
     def stop_reason(self) -> str | None:
         """Reason for which its world could not go on; None: it can."""
         return None if self._gazebo is None else self._gazebo.stop_reason

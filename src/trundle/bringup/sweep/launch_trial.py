@@ -29,7 +29,7 @@ from .topics import topics_of
 
 _POLL_S = 0.01
 _PAUSED_S = 30.0
-"""Wall time for which a world may stay paused, as at the start of controllers."""
+"""Wall time for which a world may stay paused while nothing is at work, as at the start of controllers."""
 
 
 class LaunchTrialRunner:
@@ -149,7 +149,7 @@ class LaunchTrialRunner:
         while not session.is_over:
             time.sleep(_POLL_S)
             check_running(running)
-            if not session.is_paused:
+            if not session.is_paused or session.is_busy:
                 paused_s = None
             elif setup.is_over:
                 return
