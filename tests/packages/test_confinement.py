@@ -1,5 +1,6 @@
 """A home folder is not a package, whatever it holds, and neither is its parent."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from trundle import packages as room
 from trundle.description import expand_xacro
 from trundle.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.packages import Packages
+from trundle.packages.confinement import WideFolders
 
 AT = Source("robot.urdf", 7)
 REFUSED = "reads only below its own folders"
@@ -103,3 +105,14 @@ def test_without_a_manifest_a_file_reads_its_folder_and_packages(tmp_path: Path,
 def test_the_root_of_a_disk_is_no_package_either(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError, match=REFUSED):
         resolve("file:///etc/passwd", write(tmp_path / "robot.urdf"), tmp_path, ROS_PACKAGE_PATH="/")
+
+
+def test_a_link_that_is_gone_while_it_is_read_is_no_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With ROS_PACKAGE_PATH=/ the links of processes that end meanwhile are met."""
+    wide = WideFolders({})
+
+    def gone(_path: object, **_: object) -> str:
+        raise FileNotFoundError(2, "gone")
+
+    monkeypatch.setattr(os.path, "realpath", gone)
+    assert tmp_path / "link" in wide

@@ -16,7 +16,10 @@ class WideFolders:
 
     def __contains__(self, folder: object) -> bool:
         assert isinstance(folder, Path)
-        real = os.path.realpath(folder)
+        try:
+            real = os.path.realpath(folder)
+        except OSError:  # a link that is gone meanwhile, as below /proc
+            return True
         return real in self._folders or os.path.dirname(real) == real
 
 
