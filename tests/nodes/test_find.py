@@ -134,6 +134,12 @@ def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
     )
 
 
+def test_rosserial_s_own_node_in_python_is_named() -> None:
+    found = find_node("rosserial_arduino", "serial_node.py", lambda _: None, env={})
+    assert isinstance(found, MissingNode)
+    assert found.why.endswith("runs here: trundle pack get rosserial_python, and pip install pyserial")
+
+
 def test_a_program_that_has_to_be_compiled_is_named_with_its_source(tmp_path: Path) -> None:
     text = (
         "project(arm)\nadd_executable(arm_node src/arm.cpp)\nset_target_properties(arm_node PROPERTIES OUTPUT_NAME arm)"

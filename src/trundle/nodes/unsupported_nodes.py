@@ -3,6 +3,10 @@
 OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
 _NAVIGATION = f"planning and localisation are out of scope; {OVER_THE_WIRE}"
 _DRIVER = "a driver of real hardware; the simulator's sensors publish the same topics where the model has them"
+_ROSSERIAL = (
+    "it talks to a microcontroller on a serial port; rosserial_python's serial_node.py is Python, and runs here: "
+    "trundle pack get rosserial_python, and pip install pyserial"
+)
 
 ALTERNATIVES: dict[str, str] = {
     "amcl": _NAVIGATION,
@@ -34,7 +38,9 @@ ALTERNATIVES: dict[str, str] = {
     "openni_launch": _DRIVER,
     "realsense2_camera": _DRIVER,
     "hls_lfcd_lds_driver": _DRIVER,
-    "rosserial_python": _DRIVER,
+    "rosserial_arduino": _ROSSERIAL,
+    "rosserial_python": _ROSSERIAL,
+    "rosserial_server": _ROSSERIAL,
     "um6": _DRIVER,
     "lms1xx": _DRIVER,
 }
