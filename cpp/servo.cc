@@ -13,10 +13,6 @@ double Servo::read(std::int64_t time_ns, std::int64_t step_ns) {
   return static_cast<double>(passed_ns) / 1e9;
 }
 
-void Servo::read_efforts() {
-  for (const auto& joint : joints_) joint->read_effort();
-}
-
 bool Servo::update(double dt) {
   bool goes_on = true;
   for (const auto& law : laws_) goes_on &= law->update(time_ns_, dt);

@@ -26,8 +26,6 @@ class Servo : public StepAction {
   // Read the joints; return the time since they were read last [s], 0 at a time when they were already.
   double read(std::int64_t time_ns, std::int64_t step_ns);
 
-  void read_efforts();
-
   // Run the laws; return false if Python has to be called.
   bool update(double dt);
   void write(double dt);

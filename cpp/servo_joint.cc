@@ -35,10 +35,6 @@ void ServoJoint::read() {
   const mjData* d = axis_.bank->data();
   position = d->qpos[axis_.qpos] * axis_.sign;
   velocity = velocity_at(axis_.bank->model(), d, axis_.dof) * axis_.sign;
-}
-
-void ServoJoint::read_effort() {
-  const mjData* d = axis_.bank->data();
   effort = (d->qfrc_applied[axis_.dof] + d->qfrc_actuator[axis_.dof]) * axis_.sign;
 }
 

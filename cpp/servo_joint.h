@@ -37,9 +37,8 @@ class ServoJoint {
   // Follow another engine's axis. Throws std::invalid_argument if it has none such.
   void bind(ServoAxis axis);
 
-  // Read position and velocity; the effort is known between strides only.
+  // Read position, velocity and effort.
   void read();
-  void read_effort();
 
   // Difference of a position to the joint's; the shorter way round if continuous.
   double error(double position) const;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "drive_law.h"
+#include "gripper_law.h"
 #include "servo.h"
 
 namespace nb = nanobind;
@@ -114,11 +115,7 @@ void bind_joints(nb::module_& module) {
       .def_prop_ro("is_continuous", [](const ServoJoint& self) { return self.traits().is_continuous; })
       .def_prop_ro("settling_ns", &ServoJoint::settling_ns)
       .def_prop_ro("resting_command", &ServoJoint::resting_command)
-      .def("read",
-           [](ServoJoint& self) {
-             self.read();
-             self.read_effort();
-           })
+      .def("read", &ServoJoint::read)
       .def("error", &ServoJoint::error, "position"_a)
       .def("shortest_error", &ServoJoint::shortest_error, "position"_a)
       .def("stop", &ServoJoint::stop)
@@ -149,6 +146,17 @@ void bind_laws(nb::module_& module) {
       .def("take_event", take_event)
       .def_prop_ro("desired", desired_of)
       .def("start", &TrajectoryLaw::start, "time_ns"_a);
+}
+
+void bind_gripper(nb::module_& module) {
+  nb::class_<GripperLaw, ServoLaw>(module, "GripperLaw")
+      .def(nb::init<std::shared_ptr<ServoJoint>, std::shared_ptr<ToolboxPid>, double, double, std::int64_t>(),
+           "joint"_a, "pid"_a.none(), nb::kw_only(), "tolerance"_a, "min_speed"_a, "stall_ns"_a)
+      .def("start", &GripperLaw::start, "time_ns"_a)
+      .def("begin", &GripperLaw::begin, "target"_a, "max_effort"_a, "time_ns"_a)
+      .def("hold", &GripperLaw::hold)
+      .def_rw("watches", &GripperLaw::watches)
+      .def("take_event", &GripperLaw::take_event);
 }
 
 using Pair = std::tuple<double, double>;
@@ -193,14 +201,7 @@ void bind_actions(nb::module_& module) {
       .def(nb::init<std::vector<std::shared_ptr<ServoJoint>>>(), "joints"_a)
       .def("set_laws", &Servo::set_laws, "laws"_a)
       .def("restart", &Servo::restart, "time_ns"_a)
-      .def(
-          "read",
-          [](Servo& self, std::int64_t time_ns, std::int64_t step_ns) {
-            const double dt = self.read(time_ns, step_ns);
-            self.read_efforts();
-            return dt;
-          },
-          "time_ns"_a, "step_ns"_a)
+      .def("read", &Servo::read, "time_ns"_a, "step_ns"_a)
       .def("update", &Servo::update, "dt"_a)
       .def("write", &Servo::write, "dt"_a)
       .def_prop_ro("time_ns", &Servo::time_ns)
@@ -225,6 +226,7 @@ NB_MODULE(_servo, module) {
   nb::module_::import_("trundle.physics._contact_laws");  // has the base classes
   trundle::bind_joints(module);
   trundle::bind_laws(module);
+  trundle::bind_gripper(module);
   trundle::bind_drive(module);
   trundle::bind_actions(module);
 }

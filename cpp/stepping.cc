@@ -1,8 +1,11 @@
 #include "stepping.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "guarded_step.h"
+#include "law_tables.h"
+#include "velocity_motor.h"
 
 namespace trundle {
 
@@ -16,6 +19,8 @@ bool all_sleep(const mjModel* m, const mjData* d) {
 
 Stepped step_each(const mjModel* m, mjData* d, int count, const EachStep& each) {
   SleepKey key;
+  LawTables laws;
+  if (!LawTables::find(m, laws)) throw std::runtime_error("this model has no laws");
   for (int step = 0; step < count; ++step) {
     const std::int64_t time_ns = each.time_ns + step * each.step_ns;
     bool goes_on = true, is_stale = false;
@@ -25,6 +30,7 @@ Stepped step_each(const mjModel* m, mjData* d, int count, const EachStep& each) 
       d->time += m->opt.timestep;  // nothing else would change
     } else {
       guarded_step(m, d);
+      if (!each.actions.empty() && !(m->opt.disableflags & mjDSBL_ACTUATION)) report_efforts(laws, m, d);
       if (!each.recorders.empty()) key = sleep_key(m, d);
     }
     for (ContactRecorder* recorder : each.recorders) {

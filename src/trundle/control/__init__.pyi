@@ -1,4 +1,5 @@
 from ._servo import DiffDriveLaw as DiffDriveLaw
+from ._servo import GripperLaw as GripperLaw
 from ._servo import MimicAction as MimicAction
 from ._servo import PidLoop as PidLoop
 from ._servo import Servo as Servo

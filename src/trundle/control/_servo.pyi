@@ -86,7 +86,7 @@ class ServoJoint:
 
     @property
     def effort(self) -> float:
-        """Effort at the last `read` of this thread [N·m or N]."""
+        """Effort at the last `read` [N·m or N]."""
 
     @property
     def lower(self) -> float: ...
@@ -244,6 +244,37 @@ class DiffDriveLaw(ServoLaw):
     @property
     def limited(self) -> tuple[float, float]:
         """Speed [m/s] and yaw rate [rad/s] that the wheels have been commanded, within the limits."""
+
+class GripperLaw(ServoLaw):
+    """Moves a finger until it arrives or stalls."""
+
+    watches: bool
+    """True while the goal's outcome is not known."""
+
+    def __init__(
+        self, joint: ServoJoint, pid: ToolboxPid | None, *, tolerance: float, min_speed: float, stall_ns: int
+    ) -> None:
+        """Stand still.
+
+        Args:
+            joint: of the finger.
+            pid: efforts from the position's error; None: the position is commanded.
+            tolerance: error below which the goal is reached [rad or m].
+            min_speed: speed below which the finger does not move [rad/s or m/s].
+            stall_ns: time without motion after which it has stalled [ns].
+        """
+
+    def start(self, time_ns: int) -> None:
+        """Hold the current position."""
+
+    def begin(self, target: float, max_effort: float, time_ns: int) -> None:
+        """Move to a position [rad or m] from a time on, with at most an effort [N·m or N]; 0: unlimited."""
+
+    def hold(self) -> None:
+        """Stay at the current position."""
+
+    def take_event(self) -> bool | None:
+        """Return the outcome of the watched goal once: True if it was reached, False if the finger stalled."""
 
 class Servo(StepAction):
     """Joints of a robot, with the laws that command them; acts before each step."""

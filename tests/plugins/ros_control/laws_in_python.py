@@ -48,14 +48,14 @@ class PythonJoint:
 
     def __init__(self, handle: JointHandle, interface: Interface, pid: PythonPid | None, *, lag_s: float) -> None:
         self.handle, self.interface, self.pid, self.lag_s = handle, interface, pid, lag_s
-        self.command = self.position = self.velocity = 0.0
+        self.command = self.position = self.velocity = self.effort = 0.0
         self._is_at_rest = True
         axis = handle.joint.axis
         assert axis is not None
         self.lower, self.upper, self._most_effort, self._most_speed = axis.lower, axis.upper, axis.effort, axis.velocity
 
     def read(self) -> None:
-        self.position, self.velocity = self.handle.position, self.handle.velocity
+        self.position, self.velocity, self.effort = self.handle.position, self.handle.velocity, self.handle.effort
 
     def error(self, wanted: float) -> float:
         is_revolute = self.handle.joint.type is JointType.REVOLUTE
@@ -264,7 +264,48 @@ class PythonDiffDrive:
         self._speeds.append((distance / dt, turn / dt))
 
 
-PythonLaw: TypeAlias = PythonLoop | PythonTrajectory | PythonDiffDrive
+class PythonGripper:
+    """Finger of a gripper_action_controller."""
+
+    def __init__(
+        self, joint: PythonJoint, pid: PythonPid | None, *, tolerance: float, min_speed: float, stall_ns: int
+    ) -> None:
+        self._joint, self._pid = joint, pid
+        self._tolerance, self._min_speed, self._stall_ns = tolerance, min_speed, stall_ns
+        self.watches = False
+        self._event: bool | None = None
+
+    def start(self, time_ns: int) -> None:
+        self._joint.start()
+        self.begin(self._joint.position, 0.0, time_ns)
+
+    def begin(self, target: float, max_effort: float, time_ns: int) -> None:
+        self._target, self._max_effort, self._moved_ns = target, max_effort, time_ns
+
+    def take_event(self) -> bool | None:
+        event, self._event = self._event, None
+        return event
+
+    def update(self, time_ns: int, dt: float) -> None:
+        joint, most = self._joint, self._max_effort
+        error = joint.error(self._target)
+        if self._pid is None:
+            joint.command = self._target
+        else:
+            effort = self._pid.command(error, dt, slope=-joint.velocity)
+            joint.command = min(max(effort, -most), most) if most > 0.0 else effort
+        if abs(joint.velocity) > self._min_speed or time_ns < self._moved_ns:
+            self._moved_ns = time_ns
+        if not self.watches:
+            return
+        if abs(error) < self._tolerance:
+            self._event = True
+        elif time_ns - self._moved_ns > self._stall_ns:
+            self._event = False
+        self.watches = self._event is None
+
+
+PythonLaw: TypeAlias = PythonLoop | PythonTrajectory | PythonDiffDrive | PythonGripper
 
 
 class PythonServo:

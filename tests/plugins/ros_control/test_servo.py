@@ -1,14 +1,16 @@
 """Laws in C++ within the step, to the byte as in Python at every step."""
 
+import math
 import random
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
 from tests.plugins.ros_control.laws_in_python import (
-    Event,
+    PythonGripper,
     PythonJoint,
     PythonLoop,
     PythonPid,
@@ -17,7 +19,7 @@ from tests.plugins.ros_control.laws_in_python import (
 )
 
 import trundle
-from trundle.control import JointSegment, JointState, PidLoop, Servo, ToolboxPid, TrajectoryLaw
+from trundle.control import GripperLaw, JointSegment, JointState, PidLoop, Servo, ToolboxPid, TrajectoryLaw
 from trundle.physics import SimulationUnstableError
 from trundle.plugins.ros_control.hardware import JointHardware
 from trundle.plugins.ros_control.tolerances import JointTolerances, StateTolerance
@@ -26,7 +28,8 @@ from trundle.plugins.ros_control.transmissions import INTERFACES
 from trundle.simulation import Simulation
 from trundle.spatial import Wrench
 
-_COUNT = 6
+_Event: TypeAlias = tuple[int, object, list[tuple[float, ...]]]
+"""Time [ns], event, and position, velocity and effort of each joint."""
 _LINK = """<link name="{0}"><pose>{1} 0 0 0 0 0</pose><inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy>
 <izz>0.1</izz></inertia></inertial></link>"""
 _KINDS = ("revolute", "revolute", "prismatic", "revolute", "continuous", "revolute")
@@ -56,9 +59,9 @@ def _arm(folder: Path) -> Simulation:
 class _InStep:
     """Hook whose servo acts in C++, as ros_control's plugin."""
 
-    def __init__(self, servo: Servo, law: TrajectoryLaw) -> None:
-        self._servo, self._law = servo, law
-        self.events: list[tuple[int, Event]] = []
+    def __init__(self, servo: Servo, law: Any, joints: Sequence[Any]) -> None:
+        self._servo, self._law, self._joints = servo, law, joints
+        self.events: list[_Event] = []
         self.calls = 0
 
     def before_step(self, sim: Simulation) -> None:
@@ -69,13 +72,47 @@ class _InStep:
             self._servo.write(dt)
         self.finish_stride()
 
-    def step_action(self) -> tuple[Servo, int]:
-        return self._servo, 2**62
+    def step_action(self) -> tuple[Servo, float]:
+        return self._servo, math.inf
 
     def finish_stride(self) -> None:
         event = self._law.take_event()
         if event is not None:
-            self.events.append((self._law.time_ns, event))
+            self.events.append((self._law.time_ns, event, _states(self._joints)))
+
+
+class _Events:
+    """Hook that takes the events of Python's law."""
+
+    def __init__(self, law: Any, joints: Sequence[Any]) -> None:
+        self._law, self._joints = law, joints
+        self.events: list[_Event] = []
+
+    def before_step(self, sim: Simulation) -> None:
+        event = self._law.take_event()
+        if event is not None:
+            self.events.append((sim.time_ns, event, _states(self._joints)))
+
+
+def _states(joints: Sequence[Any]) -> list[tuple[float, ...]]:
+    return [(each.position, each.velocity, each.effort) for each in joints]
+
+
+def _add_hooks(
+    sim: Simulation, joints: Sequence[Any], laws: Sequence[Any], watched: Any, *, in_step: bool
+) -> list[_Event]:
+    """Run laws in C++ or in Python; return where the events of one appear."""
+    if in_step:
+        servo = Servo(joints)
+        servo.longest_ns = sim.step_ns
+        servo.set_laws(laws)
+        hook = _InStep(servo, watched, joints)
+        sim.add_hook(hook)
+        return hook.events
+    events = _Events(watched, joints)
+    sim.add_hook(PythonServo(joints, laws))
+    sim.add_hook(events)
+    return events.events
 
 
 class _Other:
@@ -139,27 +176,15 @@ class _Rig:
             each.start(0)
         forward = [random_.choice((0.0, 0.2)) for _ in range(3)]
         self.law: Any = law(self.joints[:3], pids, forward)
-        self._in_step: _InStep | None = None
         laws: list[Any] = [self.law, *self.loops]
-        self.events: list[tuple[int, Event]] = []
-        if in_step:
-            servo = Servo(self.joints)
-            servo.longest_ns = self.sim.step_ns
-            servo.set_laws(laws)
-            self.hook = _InStep(servo, self.law)
-            self.events = self.hook.events
-            self.sim.add_hook(self.hook)
-        else:
-            self.sim.add_hook(PythonServo(self.joints, laws))
-            self.sim.add_hook(self)
+        self.events = _add_hooks(self.sim, self.joints, laws, self.law, in_step=in_step)
         if other == 2:
             self.sim.add_hook(_Other(2), period_ns=_Other.period_ns)
 
-    def before_step(self, sim: Simulation) -> None:
-        """Take the events of Python's law."""
-        event = self.law.take_event()
-        if event is not None:
-            self.events.append((sim.time_ns, event))
+    @property
+    def hook(self) -> "_InStep":
+        """Hook of a rig that acts in C++."""
+        return next(each for each in self.sim.hooks if isinstance(each, _InStep))
 
     def command(self, random_: random.Random, goal: int) -> None:
         """Give new paths and targets, the same by the same numbers."""
@@ -223,6 +248,31 @@ def test_random_trajectories_gains_and_interfaces_give_the_same_bytes_as_in_pyth
     assert ours.hook.calls < 0.15 * ours.sim.steps
 
 
+@pytest.mark.parametrize("interface", ["EffortJointInterface", "PositionJointInterface"])
+def test_a_gripper_arrives_and_stalls_in_the_same_states_as_in_python(tmp_path: Path, interface: Any) -> None:
+    """Joint 2 closes on its stop; the action's result has position and effort of that moment."""
+    outcomes: list[list[object]] = []
+    for in_step in (True, False):
+        sim = _arm(tmp_path)
+        joint, law, pid = (
+            (JointHardware, GripperLaw, ToolboxPid) if in_step else (PythonJoint, PythonGripper, PythonPid)
+        )
+        finger: Any = joint(sim["m"].joint("j2"), interface, None, lag_s=0.005)
+        finger.read()
+        gains: Any = pid(p=200.0, d=30.0) if interface == "EffortJointInterface" else None
+        grip: Any = law(finger, gains, tolerance=0.01, min_speed=0.001, stall_ns=50_000_000)
+        grip.start(0)
+        events = _add_hooks(sim, [finger], [grip], grip, in_step=in_step)
+        for target, max_effort in ((0.2, 0.0), (3.0, 20.0), (-0.1, 0.0), (-3.0, 0.0)):
+            grip.begin(target, max_effort, sim.time_ns)
+            grip.watches = True
+            sim.step(700)
+        outcomes.append([*events, sim.save().engine.data.qpos.tobytes()])
+
+    assert outcomes[0] == outcomes[1]
+    assert len(outcomes[0]) > 3
+
+
 def test_a_goal_that_settles_ends_the_stride(tmp_path: Path) -> None:
     rig = _Rig(tmp_path, random.Random(3), in_step=True)
     rig.command(random.Random(1), 1)
@@ -236,7 +286,7 @@ def test_a_goal_that_settles_ends_the_stride(tmp_path: Path) -> None:
 
     rig.sim.engine.step = counted  # type: ignore[method-assign]
     rig.sim.step(400)
-    (time_ns, _), *_ = rig.events
+    (time_ns, _, _), *_ = rig.events
 
     assert sum(strides) == 400
     assert time_ns == (strides[0] - 1) * rig.sim.step_ns  # before the last step of the first stride

@@ -101,7 +101,9 @@ class InStepController:
         return math.inf
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Publish what is due; the laws were updated just before."""
+        """Continue as after a stride, and publish what is due; the laws were updated just before."""
+        del time_ns, dt
+        self.finish_stride()
 
     def finish_stride(self) -> None:
         """Continue after the steps of a stride, which a law may have ended with an event."""

@@ -4,9 +4,10 @@ import asyncio
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+from trundle.control import GripperLaw
 from trundle.ros import ActionOutcome, ActionServer
 
-from .controller import ControllerContext, Endpoints
+from .controller import ControllerContext, Endpoints, InStepController
 from .gains import reconfigurable_pid
 from .transmissions import Interface
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs
 
 
-class GripperController:
+class GripperController(InStepController):
     """Action `~gripper_cmd` (control_msgs/GripperCommand).
 
     Parameters, with the original's defaults: joint (required), goal_tolerance 0.01, stall_velocity_threshold 0.001,
@@ -29,17 +30,17 @@ class GripperController:
         self._joint = context.joint(settings.text("joint"), self.interface)
         self.claims: dict[Interface | str, list[str]] = {self.interface: [self._joint.name]}
         self._endpoints = Endpoints()
-        self._pid = None
+        pid = None
         if self.interface == "EffortJointInterface":
-            self._pid = reconfigurable_pid(
-                context.node, settings.section("gains").section(self._joint.name), self._endpoints
-            )
-        self._tolerance = abs(settings.number("goal_tolerance", 0.01))
-        self._slow = abs(settings.number("stall_velocity_threshold", 0.001))
-        self._stall_ns = round(settings.number("stall_timeout", 1.0) * 1e9)
-        self._wanted = 0.0
-        self._most_effort = 0.0
-        self._moved_ns = 0
+            pid = reconfigurable_pid(context.node, settings.section("gains").section(self._joint.name), self._endpoints)
+        self._law = GripperLaw(
+            self._joint,
+            pid,
+            tolerance=abs(settings.number("goal_tolerance", 0.01)),
+            min_speed=abs(settings.number("stall_velocity_threshold", 0.001)),
+            stall_ns=round(settings.number("stall_timeout", 1.0) * 1e9),
+        )
+        self.laws = (self._law,)
         self._is_running = False
         self._settled: Callable[[ActionOutcome], None] | None = None
         self._server = ActionServer(
@@ -53,30 +54,14 @@ class GripperController:
 
     def start(self, time_ns: int) -> None:
         """Hold the current position."""
-        self._joint.start()
-        self._wanted, self._moved_ns, self._is_running = self._joint.position, time_ns, True
-        self._most_effort = 0.0
-        if self._pid is not None:
-            self._pid.reset()
+        self._law.start(time_ns)
+        self._is_running = True
 
-    def update(self, time_ns: int, dt: float) -> None:
-        """Command the goal, and settle the action at its end."""
-        joint = self._joint
-        error = joint.error(self._wanted)
-        if self._pid is None:
-            joint.command = self._wanted
-        else:
-            effort = self._pid.command(error, dt, slope=-joint.velocity)
-            most = self._most_effort
-            joint.command = min(max(effort, -most), most) if most > 0.0 else effort
-        if abs(joint.velocity) > self._slow or time_ns < self._moved_ns:
-            self._moved_ns = time_ns
-        if self._settled is None:
-            return
-        if abs(error) < self._tolerance:
-            self._settle("succeeded", reached=True)
-        elif time_ns - self._moved_ns > self._stall_ns:
-            self._settle("aborted", reached=False)
+    def finish_stride(self) -> None:
+        """Settle the action at its end."""
+        reached = self._law.take_event()
+        if reached is not None:
+            self._settle("succeeded" if reached else "aborted", reached=reached)
 
     def stop(self) -> None:
         """Stop commanding."""
@@ -103,14 +88,14 @@ class GripperController:
                 return
             self._settle("preempted", reached=False)
             self._node.loop.call_soon(accept)
-            self._wanted, self._most_effort = float(goal.command.position), float(goal.command.max_effort)
-            self._moved_ns = self._node.clock.now_ns()
-            self._settled = settle
+            command = goal.command
+            self._law.begin(float(command.position), float(command.max_effort), self._node.clock.now_ns())
+            self._settled, self._law.watches = settle, True
 
         def abandon() -> None:
             if self._settled is settle:
-                self._settled = None
-                self._wanted = self._joint.position
+                self._settled, self._law.watches = None, False
+                self._law.hold()
 
         assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
         self._node.deliver(begin)
@@ -124,6 +109,7 @@ class GripperController:
         if self._settled is None:
             return
         settle, self._settled = self._settled, None
+        self._law.watches = False
         joint = self._joint
         result = {"position": joint.position, "effort": joint.effort, "stalled": not reached, "reached_goal": reached}
         settle(ActionOutcome(status=status, result=result))
