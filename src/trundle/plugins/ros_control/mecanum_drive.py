@@ -72,7 +72,7 @@ class MecanumDriveController:
         middle = yaw + turning * dt / 2
         cos, sin = math.cos(middle), math.sin(middle)
         self._place = (x + (forward * cos - left * sin) * dt, y + (forward * sin + left * cos) * dt, yaw + turning * dt)
-        if self._odometry.due(time_ns):
+        if self._odometry.due(time_ns, dt):
             self._odometry.publish(time_ns, self._place, twist)
         stamp, command = self._command
         wanted = command if time_ns - stamp <= self._timeout_ns else (0.0, 0.0, 0.0)
