@@ -11,6 +11,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("controller_manager", "spawner"): "trundle.nodes.controller_manager:Spawner",
     ("controller_manager", "spawner.py"): "trundle.nodes.controller_manager:Spawner",
     ("controller_manager", "unspawner"): "trundle.nodes.controller_manager:Unspawner",
+    ("cv_camera", "cv_camera_node"): "trundle.nodes.camera_drivers:CvCamera",
     (
         "depthimage_to_laserscan",
         "depthimage_to_laserscan",
@@ -25,6 +26,8 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("gazebo_ros", "perf"): "trundle.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "spawn_model"): "trundle.nodes.gazebo:SpawnModel",
     ("gazebo_ros", "urdf_spawner"): "trundle.nodes.gazebo:SpawnModel",
+    ("gscam", "gscam"): "trundle.nodes.camera_drivers:GsCam",
+    ("gscam", "gscam_node"): "trundle.nodes.camera_drivers:GsCam",
     ("image_view", "image_view"): "trundle.nodes.rqt_windows:ImageView",
     ("interactive_marker_twist_server", "marker_server"): "trundle.nodes.twist_marker_server:TwistMarkerServer",
     ("joint_state_publisher", "joint_state_publisher"): "trundle.nodes.joint_state_publisher:JointStatePublisher",
@@ -82,6 +85,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("rqt_tf_tree", "rqt_tf_tree"): "trundle.nodes.rqt_windows:RqtTfTree",
     ("rqt_topic", "rqt_topic"): "trundle.nodes.rqt_windows:RqtTopic",
     ("rviz", "rviz"): "trundle.nodes.rviz:Rviz",
+    ("sound_play", "soundplay_node.py"): "trundle.nodes.sound_play:SoundPlay",
     ("teleop_twist_joy", "teleop_node"): "trundle.nodes.teleop_twist_joy:TeleopTwistJoy",
     ("teleop_twist_keyboard", "teleop_twist_keyboard.py"): "trundle.nodes.teleop_twist_keyboard:TeleopTwistKeyboard",
     ("tf", "static_transform_publisher"): "trundle.nodes.static_transform_publisher:TfStaticTransformPublisher",
@@ -113,6 +117,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("turtlesim", "turtle_teleop_key"): "trundle.nodes.turtlesim:TurtleTeleopKey",
     ("turtlesim", "turtlesim_node"): "trundle.nodes.turtlesim:TurtleSim",
     ("twist_mux", "twist_mux"): "trundle.nodes.twist_mux:TwistMux",
+    ("usb_cam", "usb_cam_node"): "trundle.nodes.camera_drivers:UsbCam",
     ("web_video_server", "web_video_server"): "trundle.nodes.web_video_server:WebVideoServer",
 }
 """(package, type) → "module:Class"."""

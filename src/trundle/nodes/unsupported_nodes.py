@@ -30,7 +30,6 @@ ALTERNATIVES: dict[str, str] = {
     "robot_localization": _NAVIGATION,
     "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "laser_scan_matcher": _NAVIGATION,
-    "usb_cam": _DRIVER,
     "uvc_camera": _DRIVER,
     "hokuyo_node": _DRIVER,
     "urg_node": _DRIVER,

@@ -12,12 +12,13 @@ _TOOLS = (
     "gazebo_ros_pkgs rosbag roscpp roslaunch roslib rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostopic"
 )
 _NODES = """
-    arbotix_controllers arbotix_python controller_manager depthimage_to_laserscan dynamic_reconfigure image_view
-    joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan robot_localization
-    robot_pose_publisher robot_state_publisher rosapi rosbridge_server rqt_bag rqt_console rqt_graph rqt_gui
-    rqt_image_view rqt_joint_trajectory_controller rqt_plot rqt_publisher rqt_reconfigure rqt_robot_monitor
-    rqt_robot_steering rqt_service_caller rqt_tf_tree rqt_topic rviz teleop_twist_joy teleop_twist_keyboard tf tf2_ros
-    tf2_tools tf2_web_republisher topic_tools turtlebot3_teleop turtlebot_teleop turtlesim twist_mux web_video_server
+    arbotix_controllers arbotix_python controller_manager cv_camera depthimage_to_laserscan dynamic_reconfigure
+    gscam image_view joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan
+    robot_localization robot_pose_publisher robot_state_publisher rosapi rosbridge_server rqt_bag rqt_console
+    rqt_graph rqt_gui rqt_image_view rqt_joint_trajectory_controller rqt_plot rqt_publisher rqt_reconfigure
+    rqt_robot_monitor rqt_robot_steering rqt_service_caller rqt_tf_tree rqt_topic rviz sound_play teleop_twist_joy
+    teleop_twist_keyboard tf tf2_ros tf2_tools tf2_web_republisher topic_tools turtlebot3_teleop turtlebot_teleop
+    turtlesim twist_mux usb_cam web_video_server
 """
 _PLUGINS = """
     gazebo_grasp_plugin gazebo_plugins gazebo_ros_control gazebo_ros_link_attacher hector_gazebo_plugins

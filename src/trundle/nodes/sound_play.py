@@ -1,0 +1,126 @@
+"""sound_play/soundplay_node.py: speaks and plays files by the machine's own programs."""
+
+import asyncio
+import os
+import shutil
+import subprocess
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from trundle.ros import ActionOutcome, ActionServer, Node
+
+from .host import NodeHost
+
+_FILE, _SAY, _ALL = -2, -3, -1
+_STOP, _START = 0, 2
+_SOUNDS = {1: "backing up", 2: "needs unplugging", 3: "needs plugging", 4: "needs unplugging!", 5: "needs plugging!"}
+_SPEAKERS = (
+    ("espeak-ng", "--stdin", "-a", "{volume200}"),
+    ("espeak", "--stdin", "-a", "{volume200}"),
+    ("say", "-f", "-"),
+)
+"""Programs that speak their standard input."""
+_PLAYERS = (
+    ("paplay", "--volume={volume65536}", "{file}"),
+    ("pw-play", "{file}"),
+    ("afplay", "-v", "{volume}", "{file}"),
+    ("ffplay", "-nodisp", "-autoexit", "-loglevel", "error", "{file}"),
+    ("aplay", "-q", "{file}"),
+)
+_MAX_TEXT = 10_000
+
+
+@dataclass(frozen=True, slots=True)
+class _Sound:
+    """Program that plays a request."""
+
+    words: tuple[str, ...]
+    text: str
+    """Standard input of the program."""
+    repeats: bool
+
+
+class SoundPlay:
+    """Plays `robotsound` and the action `sound_play` (sound_play/SoundRequest), the newest request at a time.
+
+    Texts are spoken by espeak or macOS' say, files played by paplay, pw-play, afplay, ffplay or aplay; where there is
+    none, the text is printed. The original's five sounds are spoken.
+    """
+
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
+        del arguments
+        self._node = node
+        self._path = {**os.environ, **host.env}.get("PATH", os.defpath)
+        self._playing: asyncio.Task[None] | None = None
+
+    async def run(self) -> int:
+        """Play until cancelled."""
+        node = self._node
+        node.subscribe("robotsound", "sound_play/SoundRequest", self._begin, queue_size=10)
+        ActionServer(node, "sound_play", "sound_play/SoundRequest", self._on_goal)
+        try:
+            await node.closed.wait()
+        finally:
+            if self._playing is not None:
+                self._playing.cancel()
+                await asyncio.wait([self._playing])
+        return 0
+
+    def _begin(self, request: Any) -> "asyncio.Task[None]":
+        """End what is played, and play a request."""
+        if self._playing is not None:
+            self._playing.cancel()
+        self._playing = asyncio.get_running_loop().create_task(self._play(request))
+        return self._playing
+
+    async def _on_goal(self, goal: Any, accept: Callable[[], None]) -> ActionOutcome:
+        accept()
+        playing = self._begin(goal.sound_request)
+        await asyncio.wait([playing])
+        result = {"playing": False, "stamp": self._node.clock.now_ns()}
+        return ActionOutcome(status="preempted" if playing.cancelled() else "succeeded", result=result)
+
+    async def _play(self, request: Any) -> None:
+        if request.command == _STOP or request.sound == _ALL:
+            return
+        sound = self._sound(request)
+        while sound is not None and await self._run(sound) and sound.repeats:
+            pass
+
+    def _sound(self, request: Any) -> _Sound | None:
+        """Find the program for a request; None, with a line, where there is none."""
+        volume = min(max(float(request.volume), 0.0), 1.0) if request.volume > 0.0 else 1.0
+        is_file = request.sound == _FILE
+        text = str(request.arg)[:_MAX_TEXT] if request.sound == _SAY else _SOUNDS.get(request.sound, "")
+        path = Path(str(request.arg)).expanduser().absolute()
+        if is_file and not path.is_file():
+            self._node.log.error(f"there is no sound {path}")
+            return None
+        values = {"file": str(path), "volume": f"{volume:g}"}
+        values |= {"volume200": str(round(100 * volume)), "volume65536": str(round(65536 * volume))}
+        for program, *words in _PLAYERS if is_file else _SPEAKERS:
+            if (found := shutil.which(program, path=self._path)) is not None:
+                return _Sound(
+                    (found, *(word.format_map(values) for word in words)), text, repeats=request.command == _START
+                )
+        what = f"plays {path}" if is_file else f"says: {text}"
+        missing = ", ".join(program for program, *_ in (_PLAYERS if is_file else _SPEAKERS))
+        self._node.log.info(f"{what} (without a sound: none of {missing} is installed)")
+        return None
+
+    async def _run(self, sound: _Sound) -> bool:
+        """Play to the end; False if it failed."""
+        process = await asyncio.create_subprocess_exec(
+            *sound.words, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+        )
+        try:
+            _, errors = await process.communicate(sound.text.encode())
+        finally:
+            if process.returncode is None:
+                process.terminate()
+                await process.communicate()  # closes its pipes
+        if process.returncode:
+            self._node.log.error(f"{sound.words[0]}: {errors.decode(errors='replace').strip() or process.returncode}")
+        return process.returncode == 0
