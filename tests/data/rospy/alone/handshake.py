@@ -16,3 +16,6 @@ print(
 )
 print(rosgraph.rosenv.get_master_uri({}, []), rosgraph.rosenv.get_master_uri({"ROS_MASTER_URI": "u"}, []))
 print(rosgraph.rosenv.get_master_uri({}, ["__master:=v"]), rosgraph.myargv(["a", "b:=c"]))
+print(said(rosgraph.rosenv.get_master_uri, {}, ["__master:=v:=w"]).partition(":")[0])
+print(network.encode_ros_handshake_header({"c": b"d", b"a": "b"}))
+print(network.decode_ros_handshake_header(b"\x09\x00\x00\x00\x05\x00\x00\x00 a = "))

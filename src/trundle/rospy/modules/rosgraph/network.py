@@ -86,7 +86,7 @@ def create_local_xmlrpc_uri(port: int) -> str:
 
 
 def decode_ros_handshake_header(header_str: bytes) -> dict[str, str]:
-    """Decode a header, its length first.
+    """Decode a header, its length first; spaces around names are dropped.
 
     Raises:
         ROSHandshakeException: it is invalid.
@@ -95,14 +95,19 @@ def decode_ros_handshake_header(header_str: bytes) -> dict[str, str]:
     if size > len(header_str) - 4:
         raise ROSHandshakeException(f"Incomplete header. Expected {size} bytes but only have {len(header_str) - 4}")
     try:
-        return decode_header(header_str[4 : 4 + size])
+        return {name.strip(): value for name, value in decode_header(header_str[4 : 4 + size]).items()}
     except WireError as error:
         raise ROSHandshakeException(str(error)) from None
 
 
-def encode_ros_handshake_header(header: Mapping[str, Any]) -> bytes:
-    """Encode a header, its length first."""
-    return encode_header({name: str(value) for name, value in header.items()})
+def encode_ros_handshake_header(header: Mapping[Any, Any]) -> bytes:
+    """Encode a header, its length first; its fields are in the order of their names."""
+    fields = {_as_text(name): _as_text(value) for name, value in header.items()}
+    return encode_header(dict(sorted(fields.items())))
+
+
+def _as_text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def read_ros_handshake_header(sock: socket.socket, b: BytesIO, buff_size: int) -> dict[str, str]:

@@ -17,12 +17,12 @@ def get_master_uri(env: Mapping[str, str] | None = None, argv: Sequence[str] | N
     """URI of the master: `__master:=` on the command line, else ROS_MASTER_URI.
 
     Raises:
-        ValueError: `__master` has no value.
+        ValueError: `__master` has no value, or two.
     """
     for argument in sys.argv if argv is None else argv:
         if argument.startswith("__master:="):
             value = argument.removeprefix("__master:=")
-            if not value:
-                raise ValueError("__master remapping argument improperly specified")
+            if not value or ":=" in value:
+                raise ValueError(f"__master remapping argument '{argument}' improperly specified")
             return value
     return (os.environ if env is None else env).get(ROS_MASTER_URI) or DEFAULT_MASTER_URI

@@ -1,12 +1,14 @@
 """Messages whose arrays of numbers are numpy arrays."""
 
+from functools import cache
 from typing import Any
 
 import numpy
 
 
+@cache
 def numpy_msg(msg_type: Any) -> Any:
-    """Class of a message type with numpy arrays."""
+    """Class of a message type with numpy arrays; always the same one for a type."""
 
     def serialize(self: Any, buff: Any) -> Any:
         return self.serialize_numpy(buff, numpy)
