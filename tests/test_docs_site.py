@@ -13,7 +13,10 @@ from urllib.parse import unquote, urlsplit
 import pytest
 from tests.docs_blocks import ROOT
 
-pytestmark = pytest.mark.skipif(not (ROOT / "mkdocs.yml").is_file(), reason="the site is not part of the sdist")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not (ROOT / "mkdocs.yml").is_file(), reason="the site is not part of the sdist"),
+]
 _LOADED = re.compile(
     r"<(?:script|img|video|source|iframe|embed|audio)\b[^>]*?\ssrc=[\"']?([^\"'\s>]+)"
     r"|<link\b(?=[^>]*?rel=[\"']?(?:stylesheet|icon|preload|preconnect|prefetch|manifest))[^>]*?\shref=[\"']?([^\"'\s>]+)"
@@ -58,7 +61,6 @@ def test_its_references_name_what_there_is(site: Path) -> None:
     assert 'id="trundle.simulation.Simulation.run"' in page("python")
 
 
-@pytest.mark.slow
 @pytest.mark.browser
 def test_the_site_loads_nothing_from_other_hosts(site: Path, chromium: Any) -> None:
     handler = partial(http.server.SimpleHTTPRequestHandler, directory=str(site))
