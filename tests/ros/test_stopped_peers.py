@@ -9,8 +9,9 @@ import time
 from collections.abc import Generator
 from contextlib import contextmanager
 
+import psutil
 import pytest
-from tests.graphs import PATIENCE_S
+from tests.graphs import PATIENCE_S, until
 
 from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, Node, ServiceError
 
@@ -120,6 +121,7 @@ def test_a_node_that_ends_fails_the_call_at_once() -> None:
         node = Node("n", loop=loop, master_uri=core.uri)
         with _process(_PEER, core.uri) as (process, _):
             process.send_signal(signal.SIGSTOP)
+            until(lambda: psutil.Process(process.pid).status() == psutil.STATUS_STOPPED)
             threading.Timer(0.5, process.kill).start()
             with pytest.raises(ServiceError):
                 loop.run(node.call_service("/theirs", "std_srvs/Trigger"), PATIENCE_S)

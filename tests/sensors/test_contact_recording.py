@@ -120,9 +120,9 @@ def test_no_step_is_python_s(load: Callable[[], Simulation], monkeypatch: pytest
     strides: list[int] = []
     step = Engine.step
 
-    def count(engine: Engine, number: int, *rest: object) -> None:
+    def count(engine: Engine, number: int, *rest: object) -> int:
         strides.append(number)
-        step(engine, number, *rest)  # pyright: ignore[reportArgumentType]
+        return step(engine, number, *rest)  # pyright: ignore[reportArgumentType]
 
     monkeypatch.setattr(Engine, "step", count)
     silent, sim = load(), load()

@@ -4,14 +4,15 @@
 library, since it runs without Trundle's modules.
 """
 
-import fcntl
 import os
 import signal
 import sys
-import termios
 
 
 def _main(words: list[str]) -> None:
+    import fcntl
+    import termios
+
     fcntl.ioctl(0, termios.TIOCSCTTY, 0)
     for number in (signal.SIGPIPE, signal.SIGXFSZ):  # which Python ignores
         signal.signal(number, signal.SIG_DFL)

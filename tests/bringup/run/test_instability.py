@@ -1,5 +1,6 @@
 """Messages and exit codes when the physics becomes unstable."""
 
+import json
 import math
 import os
 import signal
@@ -37,7 +38,8 @@ def test_without_a_page_the_command_ends_and_says_what_ran_away(
 ) -> None:
     assert main(["run", str(world), *QUIET, "--json"]) == 1
     out, err = capsys.readouterr()
-    assert out == ""
+    (error,) = json.loads(out)["diagnostics"]
+    assert "the physics became unstable after 0.000 s" in error["message"]
     assert "the physics became unstable after 0.000 s: 'ball::l' diverged" in err
     assert "Traceback" not in err
 

@@ -145,9 +145,9 @@ def test_wheels_slip_without_python_at_each_step(tmp_path: Path, monkeypatch: py
     strides: list[int] = []
     step = Engine.step
 
-    def counted(engine: Engine, count: int, *recorders: Any) -> None:
+    def counted(engine: Engine, count: int, *recorders: Any) -> int:
         strides.append(count)
-        step(engine, count, *recorders)
+        return step(engine, count, *recorders)
 
     monkeypatch.setattr(Engine, "step", counted)
     sim.run(1.0)

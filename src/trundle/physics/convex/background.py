@@ -31,10 +31,12 @@ class BackgroundCutting:
         self._is_closed = False
         self.failed: set[str] = set()
         """Keys of the parts that could not be cut."""
+        self._store: Callable[[ConcavePart, ConvexPieces], object] | None = None
 
-    def cut(self, parts: "Sequence[ConcavePart]") -> None:
-        """Cut parts, besides those that are being cut."""
+    def cut(self, parts: "Sequence[ConcavePart]", store: "Callable[[ConcavePart, ConvexPieces], object]") -> None:
+        """Cut parts, besides those that are being cut, and store their pieces."""
         with self._lock:
+            self._store = store
             self._waiting += [part for part in parts if part.key not in self._asked]
             self._asked.update(part.key for part in parts)
             if self._waiting and not self._is_running:
@@ -67,11 +69,9 @@ class BackgroundCutting:
             return parts
 
     def _keep(self, part: "ConcavePart", pieces: "ConvexPieces | None") -> None:
-        from .mesh_decomposition import store_pieces
-
         if pieces is None:
             self.failed.add(part.key)
-        else:
-            store_pieces(part, pieces)
+        elif self._store is not None:
+            self._store(part, pieces)
         with self._lock:
             self._asked.discard(part.key)

@@ -104,7 +104,7 @@ class WorldDecomposition:
         """Use hulls until the parts are cut."""
         for key, part in todo.items():
             (self._failed if key in background.failed else self._stand_ins)[key] = hull_of_part(part)
-        background.cut([part for key, part in todo.items() if key in self._stand_ins])
+        background.cut([part for key, part in todo.items() if key in self._stand_ins], store_pieces)
 
     def _has(self, part: ConcavePart) -> bool:
         return part.key in self._failed or part.key in self._stand_ins or self._find(part) is not None
