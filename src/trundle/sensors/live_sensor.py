@@ -49,10 +49,7 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
 
 
 class LiveSensor(Generic[Reading]):
-    """Hook that measures when it is due and a listener is active; otherwise it costs nothing.
-
-    So does a sensor that is always on, unless its readings depend on those before; Gazebo's measures in any case.
-    """
+    """Hook that measures when it is due and a listener is active; otherwise it costs nothing."""
 
     has_history: ClassVar[bool] = False
     """A reading depends on what was before it, and so on measuring all the time."""
@@ -135,9 +132,9 @@ class LiveSensor(Generic[Reading]):
             self._listeners.append(_Listener(call, enabled))
 
     def enabled(self) -> bool:
-        """True if a listener is active, or the sensor is always on and its readings depend on those before."""
-        is_needed = self.has_history and self.sensor.always_on
-        return (is_needed or any(listener.enabled() for listener in self._listeners)) and self._link_exists
+        """True if the sensor is always on or a listener is active."""
+        asked = self.sensor.always_on or any(listener.enabled() for listener in self._listeners)
+        return asked and self._link_exists
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Measure and pass the reading to the listeners."""

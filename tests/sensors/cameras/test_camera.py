@@ -69,11 +69,6 @@ def mounted(*sensors_: Sensor) -> tuple[Simulation, list[CameraSensor], Counting
     return sim, cameras, renderer
 
 
-def watch(*cameras: CameraSensor) -> None:
-    for each in cameras:
-        each.listen(lambda _: None)
-
-
 def test_the_front_door_exports_in_order() -> None:
     assert sensors.__all__ == sorted(sensors.__all__)
     assert all(hasattr(sensors, name) for name in sensors.__all__)
@@ -95,14 +90,10 @@ def test_a_camera_nobody_looks_at_costs_nothing() -> None:
     assert strides == [1000]
 
 
-def test_a_camera_that_is_always_on_draws_only_for_listeners_on_the_same_schedule() -> None:
-    sim, (eye,), renderer = mounted(camera(update_rate_hz=10.0, always_on=True))
-    sim.run(0.55)
-    assert (eye.image_count, renderer.updates) == (0, [])
-    taken: list[int] = []
-    eye.listen(lambda reading: taken.append(reading.time_ns // MS))
-    sim.run(0.25)
-    assert taken == [600, 700, 800]
+def test_a_camera_that_is_always_on_takes_pictures_for_nobody() -> None:
+    sim, (eye,), _ = mounted(camera(always_on=True))
+    sim.run(1.0)
+    assert eye.image_count == 30
 
 
 def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_instant() -> None:
@@ -134,8 +125,7 @@ def test_cameras_that_are_due_together_are_drawn_by_one_call_and_told_of_in_thei
 def test_large_pictures_are_not_all_kept_at_once() -> None:
     """Three of two million pixels each: a call draws two."""
     large = replace(OPTICS, width_px=2048, height_px=1024)
-    sim, cameras, renderer = mounted(*(camera(name, cameras=(large,)) for name in "abc"))
-    watch(*cameras)
+    sim, _, renderer = mounted(*(camera(name, cameras=(large,), always_on=True) for name in "abc"))
     sim.run(0.04)
     assert renderer.calls == [2, 1]
     assert len(renderer.updates) == 1
@@ -144,8 +134,7 @@ def test_large_pictures_are_not_all_kept_at_once() -> None:
 def test_sizes_are_drawn_apart() -> None:
     wide = replace(OPTICS, width_px=9)
     kinds = {"a": OPTICS, "b": wide, "c": OPTICS}
-    sim, cameras, renderer = mounted(*(camera(name, cameras=(each,)) for name, each in kinds.items()))
-    watch(*cameras)
+    sim, _, renderer = mounted(*(camera(name, cameras=(each,), always_on=True) for name, each in kinds.items()))
     sim.run(0.04)
     assert renderer.calls == [2, 1]
 
@@ -161,8 +150,7 @@ def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
 
 
 def test_a_rate_of_zero_is_thirty() -> None:
-    sim, (eye,), _ = mounted(camera(update_rate_hz=0.0))
-    watch(eye)
+    sim, (eye,), _ = mounted(camera(update_rate_hz=0.0, always_on=True))
     sim.run(1.0)
     assert eye.image_count == 30
 
@@ -195,8 +183,9 @@ def test_only_who_wants_a_picture_gets_it_and_it_is_taken_once() -> None:
 def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
     tilted = Pose.from_rpy(0.1, 0.0, 0.05, 0.0, 0.3, 0.0)
     optics = replace(OPTICS, sensor_from_camera=Pose((0.0, 0.02, 0.0)))
-    sim, (eye,), renderer = mounted(camera(link_from_sensor=tilted, cameras=(optics,), update_rate_hz=10.0))
-    watch(eye)
+    sim, (eye,), renderer = mounted(
+        camera(link_from_sensor=tilted, cameras=(optics,), update_rate_hz=10.0, always_on=True)
+    )
     sim.run(0.1)
     ((view, intrinsics),) = renderer.views
     expected = sim["m"].link("head").pose @ tilted @ Pose((0.0, 0.02, 0.0))
@@ -210,10 +199,8 @@ def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
 
 def test_taking_pictures_does_not_change_the_world() -> None:
     ends = []
-    for is_watched in (False, True):
-        sim, cameras, _ = mounted(camera())
-        if is_watched:
-            watch(*cameras)
+    for on in (False, True):
+        sim, _, _ = mounted(camera(always_on=on))
         sim.run(1.0)
         ends.append(sim.snapshot())
     assert ends[0].poses.tobytes() == ends[1].poses.tobytes()

@@ -58,7 +58,7 @@ class Joint:
             name: of the sensor.
             settings: axes, direction and noise.
             update_rate: [Hz]; 0: at every step.
-            always_on: no effect here; written to the file.
+            always_on: measure even without listeners.
             topic: to publish on; empty: Gazebo's name.
 
         Raises:
