@@ -45,8 +45,8 @@ def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
     assert session == {
         "title": "test", "kind": "simulation", "version": trundle.__version__, "robot": "cart", "rviz": None,
         "fixed_frame": None, "panels": [], "plots": [], "images": [], "drive_topic": None, "sliders": [],
-        "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {}, "terminals": [],
-        "view_only": False, "token": page.url.partition("?token=")[2],
+        "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
+        "terminals": [], "view_only": False, "token": page.url.partition("?token=")[2],
         "view_token": page.view_url.partition("?token=")[2],
     }  # fmt: skip
     page.set_session(Session(title="other", kind="graph"))
