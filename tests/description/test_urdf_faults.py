@@ -121,11 +121,11 @@ def test_shapes_of_the_world_link_are_left_out_with_a_warning(tmp_path: Path) ->
 
 def test_missing_meshes_of_links_without_mass_are_named(tmp_path: Path) -> None:
     report = Diagnostics()
-    mesh = '<geometry><mesh filename="package://nobody/arm.dae"/></geometry>'
+    mesh = '<geometry><mesh filename="package://absent/arm.dae"/></geometry>'
     text = f'<robot name="r"><link name="base"><visual>{mesh}</visual></link></robot>'
 
     assert robot(tmp_path, text, report).links == ()
-    assert any("package://nobody/arm.dae: no package 'nobody'" in warning for warning in report.warnings)
+    assert any("package://absent/arm.dae: no package 'absent'" in warning for warning in report.warnings)
 
 
 def test_ros2_control_is_named_as_ros_2_s(tmp_path: Path) -> None:

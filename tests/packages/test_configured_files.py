@@ -1,4 +1,4 @@
-"""Files that CMake's `configure_file` would write, in a package that nobody built."""
+"""Files that CMake's `configure_file` would write, in a package that was not built."""
 
 import os
 from pathlib import Path
