@@ -75,3 +75,13 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
             talking.stop()
             listening.stop()
             mastering.run(core.stop(), PATIENCE_S)
+
+
+def test_who_waits_for_a_registration_goes_on_when_the_node_shuts_down() -> None:
+    with GraphLoop() as loop:
+        node = Node("alone", loop=loop, master_uri="http://127.0.0.1:1/", rosout=False)
+        node.advertise("/a", STRING)
+        waiting = loop.spawn(node.wait_registered())
+        loop.run(node.shutdown())
+        waiting.result(PATIENCE_S)
+        loop.run(node.wait_registered(), PATIENCE_S)

@@ -42,7 +42,7 @@ class RegistrationQueue:
         self._worker.add_done_callback(self._worker_ended)
 
     async def wait_done(self) -> None:
-        """Wait until all calls added so far are done.
+        """Wait until all calls added so far are done, or the node shuts down.
 
         Raises:
             RosError: the node could not start.
@@ -50,8 +50,9 @@ class RegistrationQueue:
         """
         await self._is_started.wait()
         await asyncio.sleep(0)  # lets calls added by other threads enter the queue
-        assert self._worker is not None
-        if self._worker.done() and not self._worker.cancelled():
+        if self._worker is None or self._worker.cancelled():
+            return
+        if self._worker.done():
             self._worker.result()
         reached: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
@@ -63,11 +64,11 @@ class RegistrationQueue:
         await asyncio.wait((reached, self._worker), return_when=asyncio.FIRST_COMPLETED)
         if not reached.done() and not self._worker.cancelled():
             self._worker.result()
-        await reached
 
     async def close(self) -> None:
         """Drop the remaining calls."""
         self._has_ended = True
+        self._is_started.set()
         if self._worker is not None:
             self._worker.cancel()
             await asyncio.gather(self._worker, return_exceptions=True)
