@@ -1,4 +1,4 @@
-"""A window that is narrow, and no phone's: the whole bar is seen."""
+"""A window that is narrow, and no phone's: the whole bar is seen, and the dock's."""
 
 from typing import Any
 
@@ -20,4 +20,20 @@ def test_the_whole_bar_of_a_simulation_is_seen(chromium: Any, page: PageServer, 
     tab.get_by_role("banner").get_by_role("button", name="Record").wait_for()
 
     assert max(tab.evaluate(_ENDS)) <= width
+    tab.close()
+
+
+def test_a_narrow_dock_keeps_its_tabs_and_the_button_that_folds_it(chromium: Any, page: PageServer) -> None:
+    tab = chromium.new_page(viewport={"width": 720, "height": 900})
+    tab.goto(page.url)
+    tab.get_by_label("Connected").first.wait_for()
+    dock = tab.locator(".dock")
+    dock.get_by_role("tab", name="Plots").wait_for()
+    dock.get_by_role("button", name="Add curve").first.wait_for()
+
+    fold = dock.get_by_role("button", name="Collapse the dock").bounding_box()
+    edge = dock.bounding_box()
+    assert fold["x"] + fold["width"] <= edge["x"] + edge["width"]
+    plots = dock.get_by_role("tab", name="Plots").bounding_box()
+    assert plots["width"] > 40
     tab.close()
