@@ -4,6 +4,7 @@ import asyncio
 import os
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -112,15 +113,20 @@ class SoundPlay:
 
     async def _run(self, sound: _Sound) -> bool:
         """Play to the end; False if it failed."""
-        process = await asyncio.create_subprocess_exec(
-            *sound.words, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-        )
-        try:
-            _, errors = await process.communicate(sound.text.encode())
-        finally:
-            if process.returncode is None:
-                process.terminate()
-                await process.communicate()  # closes its pipes
-        if process.returncode:
-            self._node.log.error(f"{sound.words[0]}: {errors.decode(errors='replace').strip() or process.returncode}")
-        return process.returncode == 0
+        with tempfile.TemporaryFile() as text, tempfile.TemporaryFile() as errors:
+            text.write(sound.text.encode())
+            text.seek(0)
+            process = await asyncio.create_subprocess_exec(
+                *sound.words, stdin=text, stdout=subprocess.DEVNULL, stderr=errors
+            )
+            try:
+                code = await process.wait()
+            finally:
+                if process.returncode is None:
+                    process.terminate()
+                    await process.wait()
+            if code:
+                errors.seek(0)
+                line = errors.read(_MAX_TEXT).decode(errors="replace").strip()
+                self._node.log.error(f"{sound.words[0]}: {line or code}")
+        return code == 0
