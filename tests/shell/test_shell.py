@@ -113,6 +113,15 @@ def test_tutorials_copy_files_of_packages_from_opt_ros(run, shell_name: str, tmp
     assert "function" not in done.stdout.splitlines()[-1]
 
 
+def test_a_python_of_the_users_own_has_rospy_and_what_it_needs(shell, tmp_path: Path) -> None:
+    """A virtual environment that does not have Trundle, of the Python that Trundle runs on."""
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", "own"], cwd=tmp_path, check=True)
+
+    done = shell("own/bin/python -c 'import rospy, numpy; print(rospy.Time(2), numpy.__name__)'")
+
+    assert done.stdout == "2000000000 numpy\n", done.stderr
+
+
 @pytest.mark.parametrize("shell_name", ["bash", "zsh", "sh"])
 def test_activate_adds_the_commands_and_takes_them_away(run, shell_name: str, temporary: Path) -> None:
     if shutil.which(shell_name) is None:

@@ -22,7 +22,14 @@ def main(args: argparse.Namespace) -> int:
     if args.list:
         print("\n".join(sorted(ORIGINALS)))
         return 0
-    from trundle.rospy.environment import SITE
+    from trundle.rospy.environment import SITE, own_libraries
     from trundle.shell import run_shell
 
-    return run_shell(ORIGINALS, functions=FUNCTIONS, python_path=SITE, command=args.command, environment=os.environ)
+    return run_shell(
+        ORIGINALS,
+        functions=FUNCTIONS,
+        python_path=SITE,
+        libraries=own_libraries(),
+        command=args.command,
+        environment=os.environ,
+    )

@@ -15,6 +15,11 @@ RUN_PYTHON2 = Path(__file__).parent / "python2/run.py"
 """Script that translates and runs a Python 2 script."""
 
 
+def own_libraries() -> str:
+    """Return the value of `LIBRARIES` for this Python."""
+    return f"{sys.implementation.cache_tag}:{sysconfig.get_path('purelib')}"
+
+
 def with_finder(env: Mapping[str, str], package_folders: Iterable[Path] = ()) -> dict[str, str]:
     """Copy of an environment whose Python processes can import ROS' packages, and find the given ones.
 
@@ -23,8 +28,7 @@ def with_finder(env: Mapping[str, str], package_folders: Iterable[Path] = ()) ->
         package_folders: folders of ROS packages, for ROS_PACKAGE_PATH where it is not set.
     """
     path = [folder for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder and folder != str(SITE)]
-    libraries = f"{sys.implementation.cache_tag}:{sysconfig.get_path('purelib')}"
-    made = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path]), LIBRARIES: libraries}
+    made = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path]), LIBRARIES: own_libraries()}
     folders = os.pathsep.join(map(str, package_folders))
     if folders and not env.get("ROS_PACKAGE_PATH"):
         made["ROS_PACKAGE_PATH"] = folders

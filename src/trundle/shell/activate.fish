@@ -3,6 +3,7 @@
 set -gx TRUNDLE_SHELL @FOLDER@
 set -gx PATH $TRUNDLE_SHELL/bin $PATH
 set -gx --path PYTHONPATH @SITE@ $PYTHONPATH
+set -gx TRUNDLE_LIBRARIES @LIBRARIES@
 if not set -q ROS_DISTRO
     set -gx ROS_DISTRO noetic
     set -gx ROS_VERSION 1
@@ -42,6 +43,6 @@ function trundle_deactivate
     if set -q _trundle_distro
         set -e ROS_DISTRO ROS_VERSION _trundle_distro
     end
-    set -e TRUNDLE_SHELL
+    set -e TRUNDLE_SHELL TRUNDLE_LIBRARIES
     functions -e roscd cp trundle_deactivate
 end

@@ -3,7 +3,8 @@
 TRUNDLE_SHELL=@FOLDER@
 PATH="$TRUNDLE_SHELL/bin:$PATH"
 PYTHONPATH=@SITE@"${PYTHONPATH:+:$PYTHONPATH}" # ROS' Python packages, where none are installed
-export TRUNDLE_SHELL PATH PYTHONPATH
+TRUNDLE_LIBRARIES=@LIBRARIES@ # for other Pythons of the same version
+export TRUNDLE_SHELL PATH PYTHONPATH TRUNDLE_LIBRARIES
 if [ -z "${ROS_DISTRO+x}" ]; then
   ROS_DISTRO=noetic
   ROS_VERSION=1
@@ -72,7 +73,7 @@ trundle_deactivate() {
   if [ -n "${_trundle_distro-}" ]; then
     unset ROS_DISTRO ROS_VERSION
   fi
-  unset TRUNDLE_SHELL _trundle_prompt _trundle_distro _trundle_target
+  unset TRUNDLE_SHELL TRUNDLE_LIBRARIES _trundle_prompt _trundle_distro _trundle_target
   unset _trundle_word _trundle_inside _trundle_package _trundle_found
   unset -f roscd cp trundle_deactivate _trundle_without _trundle_shared
 }

@@ -14,13 +14,14 @@ from trundle.atomic_write import write_atomically
 _FISH = "fish"
 
 
-def write_activation(names: Iterable[str], *, functions: Iterable[str], python_path: Path) -> Path:
+def write_activation(names: Iterable[str], *, functions: Iterable[str], python_path: Path, libraries: str) -> Path:
     """Make a temporary folder with a command for each name, and the files that shells source.
 
     Args:
         names: commands that `trundle --as` runs.
         functions: those that the shell runs itself, as they change its folder.
         python_path: folder for PYTHONPATH, with ROS' Python packages.
+        libraries: value of TRUNDLE_LIBRARIES, for other Pythons of this version.
 
     Returns: the folder, which the caller removes, or the shell's function `trundle_deactivate`.
     """
@@ -37,6 +38,7 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
     values = {
         "@FOLDER@": shlex.quote(str(folder)),
         "@SITE@": shlex.quote(str(python_path)),
+        "@LIBRARIES@": shlex.quote(libraries),
         "@NAMES@": shlex.join([*completed, *functions]),
     }
     for name, shell in (("activate.sh", "bash"), ("activate.fish", _FISH)):

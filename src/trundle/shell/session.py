@@ -24,6 +24,7 @@ def run_shell(
     *,
     functions: Iterable[str],
     python_path: Path,
+    libraries: str,
     command: str | None,
     environment: Environment,
 ) -> int:
@@ -33,6 +34,7 @@ def run_shell(
         names: commands to provide.
         functions: those that the shell runs itself.
         python_path: folder for PYTHONPATH, with ROS' Python packages.
+        libraries: value of TRUNDLE_LIBRARIES, for other Pythons of this version.
         command: text to run; None: an interactive shell.
         environment: SHELL names the shell.
 
@@ -40,7 +42,7 @@ def run_shell(
         UsageError: there is no shell.
     """
     shell = find_shell(environment)
-    folder = write_activation(names, functions=functions, python_path=python_path)
+    folder = write_activation(names, functions=functions, python_path=python_path, libraries=libraries)
     try:
         words, variables = _start(shell, folder, command)
         with _ending_with_it() as start:
