@@ -28,6 +28,9 @@ foreach(template ${TEMPLATES})
 endforeach()
 configure_file(launch/fly.launch.in ${copter_SOURCE_DIR}/launch/fly.launch COPYONLY)
 configure_file(config.h.in config.h)
+configure_file(config/a.in ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/made/a.yaml)
+configure_file(config/a.in ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_SHARE_DESTINATION}/made/b.yaml)
+configure_file(config/a.in ${CATKIN_DEVEL_PREFIX}/lib/c.yaml)
 """
 
 
@@ -43,6 +46,7 @@ def package(tmp_path: Path) -> Path:
         "launch/fly.launch.in": "<launch><rosparam file='$(find copter)/config/gains.yaml'/>"
         "<param name='robot_description' command='$(find xacro)/xacro $(find copter)/urdf/copter.xacro'/></launch>",
         "config.h.in": "#cmakedefine A",
+        "config/a.in": "devel: @CATKIN_DEVEL_PREFIX@\n",
     }
     for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -53,13 +57,14 @@ def package(tmp_path: Path) -> Path:
 def test_templates_become_files_with_the_variables_of_cmakelists(package: Path) -> None:
     written = write_configured_files(package, replace=False)
 
-    names = ["urdf/copter.xacro", "config/gains.yaml", "launch/fly.launch"]
+    names = ["urdf/copter.xacro", "config/gains.yaml", "launch/fly.launch", "made/a.yaml", "made/b.yaml"]
     assert [str(path.relative_to(package)) for path in written] == names
     assert (package / "urdf/copter.xacro").read_text() == (
         "<robot name='copter' xmlns:xacro='http://ros.org/wiki/xacro'>\n<xacro:property name='x' value='1'/>\n"
         '<link name="base"/>\n<link name="camera"/>\n<link name=\'l${x}\'/></robot>\n'
     )
     assert (package / "config/gains.yaml").read_text() == "name: copter\np: \n"
+    assert (package / "made/b.yaml").read_text() == f"devel: {package.parents[1]}/devel\n"
 
 
 def test_a_launch_file_of_an_unbuilt_package_is_written_and_launched(

@@ -105,12 +105,16 @@ class _Reader:
         self.output_names: dict[str, str] = {}
         """Target → OUTPUT_NAME."""
         self._package = str(package)
+        self._devel = next((str(up.parent / "devel") for up in package.parents if up.name == "src"), "")
+        """Devel space of the workspace around it; "": there is none."""
         self._variables: dict[str, list[str]] = {
             "PROJECT_NAME": [package.name],
             "CMAKE_PROJECT_NAME": [package.name],
             "PROJECT_SOURCE_DIR": [self._package],
             f"{package.name}_SOURCE_DIR": [self._package],
             "CMAKE_SOURCE_DIR": [self._package],
+            "CATKIN_DEVEL_PREFIX": [self._devel],
+            "CATKIN_PACKAGE_SHARE_DESTINATION": [f"share/{package.name}"],
             "UNIX": ["1"],
             "WIN32": [""],
             "MSVC": [""],
@@ -191,6 +195,7 @@ class _Reader:
         match command.name, words:
             case "project", [name, *_]:
                 self._variables["PROJECT_NAME"] = [name]
+                self._variables["CATKIN_PACKAGE_SHARE_DESTINATION"] = [f"share/{name}"]
                 self._variables[f"{name}_SOURCE_DIR"] = [self._package]
             case "set", [name, *values]:
                 values = values[: values.index("CACHE")] if "CACHE" in values else values
@@ -237,6 +242,9 @@ class _Reader:
         return CMakeProgram(name=name, target=name, sources=sources, file=file, line=line)
 
     def _configure(self, template: Path, output: str, options: Sequence[str]) -> None:
+        shared = f"{self._devel}/{self._variables['CATKIN_PACKAGE_SHARE_DESTINATION'][0]}/"
+        if output.startswith(shared):
+            output = os.path.join(self._package, output.removeprefix(shared))  # roslaunch looks in both
         if not os.path.isabs(output) or len(self.configured) == _MAX_CONFIGURED:
             return  # in the build folder, or by a variable that is not known
         path = Path(output, template.name) if os.path.isdir(output) else Path(output)
