@@ -1,9 +1,11 @@
 """URDFs with a fault, read as urdfdom 3 and the conversion of libsdformat 9 read them."""
 
+import re
 from pathlib import Path
 
 import pytest
 
+from trundle.cli import main
 from trundle.description import load
 from trundle.diagnostics import DescriptionError, Diagnostics
 from trundle.model import Model
@@ -142,6 +144,25 @@ def test_a_file_of_macros_alone_is_a_part_to_include(tmp_path: Path) -> None:
     text = f'<robot xmlns:xacro="http://ros.org/wiki/xacro">{macro}</robot>'
     with pytest.raises(DescriptionError, match="no links; is it a part to include, or was a xacro macro never called"):
         robot(tmp_path, text, Diagnostics())
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("arm.urdf", '<robot><link name="arm"/></robot>'),
+        ("arm.gazebo", '<gazebo reference="arm"><mu1>1</mu1></gazebo>'),
+        ("arm.xacro", '<robot xmlns:xacro="http://ros.org/wiki/xacro" name="a"><link name="${prefix}arm"/></robot>'),
+    ],
+)
+def test_a_file_that_another_includes_is_a_part_to_include(
+    name: str, text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / name).write_text(text)
+
+    assert main(["check", str(tmp_path / name)]) == 1
+
+    printed = capsys.readouterr().out
+    assert re.search(rf"{name}:1: error: .*\ba part (of a URDF )?to include, not a robot", printed), printed
 
 
 def test_meshes_of_sdf_1_0_are_named_by_an_attribute(tmp_path: Path) -> None:

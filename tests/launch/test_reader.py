@@ -229,7 +229,10 @@ def test_a_path_after_find_is_resolved_in_the_package(written: str, meant: str, 
     [
         ('<param name="a" value="$(find nowhere)"/>', "no package 'nowhere'"),
         ('<param name="a" value="$(arg zzz)"/>', "no argument 'zzz'; none is declared so far"),
-        ('<arg name="a"/><param name="a" value="$(arg a)"/>', "the argument 'a' is required and was not given"),
+        (
+            '<arg name="a"/><param name="a" value="$(arg a)"/>',
+            "'a' is required and was not given; write a:=VALUE, or launch a file that includes this one",
+        ),
         ('<param name="a" value="$(env NO_SUCH)"/>', "the environment variable 'NO_SUCH' is not set"),
         ('<param name="a" value="x$(eval 1)"/>', "eval must be the whole attribute"),
         ('<param name="a" value="$(arg $(arg b))"/>', "substitutions cannot hold one another"),

@@ -135,6 +135,8 @@ def load_sdf(
     if root.tag == "launch":
         refuse_ros2(root)
         raise DescriptionError(root.at, "a launch file, not a robot or a world; `trundle launch` starts it")
+    if root.tag == "gazebo" and root.attribute("reference") is not None:
+        raise DescriptionError(root.at, "<gazebo reference=…> is a part of a URDF to include, not a robot")
     if root.tag not in ("sdf", "gazebo"):
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     version = read_version(root, report)

@@ -112,7 +112,8 @@ class Substitution:
         if name in scope.arguments:
             return scope.arguments[name]
         if name in scope.declared:
-            raise DescriptionError(at, f"the argument {name!r} is required and was not given; write {name}:=VALUE")
+            way_out = f"write {name}:=VALUE, or launch a file that includes this one with it"
+            raise DescriptionError(at, f"the argument {name!r} is required and was not given; {way_out}")
         declared = ", ".join(map(repr, sorted(scope.declared)))
         there_is = f"; declared so far: {declared}" if declared else "; none is declared so far"
         near = nearest(name, set(scope.arguments) - scope.declared)

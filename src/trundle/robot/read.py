@@ -31,7 +31,7 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
         what = "the robot has no links; is it a part to include, or was a xacro macro never called?"
         raise DescriptionError(root.at, what)
     if not name:
-        raise DescriptionError(root.at, "<robot> needs a name")
+        raise DescriptionError(root.at, "<robot> needs a name; is it a part to include, not a robot?")
     version = root.attribute("version")
     if version is not None and version != "1.0":
         report.warn(root.at, f"version {version!r}: urdfdom 3 refuses any but 1.0; it is read as that")

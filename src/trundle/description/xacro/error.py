@@ -4,6 +4,7 @@ import contextlib
 import html
 import re
 from collections.abc import Iterable
+from pathlib import Path
 
 from trundle.diagnostics import DescriptionError, Source
 from trundle.files import read_text
@@ -13,6 +14,7 @@ from .missing_packages import missing_package
 _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
 """Pattern of an error in $(…): the class and the message twice."""
 _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'\Z", re.DOTALL)
+_UNDEFINED = re.compile(r"name '\w+' is not defined\b")
 _LONGEST = 400
 """Longest error message: it quotes the expression and all that contain it."""
 _LONGEST_NAME = 200
@@ -21,12 +23,13 @@ _MAX_BYTES = 4_000_000
 """Largest file searched for the line of an error."""
 
 
-def description_error(error: Exception, at: Source, files: Iterable[str]) -> DescriptionError:
+def description_error(error: Exception, at: Source, top: Path, files: Iterable[str]) -> DescriptionError:
     """Return the error with its position in a file.
 
     Args:
         error: raised by the package; may wrap others.
         at: the element that was expanded.
+        top: the file that was expanded.
         files: every file read, one of which contains the expression.
     """
     inner: object = error
@@ -43,8 +46,10 @@ def description_error(error: Exception, at: Source, files: Iterable[str]) -> Des
     what = what or re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
     what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
     place = None if expression is None else _find_place(f"${{{expression}}}", {at.file, *files})
-    missing = missing_package(error)
-    return DescriptionError(place or at, what, missing_packages=() if missing is None else (missing.name,))
+    missing, place = missing_package(error), place or at
+    if _UNDEFINED.match(what) and place.file == str(top):
+        what = f"{what}; is the file a part to include, not a robot? what includes it defines the name"
+    return DescriptionError(place, what, missing_packages=() if missing is None else (missing.name,))
 
 
 def _why_unreadable(error: OSError) -> str:

@@ -147,7 +147,7 @@ def expand_xacro(
         except RecursionError:
             raise DescriptionError(cursor.at, "infinite recursion of elements, macros or properties") from None
         except Exception as error:  # xacro evaluates the file's own Python, which may raise anything
-            raise description_error(error, cursor.at, map(str, xacro.all_includes)) from None
+            raise description_error(error, cursor.at, path, map(str, xacro.all_includes)) from None
 
 
 class _Arguments(dict[str, str]):
