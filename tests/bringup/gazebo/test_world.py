@@ -127,6 +127,19 @@ def test_joints_are_told_of_and_put_into_position(gazebo: Gazebo) -> None:
     assert bad.status_message == "SetModelConfiguration: 1 joints, but 0 positions"
 
 
+def test_positions_of_joints_that_a_model_lacks_are_ignored(gazebo: Gazebo) -> None:
+    """As Gazebo does: a launch file sets the joints of an arm that the robot has only with another argument."""
+    assert gazebo.spawn(_ARM, "arm").success
+    fields = {"model_name": "arm", "joint_names": ["arm::none", "turn"], "joint_positions": [2.0, 0.5]}
+
+    answer = gazebo.call("set_model_configuration", "gazebo_msgs/SetModelConfiguration", **fields)
+
+    assert answer.success
+    assert answer.status_message == "SetModelConfiguration: success; model 'arm' has no joint 'none'"
+    joint = gazebo.call("get_joint_properties", "gazebo_msgs/GetJointProperties", joint_name="turn")
+    assert list(joint.position) == [0.5]
+
+
 def test_states_are_published_while_somebody_listens(gazebo: Gazebo) -> None:
     heard: list[Message] = []
     gazebo.spawn(_BALL, "ball")

@@ -65,18 +65,18 @@ class SpawnModel:
         _check(answer)
         node.log.info(f"Spawn status: {answer.status_message}")
         if request.joints:
-            _check(
-                await node.call_service(
-                    f"{gazebo}/set_model_configuration",
-                    "gazebo_msgs/SetModelConfiguration",
-                    {
-                        "model_name": texts["-model"],
-                        "urdf_param_name": texts.get("-param", ""),
-                        "joint_names": list(request.joints),
-                        "joint_positions": list(request.joints.values()),
-                    },
-                )
+            answer = await node.call_service(
+                f"{gazebo}/set_model_configuration",
+                "gazebo_msgs/SetModelConfiguration",
+                {
+                    "model_name": texts["-model"],
+                    "urdf_param_name": texts.get("-param", ""),
+                    "joint_names": list(request.joints),
+                    "joint_positions": list(request.joints.values()),
+                },
             )
+            _check(answer)
+            node.log.info(answer.status_message)
         if "-unpause" in request.flags:
             await node.call_service(f"{gazebo}/unpause_physics", "std_srvs/Empty")
 

@@ -14,6 +14,8 @@ from .messages import advertise_status_service, pose_fields, read_pose, read_twi
 if TYPE_CHECKING:
     from trundle.ros.message_types import gazebo_msgs
 
+_CONFIGURED = "SetModelConfiguration: success"
+
 
 def advertise_state_services(node: Node, simulator: Simulator) -> None:
     """Advertise the services of model and link states, and subscribe ~set_model_state and ~set_link_state."""
@@ -23,9 +25,10 @@ def advertise_state_services(node: Node, simulator: Simulator) -> None:
         ("get_link_state", "GetLinkState", states.get_link_state, "got state"),
         ("set_model_state", "SetModelState", states.set_model_state, "set model state done"),
         ("set_link_state", "SetLinkState", states.set_link_state, "success"),
-        ("set_model_configuration", "SetModelConfiguration", states.set_model_configuration, "success"),
     ):
         advertise_status_service(node, name, kind, work, f"{kind}: {done}")
+    work = states.set_model_configuration
+    advertise_status_service(node, "set_model_configuration", "SetModelConfiguration", work, _CONFIGURED)
     for name, kind, work in (
         ("set_model_state", "ModelState", states.on_model_state),
         ("set_link_state", "LinkState", states.on_link_state),
@@ -96,11 +99,13 @@ class _StateServices:
             name.rpartition("::")[2]: float(p)
             for name, p in zip(request.joint_names, request.joint_positions, strict=True)
         }
-        handles = {name: model.joint(name) for name in joints}
-        for name, position in joints.items():
-            handles[name].set_position(position)
-            handles[name].set_velocity(0.0)
-        return {}
+        known = {joint.name for joint in model.joints}
+        for name in joints.keys() & known:
+            model.joint(name).set_position(joints[name])
+            model.joint(name).set_velocity(0.0)
+        absent = ", ".join(repr(name) for name in joints if name not in known)
+        note = f"{_CONFIGURED}; model {request.model_name!r} has no joint {absent}"  # which Gazebo ignores
+        return {"status_message": note} if absent else {}
 
 
 def _turned(frame: Pose, twist: Twist) -> Twist:
