@@ -91,6 +91,11 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
     assert find_node("p", "y", lambda _: tmp_path, env={}) == MissingNode(
         f"no executable 'y' in {tmp_path}, and no stand-in for p/y"
     )
+    for name in "gfedcba":
+        program(tmp_path / name, 0o755)
+    found = find_node("p", "y", lambda _: tmp_path, env={})
+    assert isinstance(found, MissingNode)
+    assert found.why.endswith("no stand-in for p/y; its programs: a, b, c, d, e and 2 more")
 
 
 def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(

@@ -225,7 +225,7 @@ def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     *table, nodelet = done.stdout[done.stdout.index("WHAT RUNS") :].splitlines()[1:5]
     assert table == [
         f"  process   /a  {package}/talk",
-        f"  missing   /b  no executable 'gone' in {package}, and no stand-in for p/gone",
+        f"  missing   /b  no executable 'gone' in {package}, and no stand-in for p/gone; its programs: talk",
         "  stand-in  /c  tf2_ros/static_transform_publisher",
     ]
     assert nodelet.startswith("  missing   /d  nodelet image_proc/rectify: compiled code without a stand-in")

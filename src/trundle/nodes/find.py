@@ -18,6 +18,7 @@ from .unsupported_nodes import ALTERNATIVES, OVER_THE_WIRE
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
 _SOURCES_NAMED = 2
+_PROGRAMS_NAMED = 5
 BuiltinNodeClass: TypeAlias = Callable[[Node, list[str], NodeHost], BuiltinNode]
 FindPackage: TypeAlias = Callable[[str], Path | None]
 
@@ -106,7 +107,8 @@ def find_node(
     if folder is not None:
         why = faults[0] if faults else f"no executable {type_name!r} in {folder}"
         why = f"{why}, and no stand-in for {package}/{type_name}"
-        return MissingNode(f"{why}{_to_compile(folder, package, type_name, env, words)}{way_out}")
+        hint = _to_compile(folder, package, type_name, env, words) or _programs_there(package, folder, env)
+        return MissingNode(f"{why}{hint}{way_out}")
     known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
     return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
@@ -127,6 +129,13 @@ def _to_compile(folder: Path, package: str, name: str, env: Mapping[str, str], w
     where = f"{program.file}:{program.line}"
     built = f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
     return f"{built}, here or in a container: {line}"
+
+
+def _programs_there(package: str, folder: Path, env: Mapping[str, str]) -> str:
+    """Hint to append for a program that is neither in a package nor built by it."""
+    names = sorted(program_names(package, folder, env=env))
+    more = f" and {len(names) - _PROGRAMS_NAMED} more" if len(names) > _PROGRAMS_NAMED else ""
+    return f"; its programs: {', '.join(names[:_PROGRAMS_NAMED])}{more}" if names else ""
 
 
 def missing_nodelet(name: str, find_package: FindPackage, env: Mapping[str, str]) -> str:
