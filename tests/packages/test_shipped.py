@@ -65,6 +65,23 @@ def test_stand_ins_have_the_size_of_the_originals() -> None:
     assert math.isclose(model.links[0].collisions[0].link_from_collision.position[2], 0.885)
 
 
+def test_turtlebot3_drives_between_nine_pillars_in_a_hexagon() -> None:
+    """Figures measured on the original's meshes; a world saved by Gazebo names them."""
+    (model,) = load("model://turtlebot3_world", Diagnostics(), packages=PACKAGES).world.models
+    shapes = [(each.link_from_collision.position, each.geometry) for each in model.links[0].collisions]
+
+    pillars = {(x, y) for (x, y, _), shape in shapes if shape == Cylinder(0.15, 0.5)}
+    assert pillars == {(x, y) for x in (-1.1, 0.0, 1.1) for y in (-1.1, 0.0, 1.1)}
+    walls = [(math.hypot(x, y), shape.size) for (x, y, _), shape in shapes if isinstance(shape, Box)]
+    assert len(walls) == 6
+    for middle, (thickness, length, height) in walls:
+        assert middle - thickness / 2 == pytest.approx(11.7315 / 4 * math.cos(math.pi / 6), abs=1e-3)
+        assert (length, height) == (pytest.approx(13.198 / 4, abs=1e-3), 1.27)
+    sizes = {path.stem: np.ptp(load_mesh(path).vertices, axis=0) for path in STAND_INS.glob("turtlebot3_world/*/*.obj")}
+    assert sizes["wall"] == pytest.approx([22.86, 26.396, 5.08], abs=1e-3)
+    assert sizes["hexagon"] == pytest.approx([2.9328, 2.54, 2.54], abs=1e-3)
+
+
 def test_robots_start_in_the_corridor_of_the_office(tmp_path: Path) -> None:
     """The original measures 58.6 by 45.7 m, and its origin is inside; from there a robot can drive into a room."""
     world = load("worlds/willowgarage.world", Diagnostics(), packages=PACKAGES).world
