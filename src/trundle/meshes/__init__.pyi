@@ -11,6 +11,7 @@ from .mesh import Texture as Texture
 from .raw import RawPart as RawPart
 from .references import referenced_files as referenced_files
 from .road_strip import strip_mesh as strip_mesh
+from .rows import unique_rows as unique_rows
 from .skeleton import Motion as Motion
 from .skeleton import Skin as Skin
 from .skeleton import match_bones as match_bones

@@ -6,6 +6,7 @@ import numpy as np
 
 from .mesh import MeshError
 from .raw import RawPart
+from .rows import unique_rows
 
 _HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -31,5 +32,5 @@ def read_stl(data: bytes) -> list[RawPart]:
         raise MeshError(f"declares {count} triangles and contains {there}")
     else:
         raise MeshError("no triangles")
-    unique, faces = np.unique(corners, axis=0, return_inverse=True)
-    return [RawPart(names=("",), vertices=unique.astype(np.float64), faces=faces.reshape(-1, 3))]
+    first, number = unique_rows(corners)
+    return [RawPart(names=("",), vertices=corners[first].astype(np.float64), faces=number.reshape(-1, 3))]

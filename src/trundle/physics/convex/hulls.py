@@ -28,6 +28,8 @@ class Hull(Struct, frozen=True):
 
     corners: _Points
     """(C, 3) vertices of the hull [m]."""
+    faces: _Numbers
+    """(F, 3) indices into the corners, counter-clockwise from outside."""
     triangles: _Points
     """(F, 3, 3) faces [m], counter-clockwise from outside."""
     normals: _Points
@@ -67,7 +69,9 @@ def hull_of(points: _Points) -> Hull | None:
     normals /= np.maximum(lengths, np.finfo(float).tiny)[:, None]
     solid = lengths > 1e-6 * lengths.max()
     offsets = np.einsum("ij,ij->i", normals, triangles[:, 0])
-    return Hull(points[np.unique(numbers)], triangles, normals[solid], offsets[solid], volume_of(triangles))
+    used, numbered = np.unique(numbers, return_inverse=True)
+    volume = volume_of(triangles)
+    return Hull(points[used], numbered.reshape(faces, 3), triangles, normals[solid], offsets[solid], volume)
 
 
 def is_flat(points: _Points) -> bool:

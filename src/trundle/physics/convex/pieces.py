@@ -13,10 +13,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from .convexity import is_convex
 from .decomposition import MAX_FACES, MAX_SHEETED, decompose, is_thin
 from .face_slabs import is_convex_layer, is_layer, slabs_of
 from .hulls import hausdorff_distance, hull_of, surface_error, volume_of
-from .mesh_components import WELD, connected_components, is_closed, is_convex, renumbered, welded
+from .mesh_components import WELD, connected_components, is_closed, renumbered, welded
 from .shell_decomposition import shell_pieces
 
 _Points = NDArray[np.float64]

@@ -1,0 +1,162 @@
+"""Test whether a closed mesh is convex, in a time that grows with its edges."""
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from .hulls import hull_of
+
+_Points = NDArray[np.float64]
+_Faces = NDArray[np.intp]
+_DENT = 2e-3
+"""Depth of a dent, relative to the size, up to which a mesh counts as convex."""
+_FEW = 256
+"""Faces that are tested at once."""
+_STARTS = 512
+"""Corners of a hull from the best of which the highest is climbed to."""
+
+
+def is_convex(points: _Points, faces: _Faces, own: _Points) -> bool:
+    """True if the faces form a closed convex body.
+
+    Single faces may be flipped, as in many published meshes; with all of them flipped it is a room seen from inside.
+
+    Args:
+        points: (N, 3) [m].
+        faces: (M, 3) indices into points, none without area.
+        own: points used by the faces.
+    """
+    sides = _sides_by_edge(faces)
+    if sides is None:
+        return False
+    dent = _DENT * float(np.ptp(own, axis=0).max())
+    middle = own.mean(axis=0)
+    points, own = points - middle, own - middle
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.sqrt(np.einsum("ij,ij->i", normals, normals))[:, None]
+    offsets = np.einsum("ij,ij->i", normals, a)
+    if (offsets > 0).any() and _fold_height(points, faces, normals, offsets, sides) <= dent:
+        return True
+    return _are_heights_within(dent, normals, offsets, own)
+
+
+def _sides_by_edge(faces: _Faces) -> _Faces | None:
+    """Return (E, 2) indices into the faces' 3 M sides, those of each edge; None if an edge has not two."""
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    keys = np.minimum(starts, ends) * (int(faces.max()) + 1) + np.maximum(starts, ends)
+    order = np.argsort(keys, kind="stable")
+    if len(order) % 2:
+        return None
+    sides = order.reshape(-1, 2)
+    keys = keys[sides]
+    is_closed = (keys[:, 0] == keys[:, 1]).all() and (keys[1:, 0] != keys[:-1, 0]).all()
+    return sides if is_closed else None
+
+
+def _fold_height(points: _Points, faces: _Faces, normals: _Points, offsets: _Points, sides: _Faces) -> float:
+    """Return a bound of the height of any point above any face [m], by the folds between neighbours; infinite if there
+    is none.
+
+    A surface that surrounds the origin once is the graph of a function of the direction: 1 on the surface, linear in
+    each face's cone, and convex if it is so across every edge. Else its excess at a point is at most the sum of those
+    of the edges on the way there.
+
+    Args:
+        points: (N, 3) about a point inside [m].
+        faces: (M, 3) indices into points.
+        normals: (M, 3) unit normals of the faces.
+        offsets: (M,) distances of the faces from the origin along their normals [m].
+        sides: (E, 2) of `_sides_by_edge`.
+    """
+    if not np.abs(offsets).min() > 0:
+        return np.inf
+    starts, ends = faces.ravel()[sides].T
+    one, other = sides.T // 3
+    is_flipped = offsets < 0
+    is_turned = is_flipped[one]
+    if ((starts == ends) ^ is_turned ^ is_flipped[other]).any() or _faces_on_a_ray(points, faces) != 1:
+        return np.inf
+    ends = np.roll(faces, -1, axis=1).ravel()[sides[:, 0]]
+    gradients = normals / offsets[:, None]
+    across = np.cross(points[starts], points[ends])
+    lengths = np.sqrt(np.einsum("ij,ij->i", across, across))
+    folds = np.einsum("ij,ij->i", gradients[other] - gradients[one], across) / lengths
+    excess = float(np.maximum(np.where(is_turned, -folds, folds), 0).sum())
+    return excess * float(np.sqrt(np.einsum("ij,ij->i", points, points).max()) * np.abs(offsets).max())
+
+
+def _faces_on_a_ray(points: _Points, faces: _Faces) -> int:
+    """Return the number of faces that a ray from the origin meets, the one through the middle of the first face."""
+    ray = points[faces[0]].mean(axis=0)
+    right = np.cross(ray, [1.0, 0.0, 0.0] if abs(ray[0]) < 0.9 * np.linalg.norm(ray) else [0.0, 1.0, 0.0])
+    a, b, c = ((points @ np.column_stack([right, np.cross(ray, right), ray]))[faces[:, i]] for i in range(3))
+    turns = np.array([u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] for u, v in ((a, b), (b, c), (c, a))])
+    is_ahead = (a[:, 2] > 0) & (b[:, 2] > 0) & (c[:, 2] > 0)
+    return int(np.count_nonzero(((turns >= 0).all(axis=0) | (turns <= 0).all(axis=0)) & is_ahead))
+
+
+def _are_heights_within(dent: float, normals: _Points, offsets: _Points, own: _Points) -> bool:
+    """True if the points lie on one side of each face, but for a dent [m], and below at least one face."""
+    has_outside = False
+    rounds = -(-len(normals) // _FEW)
+    hull = None
+    for some in range(rounds):  # spread over the surface, as most dents are seen from many faces
+        if some == 1:
+            hull = _HullGraph.around(own)
+        n, d = normals[some::rounds], offsets[some::rounds]
+        above = (_highest(n, own) if hull is None else hull.highest(n)) - d
+        below = (_highest(-n, own) if hull is None else hull.highest(-n)) + d
+        if np.minimum(above, below).max() > dent:
+            return False
+        has_outside = has_outside or bool((above <= dent).any())
+    return has_outside
+
+
+def _highest(directions: _Points, points: _Points) -> _Points:
+    """Return (D,) the largest heights of points (N, 3) along directions (D, 3) [m]."""
+    return (directions @ points.T).max(axis=1)
+
+
+class _HullGraph(Struct, frozen=True):
+    """Corners of a hull and those beside them, from which no higher corner is hidden."""
+
+    corners: _Points
+    beside: _Faces
+    """Neighbours of all corners, one corner's after the other's."""
+    firsts: _Faces
+    """(C,) index of each corner's first neighbour."""
+    counts: _Faces
+
+    @classmethod
+    def around(cls, points: _Points) -> "_HullGraph | None":
+        """Return the graph of the hull of points (N, 3) [m]; None if they are flat."""
+        hull = hull_of(points)
+        if hull is None:
+            return None
+        counts = np.bincount(hull.faces.ravel(), minlength=len(hull.corners))
+        order = np.argsort(hull.faces.ravel(), kind="stable")
+        beside = np.roll(hull.faces, -1, axis=1).ravel()[order]  # each edge once in each direction
+        return cls(hull.corners, beside, np.cumsum(counts) - counts, counts)
+
+    def highest(self, directions: _Points) -> _Points:
+        """Return (D,) the largest heights of the corners along directions (D, 3) [m], by climbing from corner to
+        corner.
+        """
+        some = np.arange(0, len(self.corners), -(-len(self.corners) // _STARTS))
+        heights = directions @ self.corners[some].T
+        at, best = some[heights.argmax(axis=1)], heights.max(axis=1)
+        climbing = np.arange(len(directions))
+        while len(climbing):
+            counts = self.counts[at[climbing]]
+            starts = np.cumsum(counts) - counts
+            rank = np.arange(counts.sum()) - np.repeat(starts, counts)
+            beside = self.beside[np.repeat(self.firsts[at[climbing]], counts) + rank]
+            heights = np.einsum("ij,ij->i", np.repeat(directions[climbing], counts, axis=0), self.corners[beside])
+            tops = np.maximum.reduceat(heights, starts)
+            is_higher = tops > best[climbing]
+            is_top = np.flatnonzero(heights == np.repeat(np.where(is_higher, tops, np.inf), counts))
+            owners, firsts = np.unique(np.repeat(np.arange(len(climbing)), counts)[is_top], return_index=True)
+            climbing = climbing[owners]
+            at[climbing], best[climbing] = beside[is_top[firsts]], tops[owners]
+        return best
