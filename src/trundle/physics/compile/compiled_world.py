@@ -72,6 +72,7 @@ def index_world(
     velocity: list[float] = []
     limits: list[list[float]] = []
     spans: list[range] = []
+    numbers = {name: number for number, name in enumerate(tree.links)}
     balls: list[int] = []
     for edge in tree.joints:
         first = len(qpos)
@@ -95,7 +96,7 @@ def index_world(
         joint_names=tuple(edge.name for edge in tree.joints),
         link_bodies=np.array([model.body(name).id for name in tree.links], dtype=np.intp),
         joint_axes=tuple(spans),
-        joint_anchors=tuple(_joint_anchor(edge, tree) for edge in tree.joints),
+        joint_anchors=tuple(_joint_anchor(edge, tree, numbers) for edge in tree.joints),
         first_axes=np.array([span.start if span else -1 for span in spans], dtype=np.intp),
         axis_qpos=np.array(qpos, dtype=np.intp),
         axis_dof=np.array(dof, dtype=np.intp),
@@ -109,12 +110,12 @@ def index_world(
     )
 
 
-def _joint_anchor(edge: JointEdge, tree: KinematicTree) -> tuple[int, Vector3, float]:
+def _joint_anchor(edge: JointEdge, tree: KinematicTree, numbers: Mapping[str, int]) -> tuple[int, Vector3, float]:
     for below, sign in ((edge.child, 1.0), (edge.parent, -1.0)):
         held = tree.parent_joint.get(below)
         if held is not None and held.name == edge.name:
             anchor = tree.links[below].world_from_link_at_zero.inverse().transform_point(edge.world_from_joint.position)
-            return list(tree.links).index(below), anchor, sign
+            return numbers[below], anchor, sign
     return -1, ZERO, 1.0
 
 

@@ -17,6 +17,7 @@ from trundle.model import Collision, Heightmap, MeshFile, Plane, World, flattene
 from trundle.spatial import ZERO, Pose
 
 from ..convex.native_output import native_output_hidden
+from .body_batches import BodyBatches, ignore_attach_warning
 from .compiled_world import CompiledWorld, index_world
 from .compliance import set_compliance
 from .contact_pairs import add_contacts
@@ -80,6 +81,7 @@ class Compiler:
         self.spec.option.gravity = world.physics.gravity
         self.tree = KinematicTree.from_world(world, report)
         self.joints = JointBuilder(self.spec, report)
+        self.batches = BodyBatches(self.spec)
         joined = {end for edge in self.tree.joints for end in (edge.parent, edge.child)}
         self.scenery = frozenset(
             node.name
@@ -114,7 +116,7 @@ class Compiler:
             DescriptionError: MuJoCo refuses the model.
         """
         pair_params = self.fill()
-        reserve_tables(self.spec, pair_params, self.shapes, self.world)
+        reserve_tables(self.spec, self.batches.bodies, pair_params, self.shapes, self.world)
         model = self.compile_spec()
         for name, moments in self.refused_moments.items():
             model.body(name).inertia[:] = moments
@@ -171,6 +173,7 @@ class Compiler:
         for node in self.tree.links.values():
             for collision in node.link.collisions:
                 self._add_collision(node, collision)
+        self.batches.attach()
         pair_params = add_contacts(self.spec, self.shapes, self.world.models, self.tree, self.report)
         self.joints.couple_joints(self.tree)
         for axes in self.joints.axes.values():
@@ -184,6 +187,7 @@ class Compiler:
         self._set_memory()
         with native_output_hidden(), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
+            ignore_attach_warning()
             try:
                 compiled = self.spec.compile()
             except ValueError as error:
@@ -198,7 +202,7 @@ class Compiler:
 
         MuJoCo's own size leaves too little for static bodies, and asks for a terabyte for 13,000 bodies.
         """
-        bodies = self.spec.bodies
+        bodies = self.batches.bodies
         if len(bodies) < _MANY_BODIES:
             return
         moving = sum(1 for body in bodies if body.joints)
@@ -238,12 +242,12 @@ class Compiler:
     def _add_body(self, name: str, node: LinkNode, edge: JointEdge | None) -> mujoco.MjsBody:
         """Add a body for a link, or for its share of a split one, below the parent of `edge`."""
         link, share = node.link, self.mass_factor(node)
-        parent, world_from_parent = self.spec.worldbody, Pose()
+        parent, world_from_parent = None, Pose()
         if edge is not None and edge.parent != WORLD:
             parent, world_from_parent = self.bodies[edge.parent], self.tree.links[edge.parent].world_from_link
         held = None if edge is None else edge.parent_from_child
         pose = world_from_parent.inverse() @ node.world_from_link if held is None else held
-        body = parent.add_body(name=name, pos=pose.position, quat=pose.quaternion)
+        body = self.batches.add_body(parent, name=name, pose=pose)
         if not node.fixed:
             mass, axes, moments = principal_inertia(link, self.report)
             possible = possible_moments(moments)

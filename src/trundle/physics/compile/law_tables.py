@@ -62,42 +62,58 @@ _Pair: TypeAlias = tuple[int, int, ContactParams]
 Touches: TypeAlias = Mapping[tuple[str, str], ContactParams]
 
 
-def reserve_tables(spec: mujoco.MjSpec, pair_params: Touches, shapes: Sequence[ShapeEntry], world: World) -> None:
-    """Reserve the tables in a specification before it is compiled."""
+def reserve_tables(
+    spec: mujoco.MjSpec,
+    bodies: Sequence[mujoco.MjsBody],
+    pair_params: Touches,
+    shapes: Sequence[ShapeEntry],
+    world: World,
+) -> None:
+    """Reserve the tables in a specification before it is compiled.
+
+    Args:
+        spec: all but the tables.
+        bodies: its bodies, with the world's.
+        pair_params: contact parameters by shape names.
+        shapes: its geoms.
+        world: as read.
+    """
+    joints = [joint for body in bodies for joint in body.joints]
+    motors = spec.actuators
     rows = {
         "laws": 1,
         "restitution": sum(map(_bounces, pair_params.values())),
         "friction": sum(map(_has_friction, pair_params.values())),
         "damping": sum(map(_has_velocity_decay, _links(world))),
-        "motions": len(spec.bodies),
-        "motors": len(spec.actuators),
-        "chains": len(spec.bodies),
-        "springs": len(spec.joints),
+        "motions": len(bodies),
+        "motors": len(motors),
+        "chains": len(bodies),
+        "springs": len(joints),
         "compliance": sum(has_compliance(params, spec.option.timestep) for params in pair_params.values()),
-        "geoms": len(spec.geoms),
+        "geoms": len(shapes),
     }
     for name, width in _WIDTHS.items():
         # MuJoCo takes no empty numeric; less than a row counts as none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
     # userdata: the target speed of each motor, a flag of each degree of freedom, the sums of each contact group.
-    freedoms = sum(FREEDOMS.get(joint.type, 1) for joint in spec.joints)
-    groups = len(spec.bodies) + len(set(_groups(pair_params, shapes).values()))
-    spec.nuserdata = len(spec.actuators) + freedoms + _GROUP_WIDTH * groups
-    _reserve_motors(spec)
+    freedoms = sum(FREEDOMS.get(joint.type, 1) for joint in joints)
+    groups = len(bodies) + len(set(_groups(pair_params, shapes).values()))
+    spec.nuserdata = len(motors) + freedoms + _GROUP_WIDTH * groups
+    _reserve_motors(spec, motors)
     # Sensor that makes MuJoCo call mjcb_sensor; see `set_needstage`.
     stage = mujoco.mjtStage.mjSTAGE_POS
     spec.add_sensor(name="trundle::laws", type=mujoco.mjtSensor.mjSENS_USER, dim=1, needstage=stage)
 
 
-def _reserve_motors(spec: mujoco.MjSpec) -> None:
+def _reserve_motors(spec: mujoco.MjSpec, motors: Sequence[mujoco.MjsActuator]) -> None:
     """Add a tendon per motor, whose frictionloss is the motor's torque limit, and an inactive equality."""
-    for motor in spec.actuators:
+    for motor in motors:
         tendon = spec.add_tendon(name=motor.name)
         tendon.wrap_joint(motor.target, 1.0)
         tendon.solimp_friction = _MOTOR_SOLIMP
-    if spec.actuators:
-        equality = spec.add_equality(name=_EQUALITY, type=mujoco.mjtEq.mjEQ_JOINT, name1=spec.actuators[0].target)
+    if motors:
+        equality = spec.add_equality(name=_EQUALITY, type=mujoco.mjtEq.mjEQ_JOINT, name1=motors[0].target)
         equality.objtype, equality.active = mujoco.mjtObj.mjOBJ_JOINT, False
         equality.solref, equality.solimp = (-1.0, -1.0 / spec.option.timestep), _MOTOR_SOLIMP
 

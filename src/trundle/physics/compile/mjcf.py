@@ -1,6 +1,7 @@
 """Export of a world as MJCF, with physics and visuals."""
 
 import hashlib
+import warnings
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 from xml.etree import ElementTree as Xml
@@ -13,6 +14,7 @@ from trundle.meshes import Mesh, Texture, mean_colour
 from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere, World, flattened
 from trundle.spatial import Pose, rotation_from_z
 
+from .body_batches import ignore_attach_warning
 from .compiler import Compiler
 from .mjcf_precision import with_full_precision
 
@@ -52,7 +54,10 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
             world.at,
             f"body {name!r}: MJCF takes no moments that violate the triangle inequality; there they are raised",
         )
-    return _with_pictures(with_full_precision(compiler.spec.to_xml(), compiler.spec), looks.pictures)
+    with warnings.catch_warnings():
+        ignore_attach_warning()
+        xml = compiler.spec.to_xml()
+    return _with_pictures(with_full_precision(xml, compiler.spec), looks.pictures)
 
 
 def _with_pictures(xml: str, pictures: Mapping[str, str]) -> str:
