@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "py_object.h"
@@ -71,6 +73,14 @@ enum class Arrays : uint8_t {
   kPlain,  // as in genpy: bytes for uint8 and char, a list for bool, else a tuple
 };
 
+// Buffer that a stream is received into.
+struct ReceiveBuffer {
+  PyObject* room;  // its part that is received into
+  PyObject* whole;
+  Py_ssize_t filled;  // bytes before `room`, the begin of a frame
+  uint32_t limit;     // longest content of a frame [bytes]
+};
+
 // Reads and writes one message type.
 class MessageCodec {
  public:
@@ -85,17 +95,19 @@ class MessageCodec {
   // Returns a tuple of `bytes`, the frame's length first; the first long array is a memoryview between them, not
   // copied.
   Object frame(PyObject* message) const;
+  // Call with the whole frame of a message; with nothing if the frame is long.
+  void write_short(PyObject* message, const std::function<void(std::string_view)>& use) const;
   Object read(PyObject* data) const;
-  // Like the function `receive`, with the decoded message in place of its bytes; None also for an invalid message.
-  Object receive(PyObject* recv_into, PyObject* room) const;
+  // Like the function `receive`, with decoded messages in place of their bytes; stops before an invalid one.
+  Object receive(PyObject* recv_into, const ReceiveBuffer& buffer) const;
 
  private:
   Arrays arrays_;
   std::vector<std::unique_ptr<Layout>> layouts_;
 };
 
-// Call `recv_into(buffer)`; return (content, count): the content of a frame if exactly one arrived, which is the usual
-// case, else None; and the number of bytes received.
-Object receive(PyObject* recv_into, PyObject* room);
+// Call `recv_into(room)`; return (contents, parsed, count): a list of the contents of the whole frames at the buffer's
+// start, their length in the buffer, and the number of bytes received.
+Object receive(PyObject* recv_into, const ReceiveBuffer& buffer);
 
 }  // namespace trundle::messages

@@ -143,44 +143,57 @@ class Reader {
   uint64_t empty_messages_ = 0;
 };
 
-struct ReceivedFrame {
-  Object content, count;
+// Whole frames at the start of a stream's buffer, after receiving into it once.
+struct ReceivedFrames {
+  Object contents, count;
+  Py_ssize_t parsed = 0;
 
-  ReceivedFrame(PyObject* recv_into, PyObject* buffer) : count(steal(PyObject_CallOneArg(recv_into, buffer))) {
+  // read: called with a frame's bytes; returns its content, or null to leave the frame in the buffer.
+  template <typename Read>
+  ReceivedFrames(PyObject* recv_into, const ReceiveBuffer& buffer, Read read)
+      : contents(steal(PyList_New(0))), count(steal(PyObject_CallOneArg(recv_into, buffer.room))) {
     const Py_ssize_t received = PyLong_AsSsize_t(count.get());
     if (received < 0 && PyErr_Occurred()) throw PythonError{};
-    const View view(buffer, PyBUF_SIMPLE);
+    const View view(buffer.whole, PyBUF_SIMPLE);
+    if (received <= 0 || buffer.filled < 0 || received > view.len - buffer.filled) return;
+    const Py_ssize_t end = buffer.filled + received;
     uint32_t size = 0;
     constexpr Py_ssize_t kBegin = sizeof size;
-    if (received < kBegin || received > view.len) return;
-    std::memcpy(&size, view.buf, sizeof size);
-    if (size == received - kBegin)
-      content = steal(PyBytes_FromStringAndSize(static_cast<const char*>(view.buf) + kBegin, received - kBegin));
+    while (end - parsed >= kBegin) {
+      const char* const frame = static_cast<const char*>(view.buf) + parsed;
+      std::memcpy(&size, frame, sizeof size);
+      if (size > buffer.limit || size > end - parsed - kBegin) return;
+      const Object content = read(steal(PyBytes_FromStringAndSize(frame + kBegin, size)));
+      if (!content) return;
+      if (PyList_Append(contents.get(), content.get()) != 0) throw PythonError{};
+      parsed += kBegin + size;
+    }
   }
 
-  Object with(const Object& first) const { return steal(PyTuple_Pack(2, first ? first.get() : Py_None, count.get())); }
+  Object tuple() const {
+    const Object end = steal(PyLong_FromSsize_t(parsed));
+    return steal(PyTuple_Pack(3, contents.get(), end.get(), count.get()));
+  }
 };
 
 }  // namespace
 
 Object MessageCodec::read(PyObject* data) const { return Reader(data, arrays_).read_all(*layouts_.back()); }
 
-Object MessageCodec::receive(PyObject* recv_into, PyObject* buffer) const {
-  const ReceivedFrame frame(recv_into, buffer);
-  Object message;
-  if (frame.content) {
+Object MessageCodec::receive(PyObject* recv_into, const ReceiveBuffer& buffer) const {
+  const auto read_one = [this](const Object& content) {
     try {
-      message = read(frame.content.get());
+      return read(content.get());
     } catch (const PythonError&) {
       PyErr_Clear();  // raised again by the caller, who reads the frame from the buffer
+      return Object();
     }
-  }
-  return frame.with(message);
+  };
+  return ReceivedFrames(recv_into, buffer, read_one).tuple();
 }
 
-Object receive(PyObject* recv_into, PyObject* buffer) {
-  const ReceivedFrame frame(recv_into, buffer);
-  return frame.with(frame.content);
+Object receive(PyObject* recv_into, const ReceiveBuffer& buffer) {
+  return ReceivedFrames(recv_into, buffer, [](Object content) { return content; }).tuple();
 }
 
 }  // namespace trundle::messages

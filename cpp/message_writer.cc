@@ -38,6 +38,8 @@ class ByteBuffer {
 
   void put_at(Py_ssize_t offset, uint32_t number) { std::memcpy(begin_ + offset, &number, sizeof number); }
 
+  std::string_view view() const { return {begin_, static_cast<size_t>(used_)}; }
+
   Object slice(Py_ssize_t from, Py_ssize_t to) const {
     return steal(PyBytes_FromStringAndSize(begin_ + from, to - from));
   }
@@ -130,6 +132,13 @@ class Writer {
       else if (is_number(field.kind)) write_numbers(field, value.get());
       else write_list(field, value.get());
     }
+  }
+
+  // The whole frame; empty if it is long.
+  std::string_view short_frame() {
+    if (array_ || out.size() >= kLongBytes) return {};
+    out.put_at(0, static_cast<uint32_t>(out.size()) - sizeof(uint32_t));
+    return out.view();
   }
 
   // The bytes before the detached array, the array, and the bytes after it.
@@ -257,6 +266,13 @@ Object MessageCodec::write(PyObject* message) const {
   Writer writer(false);
   writer.write(*layouts_.back(), message);
   return writer.out.bytes_object();
+}
+
+void MessageCodec::write_short(PyObject* message, const std::function<void(std::string_view)>& use) const {
+  Writer writer(true);
+  writer.out.put<uint32_t>(0);  // overwritten with the length
+  writer.write(*layouts_.back(), message);
+  use(writer.short_frame());
 }
 
 Object MessageCodec::frame(PyObject* message) const {

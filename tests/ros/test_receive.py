@@ -1,4 +1,4 @@
-"""A single whole frame is taken from the receive buffer; all else stays there."""
+"""Whole frames are split off a receive buffer in one call; all else stays there."""
 
 import gc
 import socket
@@ -14,6 +14,9 @@ ONE = b"\5\0\0\0\1\0\0\0x"
 """A std_msgs/String as a frame."""
 
 
+_LIMIT = 32
+
+
 @pytest.fixture
 def pair() -> Generator[tuple[socket.socket, socket.socket]]:
     here, there = socket.socketpair()
@@ -23,22 +26,31 @@ def pair() -> Generator[tuple[socket.socket, socket.socket]]:
 
 
 @pytest.mark.parametrize(
-    ("come", "content"),
+    ("come", "contents"),
     [
-        (ONE, ONE[4:]),
-        (b"\0\0\0\0", b""),
-        (ONE[:3], None),
-        (ONE[:-1], None),
-        (ONE + ONE, None),
-        (ONE + b"\0", None),
-        (b"\xff\xff\xff\xff", None),
+        (ONE, [ONE[4:]]),
+        (b"\0\0\0\0", [b""]),
+        (ONE[:3], []),
+        (ONE[:-1], []),
+        (ONE + b"\0\0\0\0" + ONE, [ONE[4:], b"", ONE[4:]]),
+        (ONE + b"\0", [ONE[4:]]),
+        (b"\xff\xff\xff\xff", []),
+        (ONE + b"\x21\0\0\0" + b"x" * 33 + ONE, [ONE[4:]]),
     ],
 )
-def test_the_content_of_a_frame_alone(pair: tuple[socket.socket, ...], come: bytes, content: bytes | None) -> None:
+def test_the_contents_of_the_whole_frames(pair: tuple[socket.socket, ...], come: bytes, contents: list[bytes]) -> None:
     room = memoryview(bytearray(64))
     pair[0].sendall(come)
-    assert receive(pair[1].recv_into, room) == (content, len(come))
+    parsed = sum(4 + len(content) for content in contents)
+    assert receive(pair[1].recv_into, room, room, 0, _LIMIT) == (contents, parsed, len(come))
     assert room[: len(come)] == come
+
+
+def test_a_frame_that_began_before_is_finished(pair: tuple[socket.socket, ...]) -> None:
+    room = memoryview(bytearray(64))
+    room[:3] = ONE[:3]
+    pair[0].sendall(ONE[3:] + ONE[:2])
+    assert receive(pair[1].recv_into, room[3:], room, 3, _LIMIT) == ([ONE[4:]], len(ONE), len(ONE) - 1)
 
 
 @pytest.mark.parametrize("content", [b"\2\0\0\0x", b"\1\0\0\0\xff", b"\1\0\0\0xy", b""])
@@ -46,24 +58,24 @@ def test_what_is_no_message_is_left_for_who_names_it(pair: tuple[socket.socket, 
     read = Messages().codec("std_msgs/String").receive
     room = memoryview(bytearray(64))
     frame = len(content).to_bytes(4, "little") + content
-    pair[0].sendall(frame + ONE)
-    assert read(pair[1].recv_into, room[: len(frame)]) == (None, len(frame))
-    assert room[: len(frame)] == frame
-    message, count = read(pair[1].recv_into, room)
-    assert (message.data, count) == ("x", len(ONE))
+    pair[0].sendall(ONE + frame + ONE)
+    messages, parsed, count = read(pair[1].recv_into, room, room, 0, _LIMIT)
+    assert [message.data for message in messages] == ["x"]
+    assert (parsed, count) == (len(ONE), 2 * len(ONE) + len(frame))
 
 
 def test_what_a_socket_raises_is_raised(pair: tuple[socket.socket, ...]) -> None:
     room = memoryview(bytearray(64))
     with pytest.raises(BlockingIOError):
-        receive(pair[1].recv_into, room)
+        receive(pair[1].recv_into, room, room, 0, _LIMIT)
     pair[0].close()
-    assert receive(pair[1].recv_into, room) == (None, 0)
+    assert receive(pair[1].recv_into, room, room, 0, _LIMIT) == ([], 0, 0)
 
 
-@pytest.mark.parametrize("told", [-1, 65, 2**40])
-def test_no_more_is_read_than_there_is_room(told: int) -> None:
-    assert receive(lambda _: told, memoryview(bytearray(64))) == (None, told)
+@pytest.mark.parametrize(("filled", "told"), [(0, -1), (0, 65), (60, 5), (0, 2**40), (-1, 8)])
+def test_no_more_is_read_than_there_is_room(filled: int, told: int) -> None:
+    room = memoryview(bytearray(64))
+    assert receive(lambda _: told, room, room, filled, _LIMIT) == ([], 0, told)
 
 
 def test_nothing_is_left_behind() -> None:
@@ -78,7 +90,7 @@ def test_nothing_is_left_behind() -> None:
     def blocks() -> int:
         for frame in frames * 100:
             for take in (read, receive):
-                take(lambda _, frame=frame: put(frame), room)
+                take(lambda _, frame=frame: put(frame), room, room, 0, _LIMIT)
         gc.collect()
         return sys.getallocatedblocks()
 

@@ -44,8 +44,8 @@ def numpy_codec(cls: Any) -> _message_codec.MessageCodec:
 
 
 def is_plain(cls: Any) -> bool:
-    """True if a class deserializes as made here."""
-    return getattr(cls, "deserialize", None) is METHODS["deserialize"]
+    """True if a class serializes and deserializes as made here."""
+    return all(getattr(cls, name, None) is METHODS[name] for name in ("serialize", "deserialize"))
 
 
 def has_only_bytes(cls: Any) -> bool:

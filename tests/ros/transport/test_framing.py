@@ -5,6 +5,7 @@ import struct
 
 import pytest
 
+from trundle.ros import _message_codec
 from trundle.ros.errors import WireError
 from trundle.ros.transport.framing import FrameDecoder
 
@@ -21,6 +22,23 @@ def _put(cutter: FrameDecoder, data: bytes, most: int) -> list[bytes]:
     return frames
 
 
+def _receive(cutter: FrameDecoder, data: bytes, most: int) -> list[bytes]:
+    """As `_put`, as a socket is read that only frames are expected from."""
+    frames: list[bytes] = []
+    while data:
+
+        def recv_into(room: memoryview) -> int:
+            nonlocal data
+            count = min(len(room), len(data), most)
+            room[:count] = data[:count]
+            data = data[count:]
+            return count
+
+        contents, _, others = cutter.receive(recv_into, _message_codec.receive)
+        frames += [*contents, *map(bytes, others)]
+    return frames
+
+
 def _stream(sent: list[bytes]) -> bytes:
     return b"".join(struct.pack("<I", len(frame)) + frame for frame in sent)
 
@@ -31,6 +49,7 @@ def test_frames_come_out_as_they_went_in(most: int) -> None:
     sizes = [0, 1, 4_092, 4_096, 4_097, 16_380, 16_384, 16_385, 230_000, 230_000, 5, 230_000, 400_000, 9_000, 0]
     sent = [seed.randbytes(size) for size in sizes if most > 3 or size < 20_000]
     assert _put(FrameDecoder(10**6), _stream(sent), most) == sent
+    assert _receive(FrameDecoder(10**6), _stream(sent), most) == sent
 
 
 def test_frames_of_two_streams_do_not_mix() -> None:

@@ -35,9 +35,7 @@ class Codec:
         self.exact_frame = self._native.frame
         """`frame` without the conversion: raises one of `ENCODING_ERRORS` instead."""
         self.receive = self._native.receive
-        """Called with a socket's `recv_into` and a buffer; returns (message or None, bytes received); the message is
-        None unless exactly one frame arrived.
-        """
+        """Receives messages into a stream's buffer; see `FrameDecoder.receive`."""
         self._mend = mend
 
     def write(self, message: object) -> bytes:

@@ -279,8 +279,7 @@ class Publisher:
                 framed = self._framed(message)
             if framed is not None:
                 for out in outs:
-                    if not out.try_send(framed):
-                        out.send([framed], self._queue_size)
+                    out.send([framed], self._queue_size)
             return True
         finally:
             self._turn.release()

@@ -2,13 +2,13 @@
 
 import asyncio
 import contextlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from .. import _message_codec
 from ..errors import MessageError, WireError
 from ..messages.codec import Codec
-from ..messages.raw_message import ANY_TYPE, Message
+from ..messages.raw_message import ANY_TYPE
 from ..transport.fast_selector import FastSelector
 from ..transport.headers import check_md5
 from ..transport.shared_ring import SharedRingReader
@@ -33,8 +33,8 @@ class MessageReceiver(Protocol):
         """True if it takes serialized messages."""
         ...
 
-    def receive(self, message: Message, *, from_outside: bool = False) -> None:
-        """Receive a message."""
+    def receive_batch(self, messages: Sequence[Any], header: Mapping[str, str], /) -> None:
+        """Receive messages of another process, serialized if it takes these, with their publisher's header."""
         ...
 
     def copy(self, view: memoryview, /) -> Any:
@@ -92,24 +92,19 @@ class SubscriberLink(FrameProtocol):
         return content
 
     def _readable(self) -> None:
-        """Read; a single whole message is received and deserialized in one step."""
-        if (room := self.frames.get_frame_buffer()) is None:
-            super()._readable()
-            return
+        """Read; whole messages are received and deserialized in one step."""
         assert self._socket is not None
         try:
-            received, count = self._receive(self._socket.recv_into, room)
+            messages, count, others = self.frames.receive(self._socket.recv_into, self._receive)
         except OSError as error:
             self._cannot_read(error)
             return
-        if received is None:
-            self._bytes_received(count)
+        if not count:
+            self.close("the peer closed the connection")
             return
-        self.bytes_received += count
-        if self._subscription.is_raw:
-            self._subscription.receive_data(received, self.header or {})
-        else:
-            self._subscription.receive(received, from_outside=True)
+        if messages:
+            self._subscription.receive_batch(messages, self.header or {})
+        self._received(count, others)
 
     def closed(self, reason: str, /) -> None:
         if self._shared_ring is not None:

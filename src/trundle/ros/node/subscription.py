@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import inspect
 from collections import deque
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -126,6 +126,14 @@ class Subscription:
                 self._worker = asyncio.get_running_loop().create_task(self._call_in_turn())
         elif self._deliver is not None and not replaced:
             self._deliver(self._call_next)
+
+    def receive_batch(self, messages: Sequence[Any], header: Mapping[str, str]) -> None:
+        """Receive messages of another process, serialized if the subscription is raw, with the connection header."""
+        for message in messages:
+            if self.is_raw:
+                self.receive_data(message, header)
+            else:
+                self.receive(message, from_outside=True)
 
     def copy(self, view: memoryview) -> Any:
         """Copy a serialized message that will be overwritten; `receive_data` takes the copy."""

@@ -2,7 +2,7 @@
 
 import struct
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -11,6 +11,10 @@ from ..errors import WireError
 LENGTH = struct.Struct("<I")
 Pieces: TypeAlias = tuple[bytes | memoryview, ...]
 """Buffers of one frame, in order."""
+Split: TypeAlias = (
+    "Callable[[Callable[[memoryview], int], memoryview, memoryview, int, int], tuple[Sequence[Any], int, int]]"
+)
+"""`_message_codec.receive`, or that of a type: receives into a part of a buffer and splits all of it into frames."""
 _SHARED_BYTES = 16 * 1024
 """Room for hundreds of small messages; a larger buffer would delay other connections of a busy graph."""
 _LONG_BYTES = 4 * 1024
@@ -59,18 +63,41 @@ class FrameDecoder:
         self._shared[: len(self._rest)] = self._rest
         return self._shared[len(self._rest) :]
 
-    def get_frame_buffer(self) -> memoryview | None:
-        """Buffer for a frame that arrives alone; None within a frame, or after a long one."""
-        return None if self._rest or self._own is not None or self._expected else self._shared
+    def receive(
+        self, recv_into: "Callable[[memoryview], int]", split: Split
+    ) -> tuple[Sequence[Any], int, Iterable[bytes | memoryview]]:
+        """Receive once.
 
-    def decode(self, count: int) -> Iterator[bytes | memoryview]:
+        Args:
+            recv_into: of the socket.
+            split: splits the buffer into frames, and may decode them.
+
+        Returns:
+            What `split` returned for the whole short frames, the count of bytes received, and the contents of the
+            other frames, as `decode` yields them.
+        """
+        room, filled = self.get_buffer(), len(self._rest)
+        if self._own is not None:
+            count = recv_into(room)
+            return (), count, self.decode(count)
+        contents, start, count = split(recv_into, room, self._shared, filled, self.limit)
+        if start < filled + count:
+            return contents, count, self.decode(count, start)
+        self._rest = b""
+        return contents, count, ()
+
+    def decode(self, count: int, start: int = 0) -> Iterator[bytes | memoryview]:
         """Process `count` received bytes; yield the complete frames without their length prefixes.
+
+        Args:
+            count: bytes received since the last call.
+            start: where the first frame begins that `receive` did not return.
 
         Raises:
             WireError: the announced length exceeds `limit`.
         """
         data, end = (self._shared, len(self._rest) + count) if self._own is None else (self._own, self._filled + count)
-        start = size = 0
+        size = 0
         while (begin := start + LENGTH.size) <= end:
             (size,) = LENGTH.unpack_from(data, start)
             if size > self.limit:

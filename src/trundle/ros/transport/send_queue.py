@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from itertools import islice
 
+from .. import _message_codec
 from ..errors import WireError
 from .framing import Pieces
 from .shared_ring import LONG_BYTES, SharedRing
@@ -40,8 +41,8 @@ class SendQueue:
         """True for Unix sockets."""
         self.is_congested = False
         """True while frames wait for a peer that reads too slowly."""
-        self.bytes_sent = 0
-        self.frames_sent = 0
+        self.direct = _message_codec.DirectSocket(sock.fileno())
+        """Writes short frames while nothing waits."""
         self.dropped = 0
         """Frames dropped because the peer reads too slowly."""
         self._loop = asyncio.get_running_loop()
@@ -49,6 +50,8 @@ class SendQueue:
         self._broken = broken
         self._socket = sock
         self._fd = sock.fileno()
+        self._bytes_sent = self._frames_sent = 0
+        """Without those that were written directly."""
         self._twin: socket.socket | None = None
         """Duplicate of the socket to watch for writability, since the loop reserves the first for its transport."""
         self._queue: deque[Pieces] = deque()
@@ -65,10 +68,21 @@ class SendQueue:
         self._ring: SharedRing | None = None
         self._may_share = self.is_local
         """True until shared memory was offered."""
+        self.direct.is_open = _WRITEV is not None
+
+    @property
+    def bytes_sent(self) -> int:
+        """Bytes that were sent."""
+        return self._bytes_sent + self.direct.bytes_sent
+
+    @property
+    def frames_sent(self) -> int:
+        """Frames that were sent."""
+        return self._frames_sent + self.direct.frames_sent
 
     def send(self, frames: Sequence[Pieces], queue_size: int | None) -> None:
         """Send frames; thread-safe, never blocks. At most `queue_size` frames wait; the oldest are dropped."""
-        if len(frames) == 1 and self.try_send(frames[0]):
+        if len(frames) == 1 and self._write_directly(frames[0]):
             return
         with self._lock:
             if self._is_closed:
@@ -83,26 +97,18 @@ class SendQueue:
                 return
         self._call_soon(self._wait)
 
-    def try_send(self, frame: Pieces) -> bool:
-        """Write one short frame directly, bypassing the queue (usual); thread-safe. False: nothing was written."""
-        is_whole = len(frame) == 1
-        size = len(frame[0]) if is_whole else _size(frame)
-        if _WRITEV is None or (size >= LONG_BYTES and self.is_local):
+    def _write_directly(self, frame: Pieces) -> bool:
+        """Write one short frame, bypassing the queue (usual); thread-safe. False: nothing was written."""
+        piece = frame[0] if len(frame) == 1 else None
+        if not isinstance(piece, bytes) or len(piece) >= LONG_BYTES or not self.direct.write(piece):
             return False
-        with self._lock:
-            if self.is_congested or self._is_closed:
-                return False
-            try:
-                sent = os.write(self._fd, frame[0]) if is_whole else _WRITEV(self._fd, frame)
-            except OSError:  # the queue will meet the error again
-                return False
-            self.bytes_sent += sent
-            self.frames_sent += 1
-            if sent < size:
-                self._rest = _after(frame, sent)
-                self.is_congested = self._is_full = True
-                self._call_soon(self._wait)
+        self.send_rest()
         return True
+
+    def send_rest(self) -> None:
+        """Queue what the kernel did not take of a frame that was written directly; thread-safe."""
+        if not self.direct.is_open:
+            self.send((), None)
 
     def receive_note(self, note: bytes) -> None:
         """Process the peer's note about the shared ring, and resume if it frees room; call on the loop.
@@ -122,6 +128,7 @@ class SendQueue:
         """Close; call on the loop."""
         with self._lock:  # wait for a thread that is writing
             self._is_closed = True
+            self.direct.is_open = False
             self._forget()
             self._stop_waiting()
             if self._twin is not None:
@@ -131,8 +138,12 @@ class SendQueue:
 
     def _write(self) -> None:
         """Write as much as the kernel and the shared ring take."""
+        self.direct.is_open = False
+        if rest := self.direct.take_rest():
+            self._rest = (rest, *self._rest)
         self._continue_write()
         self.is_congested = bool(self._rest or self._queue)
+        self.direct.is_open = not (self.is_congested or self._is_closed) and _WRITEV is not None
 
     def _continue_write(self) -> None:
         self._is_full = False
@@ -146,7 +157,7 @@ class SendQueue:
                 self._forget()
                 self._call_soon(self._broken)
                 return
-            self.bytes_sent += sent
+            self._bytes_sent += sent
             self._discard_sent(sent)
 
     def _next(self) -> list[bytes | memoryview]:
@@ -174,8 +185,8 @@ class SendQueue:
                 return
             self._queue.popleft()
             self._rest = (*self._rest, note)
-            self.frames_sent += 1
-            self.bytes_sent += size
+            self._frames_sent += 1
+            self._bytes_sent += size
 
     def _offer_ring(self, size: int) -> None:
         if not self._may_share:
@@ -204,7 +215,7 @@ class SendQueue:
         while sent:
             if not self._rest:
                 self._rest = self._queue.popleft()
-                self.frames_sent += 1
+                self._frames_sent += 1
             size = _size(self._rest)
             self._rest = () if sent >= size else _after(self._rest, sent)
             sent -= min(sent, size)

@@ -3,7 +3,7 @@
 import asyncio
 import contextlib
 import socket
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import cast
 
 from ..errors import WireError
@@ -74,9 +74,13 @@ class FrameProtocol(asyncio.BufferedProtocol):
         return self.frames.get_buffer()
 
     def buffer_updated(self, nbytes: int) -> None:
-        self.bytes_received += nbytes
+        self._received(nbytes, self.frames.decode(nbytes))
+
+    def _received(self, count: int, contents: Iterable[bytes | memoryview]) -> None:
+        """Process bytes received, and the frames among them."""
+        self.bytes_received += count
         try:
-            for content in self.frames.decode(nbytes):
+            for content in contents:
                 if self.header is None:
                     self._read_header(content)
                 else:
@@ -115,17 +119,14 @@ class FrameProtocol(asyncio.BufferedProtocol):
         except OSError as error:
             self._cannot_read(error)
             return
-        self._bytes_received(count)
-
-    def _cannot_read(self, error: OSError) -> None:
-        if not isinstance(error, BlockingIOError):
-            self.close(str(error))
-
-    def _bytes_received(self, count: int) -> None:
         if count:
             self.buffer_updated(count)
         else:
             self.close("the peer closed the connection")
+
+    def _cannot_read(self, error: OSError) -> None:
+        if not isinstance(error, BlockingIOError):
+            self.close(str(error))
 
     # for users
 

@@ -6,11 +6,13 @@ from collections.abc import Callable
 from queue import SimpleQueue
 from typing import Any
 
+from trundle.ros import _message_codec
 from trundle.ros.node.local_graph import LocalSubscriber
 from trundle.ros.node.node import Node
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.transport.framing import Pieces
 from trundle.ros.transport.tcpros import FrameProtocol
+from trundle.rospy.message_methods import codec, is_plain
 
 from . import core, graph
 from .msg import framed
@@ -50,7 +52,9 @@ class Publication:
         self.subscriber_listeners: list[SubscribeListener] = []
         self.ref_count = 0
         self.closed = False
-        self.seq = 0
+        own_codec = codec(data_class) if is_plain(data_class) else None
+        self.sender = _message_codec.DirectSender(data_class, own_codec, data_class._has_header)
+        """Sends short messages while nothing waits, and numbers all messages."""
         self._turn = threading.RLock()
         """Held while a message is numbered and sent."""
         self._publisher: FramePublisher | None = None
@@ -81,11 +85,17 @@ class Publication:
                 self._calls = SimpleQueue()
                 threading.Thread(target=self._call_listeners, name="rospy-listeners", daemon=True).start()
         self.is_latch |= latch
+        self.sender.is_active = False
         self.headers.update(headers or {})
         if queue_size is not None:
             self.queue_size = queue_size
         if self._publisher is not None:
             self._publisher.configure()
+
+    @property
+    def seq(self) -> int:
+        """Number of messages so far."""
+        return self.sender.sequence
 
     @property
     def limit(self) -> int | None:
@@ -114,18 +124,30 @@ class Publication:
                 self.latch = message
             elif not publisher._wanted:
                 return
-            self.seq += 1
-            publisher.publish_frame(framed(self.seq, message))
+            self.sender.is_active = False  # what others publish now comes after this message
+            self.sender.sequence += 1
+            publisher.publish_frame(framed(self.sender.sequence, message))
+            self.sender.is_active = publisher.sends_directly
+        self._wait_for_slowest(publisher)
+
+    def send_rest(self) -> None:
+        """Queue the rest of a message that was sent in part."""
+        if self._publisher is not None:
+            self._publisher.send_rest()
+            self._wait_for_slowest(self._publisher)
+
+    def _wait_for_slowest(self, publisher: "FramePublisher") -> None:
+        """Without a queue, publishing waits for the slowest subscriber."""
         while self.queue_size is None and publisher.is_congested and not core.is_shutdown():
-            time.sleep(_CONGESTED_S)  # without a queue, publishing waits for the slowest subscriber
+            time.sleep(_CONGESTED_S)
 
     def connected(self, send: Callable[[Pieces], object]) -> None:
         """Call the listeners about a new subscriber, to which `send` sends; on the loop."""
 
         def publish(message: Any) -> None:
             with self._turn:
-                self.seq += 1
-                send(framed(self.seq, message))
+                self.sender.sequence += 1
+                send(framed(self.sender.sequence, message))
 
         self._call(lambda each: each.peer_subscribe(self.resolved_name, self.publish, publish))
 
@@ -137,6 +159,7 @@ class Publication:
     def close(self) -> None:
         """Stop publishing."""
         self.closed = True
+        self.sender.is_active = False
         graph.forget_starter(self.start)
         if self._publisher is not None:
             self._publisher.unregister()
@@ -192,9 +215,19 @@ class FramePublisher(GraphPublisher):
                 return False
         return self._subscriber_links.is_congested
 
+    @property
+    def sends_directly(self) -> bool:
+        """True if a message that is published now may be written to the sockets of all subscribers."""
+        return bool(self._direct) and not (self.latch or self._flushes or self._outbox)
+
     def publish_frame(self, pieces: Pieces) -> None:
         """Send a serialized message, where there are subscribers or messages are latched; thread-safe."""
         self._send(pieces)
+
+    def send_rest(self) -> None:
+        """Queue what was not sent of the last message; thread-safe."""
+        for out in self._direct:
+            out.send_rest()
 
     def header_fields(self) -> dict[str, str]:
         return {**super().header_fields(), **self._publication.headers}
@@ -218,6 +251,12 @@ class FramePublisher(GraphPublisher):
     def detach(self, subscriber: LocalSubscriber) -> None:
         super().detach(subscriber)
         self._publication.disconnected()
+
+    def _update_subscribers(self) -> None:
+        super()._update_subscribers()
+        sender = self._publication.sender
+        sender.is_active = False
+        sender.sockets = [out.direct for out in self._direct]
 
     def _checked(self, message: Any) -> Any:
         return message

@@ -7,9 +7,11 @@ delay those of others, and messages that are dropped cost nothing.
 import logging
 import threading
 import traceback
-from collections.abc import Callable, Mapping
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from queue import Empty, SimpleQueue
+from itertools import repeat
+from queue import SimpleQueue
 from typing import Any, Protocol
 
 from trundle.ros import _message_codec
@@ -78,7 +80,11 @@ class Subscription:
         self.ref_count = 0
         self.closed = False
         self._lock = threading.RLock()
-        self._waiting: SimpleQueue[tuple[_Data, Mapping[str, str]] | None] = SimpleQueue()
+        self._waiting: deque[tuple[_Data, Mapping[str, str]] | None] = deque()
+        """Messages for the topic's thread, with their connection headers; None ends it."""
+        self._is_idle = False
+        """True while the topic's thread waits for `_wake`."""
+        self._wake: SimpleQueue[None] = SimpleQueue()
         self._received_bytes = self._read_bytes = 0
         """Sizes of messages, without those that were dropped; written by the loop, and by the topic's thread."""
         self._is_held = False
@@ -156,17 +162,35 @@ class Subscription:
                     return
         raise KeyError("no matching cb")
 
-    def receive(self, data: _Data, header: Mapping[str, str]) -> None:
-        """Queue a message for the topic's thread; on the loop."""
-        if self.queue_size is not None:
-            while self._waiting.qsize() >= self.queue_size and self._drop_oldest():
+    def receive(self, messages: Sequence[_Data], header: Mapping[str, str]) -> None:
+        """Queue messages for the topic's thread; on the loop."""
+        if (size := self.queue_size) is not None:
+            messages = messages[-size:]
+            while len(self._waiting) + len(messages) > size and self._drop_oldest():
                 pass
-        self._received_bytes += len(data)
-        self._waiting.put((data, header))
+        self._received_bytes += sum(map(len, messages))
+        self._put(*zip(messages, repeat(header)))
         if self._received_bytes - self._read_bytes > _MAX_WAITING_BYTES and self._subscription is not None:
             self._subscription.pause()
             self._is_held = True
             self._release()  # all may have been read meanwhile
+
+    def _put(self, *entries: tuple[_Data, Mapping[str, str]] | None) -> None:
+        """Queue entries, and wake the topic's thread; on the loop, or to end it."""
+        self._waiting.extend(entries)
+        if self._is_idle:
+            self._is_idle = False
+            self._wake.put(None)
+
+    def _next(self) -> tuple[_Data, Mapping[str, str]] | None:
+        """Wait for the next entry; in the topic's thread."""
+        while not self._waiting:
+            self._is_idle = True
+            if self._waiting:  # put before the thread was seen to be idle
+                self._is_idle = False
+            else:
+                self._wake.get()
+        return self._waiting.popleft()
 
     def _release(self) -> None:
         """Have publishers go on once half has been read; on the loop or the topic's thread."""
@@ -180,7 +204,7 @@ class Subscription:
         self.closed = True
         self.callbacks = []
         graph.forget_starter(self.start)
-        self._waiting.put(None)
+        self._put(None)
         if self._subscription is not None:
             self._subscription.unregister()
             if not core.is_shutdown():
@@ -188,11 +212,11 @@ class Subscription:
 
     def _drop_oldest(self) -> bool:
         try:
-            oldest = self._waiting.get_nowait()
-        except Empty:
+            oldest = self._waiting.popleft()
+        except IndexError:
             return False
         if oldest is None:
-            self._waiting.put(None)
+            self._waiting.append(None)
             return False
         self._received_bytes -= len(oldest[0])
         return True
@@ -201,7 +225,7 @@ class Subscription:
         _message_codec.request_time_slice(SLICE_NS)  # a message would wait for busy threads here, too
         read = self.reader
         statistics = self._open_statistics()
-        while (entry := self._waiting.get()) is not None:
+        while (entry := self._next()) is not None:
             data, header = entry
             self._read_bytes += len(data)
             if self._is_held:
@@ -214,14 +238,20 @@ class Subscription:
             message._connection_header = header
             if statistics is not None:
                 statistics.callback(message, header.get("callerid", ""), len(data) + _FRAME)
-            with self._lock:
-                if header.get("latching") == "1":
-                    self._latched[header.get("callerid", "")] = message
+            if header.get("latching") == "1":
+                callbacks = self._latch(header.get("callerid", ""), message)
+            else:
                 callbacks = self.callbacks
             for callback, arguments in callbacks:
                 self._call(message, callback, arguments)
         if statistics is not None:
             statistics.shutdown()
+
+    def _latch(self, publisher: str, message: Any) -> list[_Callback]:
+        """Keep a message for later callbacks; return those that are there now."""
+        with self._lock:
+            self._latched[publisher] = message
+            return self.callbacks
 
     def _open_statistics(self) -> Statistics | None:
         """Statistics of the topic, where the node wants them when it subscribes."""
@@ -294,8 +324,11 @@ class ByteSubscription(GraphSubscription):
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str], *, from_outside: bool = True) -> None:
         del from_outside
-        self.received += 1
-        self._subscription.receive(data, header)
+        self.receive_batch([data], header)
+
+    def receive_batch(self, messages: Sequence[Any], header: Mapping[str, str]) -> None:
+        self.received += len(messages)
+        self._subscription.receive(messages, header)
 
     def copy(self, view: memoryview) -> Any:
         """Deserialize a message whose long arrays are bytes: as fast as a copy, which it makes needless."""

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import genpy
 import rosgraph.names
 from genpy import Message as Message
+from trundle.ros import _message_codec
 
 from . import core, graph
 from .exceptions import ROSException, ROSSerializationException
@@ -162,15 +163,20 @@ class Publisher(Topic):
             ROSSerializationException: a field's value does not fit.
             TypeError: a message of another type.
         """
-        if self.impl is None:
+        impl = self.impl
+        if impl is None:
             raise ROSException("publish() to an unregistered() handle")
+        if sent := impl.sender.send(args, kwds):
+            if sent == _message_codec.SENT_IN_PART:
+                impl.send_rest()
+            return
         if not core.is_initialized():
             raise ROSException("ROS node has not been initialized yet. Please call init_node() first")
         message = args_kwds_to_message(self.data_class, args, kwds)
-        if self.impl.closed and not core.is_shutdown():
+        if impl.closed and not core.is_shutdown():
             raise ROSException("publish() to a closed topic")
         try:
-            self.impl.publish(message)
+            impl.publish(message)
         except genpy.SerializationError as error:
             core.rospyerr(traceback.format_exc())
             raise ROSSerializationException(str(error)) from None
