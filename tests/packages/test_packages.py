@@ -351,6 +351,18 @@ def test_a_files_own_workspace_wins_over_a_package_of_the_same_name_on_the_path(
     assert "own workspace wins" not in printed.err
 
 
+def test_a_workspace_behind_a_link_is_spelled_as_on_the_path(tmp_path: Path) -> None:
+    launch = write(package(tmp_path / "disk/src/arm") / "launch/go.launch")
+    (tmp_path / "ws").symlink_to(tmp_path / "disk")
+    spelled = tmp_path / "ws/src/arm"
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "ws/src")}, start=spelled / "launch" / launch.name)
+    report = Diagnostics()
+
+    assert packages.find_package("arm") == spelled
+    packages.warn_passed_over(report, Source("go.launch"))
+    assert report.warnings == []
+
+
 def test_a_file_elsewhere_finds_the_packages_of_the_file_that_names_it(tmp_path: Path) -> None:
     """As a model that a launch spawns, whose text is a file in a folder of logs."""
     arm = package(tmp_path / "ws/src/arm")

@@ -56,7 +56,7 @@ class RosPackages:
         start = self._start = _real(start)
         self._cache = cache
         self._on_path = [Path(os.path.expanduser(entry)).absolute() for entry in entries if entry]
-        self._around = list(workspaces(start))
+        self._around = [self._as_on_path(space) for space in workspaces(start)]
         first = self._around if os.path.isfile(start) else []
         others = [] if earlier is None else earlier.roots
         self.roots = distinct_folders([*first, *self._on_path, *self._around, *others])
@@ -67,6 +67,14 @@ class RosPackages:
         self._fetched = fetched_folder(environment)
         self._by_name: dict[str, Path] | None = None
         self._folders: dict[str, Path] = {}
+
+    def _as_on_path(self, folder: Path) -> Path:
+        """Return a folder without links as ROS_PACKAGE_PATH spells it, if it is there."""
+        for entry in self._on_path:
+            real = _real(entry)
+            if folder.is_relative_to(real):
+                return entry / folder.relative_to(real)
+        return folder
 
     def find(self, name: str) -> Path | None:
         """Return the folder of a package, by its manifest's name, else by folder name."""
