@@ -9,7 +9,13 @@ export function preloads(): Plugin {
       order: "post",
       handler(_html, { bundle, chunk }) {
         if (bundle === undefined || chunk === undefined) return [];
-        return [...laterScripts(bundle, chunk)].map((name): HtmlTagDescriptor => ({ tag: "link", injectTo: "head", attrs: { rel: "modulepreload", crossorigin: true, href: `./${name}` } }));
+        return [...laterScripts(bundle, chunk)].map(
+          (name): HtmlTagDescriptor => ({
+            tag: "link",
+            injectTo: "head",
+            attrs: { rel: "modulepreload", crossorigin: true, href: `./${name}` },
+          }),
+        );
       },
     },
   };
@@ -28,7 +34,10 @@ function laterScripts(bundle: Rolldown.OutputBundle, first: Rolldown.OutputChunk
   };
   const known = new Set<string>();
   const add = (chunk: Rolldown.OutputChunk): void => {
-    for (const name of [...chunk.dynamicImports.flatMap((later) => [later, ...(chunkOf(later)?.imports ?? [])]), ...chunk.imports]) {
+    for (const name of [
+      ...chunk.dynamicImports.flatMap((later) => [later, ...(chunkOf(later)?.imports ?? [])]),
+      ...chunk.imports,
+    ]) {
       const next = chunkOf(name);
       if (known.has(name) || next === null || isLibrary(next)) continue;
       known.add(name);

@@ -2,7 +2,19 @@
 
 import { signal } from "@preact/signals";
 
-import type { Connection, ConnectionState, GraphInfo, ParameterValue, Received, ServiceInfo, Subscription, TopicInfo, TopicStatistics, RequestAnswer, SharedSelection } from "../src/protocol/connection";
+import type {
+  Connection,
+  ConnectionState,
+  GraphInfo,
+  ParameterValue,
+  Received,
+  ServiceInfo,
+  Subscription,
+  TopicInfo,
+  TopicStatistics,
+  RequestAnswer,
+  SharedSelection,
+} from "../src/protocol/connection";
 import type { RosMessage } from "../src/protocol/ros_types";
 
 interface Subscriber {
@@ -16,8 +28,15 @@ export class FakeConnection implements Connection {
   readonly services = signal<ReadonlyMap<string, ServiceInfo>>(new Map());
   readonly parameters = signal<ReadonlyMap<string, ParameterValue>>(new Map());
   readonly floatParameters = signal<ReadonlySet<string>>(new Set());
-  readonly graph = signal<GraphInfo>({ types: new Map(), publishers: new Map(), subscribers: new Map(), services: new Map() });
-  readonly notices = signal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]>([]);
+  readonly graph = signal<GraphInfo>({
+    types: new Map(),
+    publishers: new Map(),
+    subscribers: new Map(),
+    services: new Map(),
+  });
+  readonly notices = signal<
+    readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]
+  >([]);
 
   /** ROS time [ns]; a test sets it. */
   time = 0n;
@@ -46,7 +65,11 @@ export class FakeConnection implements Connection {
   listen(name: string, type: string, node = "/base"): void {
     const { types, subscribers, ...others } = this.graph.peek();
     const nodes = [...(subscribers.get(name) ?? []), node];
-    this.graph.value = { ...others, types: new Map(types).set(name, type), subscribers: new Map(subscribers).set(name, nodes) };
+    this.graph.value = {
+      ...others,
+      types: new Map(types).set(name, type),
+      subscribers: new Map(subscribers).set(name, nodes),
+    };
   }
 
   /** A message arrives. */
@@ -137,7 +160,11 @@ export class FakeConnection implements Connection {
   release(topic: string): void {
     this.released.push(topic);
   }
-  readonly typed: { readonly number: number; readonly text: string; readonly size: readonly [number, number] | undefined }[] = [];
+  readonly typed: {
+    readonly number: number;
+    readonly text: string;
+    readonly size: readonly [number, number] | undefined;
+  }[] = [];
   useTerminal(number: number, text: string, size?: readonly [number, number]): void {
     this.typed.push({ number, text, size });
   }

@@ -6,13 +6,30 @@ import type { UndoStack } from "../src/displays/undo_stack";
 import { Display, type DisplayContext, type Status } from "../src/displays/display";
 import type { StatusLevel } from "../src/rviz/status_level";
 import type { DisplayList, Offer, Unsupported } from "../src/displays/display_list";
-import { BoolProperty, ColorProperty, EnumProperty, FrameProperty, GroupProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty, type Rgb } from "../src/rviz/properties";
+import {
+  BoolProperty,
+  ColorProperty,
+  EnumProperty,
+  FrameProperty,
+  GroupProperty,
+  IntProperty,
+  NumberProperty,
+  StringProperty,
+  TopicProperty,
+  VectorProperty,
+  type Rgb,
+} from "../src/rviz/properties";
 
 export class FakeDisplay extends Display {
   override readonly className: string;
   readonly color: ColorProperty | null;
 
-  constructor(context: DisplayContext, className: string, color: Rgb | null, private readonly onTopic: string | null) {
+  constructor(
+    context: DisplayContext,
+    className: string,
+    color: Rgb | null,
+    private readonly onTopic: string | null,
+  ) {
     super(context);
     this.className = className;
     this.name.value = className.replace("rviz/", "");

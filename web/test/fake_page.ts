@@ -45,7 +45,13 @@ export const SESSION: Session = {
 
 export class FakeWorld implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
-  readonly state = signal<WorldState | null>({ time_ns: 12.48e9, paused: false, real_time_factor: 1, speed: 1, recording: null });
+  readonly state = signal<WorldState | null>({
+    time_ns: 12.48e9,
+    paused: false,
+    real_time_factor: 1,
+    speed: 1,
+    recording: null,
+  });
   readonly progress = signal(1);
   readonly faults = signal<readonly string[]>([]);
   readonly joints = signal<JointStates>([]);
@@ -55,7 +61,10 @@ export class FakeWorld implements SimulatedWorld {
     return () => undefined;
   }
   pose(): { position: Vector3; orientation: Quaternion } {
-    return { position: new Vector3(-0.004, 0.211, 0.089), orientation: new Quaternion(0, 0, Math.sin(0.0035), 1).normalize() };
+    return {
+      position: new Vector3(-0.004, 0.211, 0.089),
+      orientation: new Quaternion(0, 0, Math.sin(0.0035), 1).normalize(),
+    };
   }
   object(): null {
     return null;
@@ -261,7 +270,10 @@ export function fakePage(session: Partial<Session> = {}): FakePage {
     scene,
     views: new FakeViews(),
     world: new FakeWorld(),
-    displays: new FakeDisplayList({ connection, names: new GraphNames(), frames, scene, displays: signal([]), fixedFrame: signal("map") }, undo),
+    displays: new FakeDisplayList(
+      { connection, names: new GraphNames(), frames, scene, displays: signal([]), fixedFrame: signal("map") },
+      undo,
+    ),
     tools: new FakeTools(),
     selection: signal(null),
     hovered: signal(null),

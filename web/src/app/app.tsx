@@ -73,7 +73,8 @@ function DockPanel({ shell }: { readonly shell: Shell }): JSX.Element {
         style={{ bottom: `${height + 8}px` }}
         onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
         onPointerMove={(event) => {
-          if (event.currentTarget.hasPointerCapture(event.pointerId)) layout.resizeDock(innerHeight - event.clientY - 12);
+          if (event.currentTarget.hasPointerCapture(event.pointerId))
+            layout.resizeDock(innerHeight - event.clientY - 12);
         }}
         onKeyDown={(event) => {
           if (event.key === "ArrowUp") layout.resizeDock(height + 16);

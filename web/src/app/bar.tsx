@@ -40,7 +40,15 @@ export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
 
 export function Mark(): JSX.Element {
   return (
-    <svg class="mark" viewBox="0 0 22 22" fill="none" stroke="currentColor" stroke-width="2" role="img" aria-label="Trundle">
+    <svg
+      class="mark"
+      viewBox="0 0 22 22"
+      fill="none"
+      stroke="currentColor"
+      stroke-width="2"
+      role="img"
+      aria-label="Trundle"
+    >
       <circle cx="11" cy="11" r="8.5" />
       <circle cx="11" cy="11" r="2.2" fill="currentColor" stroke="none" />
       <path d="M11 2.500v4.500M18.400 15.200l-3.900-2.200M3.600 15.200l3.900-2.200" />
@@ -69,12 +77,22 @@ function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
   const paused = page.world.state.value?.paused ?? true;
   const name = paused ? "Play" : "Pause";
   const isTight = layout.isPhone.value && page.people.value.people.length > 1; // who is there takes its place
-  const run = (id: string): void => commands.all.peek().find((command) => command.id === id)?.run();
+  const run = (id: string): void =>
+    commands.all
+      .peek()
+      .find((command) => command.id === id)
+      ?.run();
   const resets = commands.all.value.filter((command) => command.id.startsWith("reset.") || command.id === "reload");
   const isRecorded = page.session.kind !== "simulation";
   return (
     <>
-      <button type="button" class={isTight ? "b pri ic" : "b pri"} aria-label={name} data-tip={`${name} (Space)`} onClick={() => run("play_pause")}>
+      <button
+        type="button"
+        class={isTight ? "b pri ic" : "b pri"}
+        aria-label={name}
+        data-tip={`${name} (Space)`}
+        onClick={() => run("play_pause")}
+      >
         <PlayShape paused={paused} />
         {!isTight && name}
       </button>
@@ -83,7 +101,10 @@ function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
           <Button icon="step" label="Step 1" keys="." onClick={() => run("step")}>
             Step 1
           </Button>
-          <MenuButton icon="reset" items={() => resets.map(({ title, keys, run: act }): MenuItem => ({ title, keys, run: act }))}>
+          <MenuButton
+            icon="reset"
+            items={() => resets.map(({ title, keys, run: act }): MenuItem => ({ title, keys, run: act }))}
+          >
             Reset
           </MenuButton>
         </>
@@ -94,7 +115,11 @@ function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
 
 function LookingOnly({ isShort }: { readonly isShort: boolean }): JSX.Element {
   return (
-    <span class="looking" data-tip={`${LOOKS_ONLY} Time, robots, topics and the world are changed by others.`} tabIndex={0}>
+    <span
+      class="looking"
+      data-tip={`${LOOKS_ONLY} Time, robots, topics and the world are changed by others.`}
+      tabIndex={0}
+    >
       <Icon name="eye" />
       {isShort ? "Look" : "Looking only"}
     </span>
@@ -159,7 +184,8 @@ function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
 /** The connection's state in words. */
 export function connectionText(state: ConnectionState, nodes: number): string {
   if (state.kind === "connecting") return "Connecting";
-  if (state.kind === "lost") return `Connection lost, trying again${state.retryInSeconds > 0 ? ` in ${state.retryInSeconds} s` : ""}`;
+  if (state.kind === "lost")
+    return `Connection lost, trying again${state.retryInSeconds > 0 ? ` in ${state.retryInSeconds} s` : ""}`;
   return nodes > 0 ? `Connected · ${count(nodes, "node")}` : "Connected";
 }
 
@@ -183,7 +209,11 @@ function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
   const dark = theme.value === "dark";
   return (
     <>
-      <Button icon={dark ? "sun" : "moon"} label={dark ? "Light theme" : "Dark theme"} onClick={() => switchTheme(theme)} />
+      <Button
+        icon={dark ? "sun" : "moon"}
+        label={dark ? "Light theme" : "Dark theme"}
+        onClick={() => switchTheme(theme)}
+      />
       <Button icon="find" label="Search commands, Ctrl K" onClick={() => (shell.dialog.value = "palette")}>
         <kbd>Ctrl K</kbd>
       </Button>
@@ -198,7 +228,9 @@ function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
 function More({ shell }: { readonly shell: Shell }): JSX.Element {
   const { commands, page } = shell;
   const items = (): readonly MenuItem[] => {
-    const shown = commands.all.peek().filter(({ id, group }) => group === "Simulation" && id !== "play_pause" && canControl(page));
+    const shown = commands.all
+      .peek()
+      .filter(({ id, group }) => group === "Simulation" && id !== "play_pause" && canControl(page));
     return [
       ...shown.map(({ title, run, enabled }) => ({ title, run, disabled: !(enabled?.() ?? true) })),
       { title: page.theme.peek() === "dark" ? "Light theme" : "Dark theme", run: () => switchTheme(page.theme) },

@@ -58,7 +58,17 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   const world = new WorldFeed(connection, scene, frames, fixedFrame);
   const views: ViewList = new ViewList(scene, (target) => targetPose(page, target));
   const editor = first.kind !== "simulation" || first.view_only ? null : makeEditor(world, () => shell);
-  const tools = new ToolList({ connection, names, scene, views, fixedFrame, selection, hovered, editor, looksOnly: first.view_only });
+  const tools = new ToolList({
+    connection,
+    names,
+    scene,
+    views,
+    fixedFrame,
+    selection,
+    hovered,
+    editor,
+    looksOnly: first.view_only,
+  });
   const displays: DisplayStore = new DisplayStore({ connection: view, names, frames, scene, undo, views, tools });
   const drive = new Drive({
     connection,
@@ -71,13 +81,31 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
     get session() {
       return session.value;
     },
-    connection, frames, scene, views, world, displays, tools, selection, hovered, commands, undo, drive, theme, people,
+    connection,
+    frames,
+    scene,
+    views,
+    world,
+    displays,
+    tools,
+    selection,
+    hovered,
+    commands,
+    undo,
+    drive,
+    theme,
+    people,
   };
 
   effect(() => {
     fixedFrame.value = displays.fixedFrame.value;
   });
-  new SceneInput(scene, views, (input) => tools.pointer(input), (at) => (at === null ? openSelectedMenu(shell) : openSceneMenu(shell, at.x, at.y)));
+  new SceneInput(
+    scene,
+    views,
+    (input) => tools.pointer(input),
+    (at) => (at === null ? openSelectedMenu(shell) : openSceneMenu(shell, at.x, at.y)),
+  );
   effect(() => {
     scene.element.style.cursor = tools.current.value.cursor;
   });
@@ -88,7 +116,13 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   new ContactMarks(scene, world, connection, modelsOf);
   new RangeLines(scene, world, connection);
   scene.onTick((elapsed) => displays.update(view.now(), elapsed));
-  const shell: Shell = mount(root, { page, panels: firstPicture(page).then(async () => (await import("../panels")).panels), commands, sceneHost, frozen });
+  const shell: Shell = mount(root, {
+    page,
+    panels: firstPicture(page).then(async () => (await import("../panels")).panels),
+    commands,
+    sceneHost,
+    frozen,
+  });
   startDisplays(shell);
   startView(shell);
 }

@@ -26,7 +26,9 @@ export function Clock({ shell }: { readonly shell: Shell }): JSX.Element {
         <span class="of">{session.kind === "bag" ? "ROS time" : "sim time"}</span>
       </span>
       <Factor factor={factor} speed={state?.speed ?? null} />
-      {!shell.layout.isPhone.value && state !== null && canControl(shell.page) && <Speed shell={shell} speed={state.speed} />}
+      {!shell.layout.isPhone.value && state !== null && canControl(shell.page) && (
+        <Speed shell={shell} speed={state.speed} />
+      )}
     </>
   );
 }
@@ -53,7 +55,9 @@ function Speed({ shell, speed }: { readonly shell: Shell; readonly speed: number
     checked: factor === speed,
     run: () => shell.request("Speed", "speed", { factor }),
   }));
-  return <MenuButton items={() => items}>{speed === null ? "As fast as possible" : `Speed ${speedText(speed)}`}</MenuButton>;
+  return (
+    <MenuButton items={() => items}>{speed === null ? "As fast as possible" : `Speed ${speedText(speed)}`}</MenuButton>
+  );
 }
 
 function RosTime({ shell }: { readonly shell: Shell }): JSX.Element {

@@ -24,7 +24,9 @@ export class CommandList implements Commands {
 }
 
 /** Keys of an event as commands name them: `Space`, `Shift R`, `Ctrl K`, `?`. */
-export function keysOf(event: Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">): string {
+export function keysOf(
+  event: Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
+): string {
   const { key } = event;
   const isLetter = /^[a-z]$/i.test(key);
   const name = key === " " ? "Space" : isLetter ? key.toUpperCase() : key;
@@ -37,7 +39,8 @@ const MOVES_A_SLIDER = /^(Arrow|Page|Home|End)/;
 /** True where keys belong to what has the focus: a field, a list, a menu, a control that takes the key. */
 export function takesKeys(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return true;
+  if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement)
+    return true;
   if (target instanceof HTMLInputElement && target.type === "range") return MOVES_A_SLIDER.test(key);
   if (target instanceof HTMLInputElement) return target.type !== "checkbox" || key === " ";
   if (target.closest('[role="menu"], [role="dialog"]') !== null) return true;

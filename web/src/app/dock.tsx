@@ -2,7 +2,12 @@
 
 import { render, type JSX } from "preact";
 import {
-  createDockview, type DockviewApi, type IContentRenderer, type IHeaderActionsRenderer, type ITabRenderer, type SerializedDockview,
+  createDockview,
+  type DockviewApi,
+  type IContentRenderer,
+  type IHeaderActionsRenderer,
+  type ITabRenderer,
+  type SerializedDockview,
 } from "dockview-core";
 
 import type { Panel } from "../panels/panel";
@@ -18,7 +23,12 @@ import { recall, remember } from "../page/storage";
 const FIRST = ["plots", "topics", "log", "graph", "timeline"] as const;
 
 /** Panel in front at first. */
-const FRONT: Readonly<Record<Session["kind"], string>> = { simulation: "plots", graph: "topics", log: "timeline", bag: "timeline" };
+const FRONT: Readonly<Record<Session["kind"], string>> = {
+  simulation: "plots",
+  graph: "topics",
+  log: "timeline",
+  bag: "timeline",
+};
 
 export class Dock {
   private api: DockviewApi | null = null;
@@ -44,7 +54,10 @@ export class Dock {
     });
     this.api = api;
     this.restore(api);
-    const unfollow = forEachNew(() => this.page.session.panels, (program) => this.showProgram(api, program));
+    const unfollow = forEachNew(
+      () => this.page.session.panels,
+      (program) => this.showProgram(api, program),
+    );
     const saved = api.onDidLayoutChange(() => remember(this.key, api.toJSON()));
     const keyDown = (event: KeyboardEvent): void => {
       const tab = event.target instanceof Element ? event.target.closest<HTMLElement>(".dv-tab") : null;
@@ -71,7 +84,14 @@ export class Dock {
     if (panel === undefined) return;
     const open = api.getPanel(id);
     if (open !== undefined) open.api.setActive();
-    else api.addPanel({ id, component: id, tabComponent: id, title: panel.title, ...(behind !== undefined && { position: { referencePanel: behind }, inactive: true }) });
+    else
+      api.addPanel({
+        id,
+        component: id,
+        tabComponent: id,
+        title: panel.title,
+        ...(behind !== undefined && { position: { referencePanel: behind }, inactive: true }),
+      });
   }
 
   private get key(): string {
@@ -121,7 +141,12 @@ export class Dock {
         render(
           <>
             {title}
-            <span class="shut" data-tip={`Close ${title} (Delete)`} onPointerDown={(event) => event.stopPropagation()} onClick={() => api.close()}>
+            <span
+              class="shut"
+              data-tip={`Close ${title} (Delete)`}
+              onPointerDown={(event) => event.stopPropagation()}
+              onClick={() => api.close()}
+            >
               <Icon name="close" />
             </span>
           </>,
@@ -184,5 +209,8 @@ function Collapse({ layout }: { readonly layout: Layout }): JSX.Element {
 }
 
 function isLayout(value: unknown): value is SerializedDockview | null {
-  return value === null || (typeof value === "object" && "panels" in value && typeof value.panels === "object" && "grid" in value);
+  return (
+    value === null ||
+    (typeof value === "object" && "panels" in value && typeof value.panels === "object" && "grid" in value)
+  );
 }

@@ -17,7 +17,11 @@ export function freezable(connection: Connection, frozen: ReadonlySignal<boolean
   });
   const overrides: Pick<Connection, "now" | "subscribe"> = {
     now: () => stoppedAt ?? connection.now(),
-    subscribe: <M = RosMessage>(topic: string, onMessage: (received: Received<M>) => void, options = {}): Subscription => {
+    subscribe: <M = RosMessage>(
+      topic: string,
+      onMessage: (received: Received<M>) => void,
+      options = {},
+    ): Subscription => {
       const { every = false } = options as { readonly every?: boolean };
       let held: Received<M>[] = [];
       const release = effect(() => {

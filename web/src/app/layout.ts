@@ -29,7 +29,8 @@ const LEAST = 240;
 export function sideWidths(window: number, left: number | null, right: number | null): [number, number] {
   const room = window * 0.4 - GAPS;
   const clamp = (width: number): number => Math.min(SIDE.max, Math.max(SIDE.min, width));
-  if (left === null || right === null) return [left === null ? RAIL : clamp(left), right === null ? RAIL : clamp(right)];
+  if (left === null || right === null)
+    return [left === null ? RAIL : clamp(left), right === null ? RAIL : clamp(right)];
   const first = Math.min(clamp(left), Math.max(SIDE.min, room - SIDE.min));
   const second = Math.min(clamp(right), Math.floor(room - first));
   return second < SIDE.min ? [clamp(left), RAIL] : [first, second];
@@ -85,12 +86,25 @@ export class Layout {
     this.dockOpen.value ? Math.max(DOCK.min, Math.min(this.dockHeight.value, this.height.value / 2)) : DOCK.rail,
   );
 
-
   constructor(kind: "simulation" | "graph" | "log" | "bag") {
     const simulates = kind === "simulation" || kind === "log";
     const isWide = this.width.peek() >= ONE_SIDE;
-    this.left = new Side("left", simulates ? "world" : "displays", LEFT, kind, recall("left.open", true, isBoolean), 272);
-    this.right = new Side("right", "inspector", RIGHT, kind, isWide && recall(`right.open.${kind}`, simulates, isBoolean), 280);
+    this.left = new Side(
+      "left",
+      simulates ? "world" : "displays",
+      LEFT,
+      kind,
+      recall("left.open", true, isBoolean),
+      272,
+    );
+    this.right = new Side(
+      "right",
+      "inspector",
+      RIGHT,
+      kind,
+      isWide && recall(`right.open.${kind}`, simulates, isBoolean),
+      280,
+    );
     effect(() => remember("left.open", this.left.isOpen.value));
     effect(() => {
       if (this.width.value >= ONE_SIDE) remember(`right.open.${kind}`, this.right.isOpen.value);
@@ -116,7 +130,8 @@ export class Layout {
   /** Edges of the scene that panels and what lies on it cover [px]; it begins below the bar. */
   insets({ tiles, drive }: { readonly tiles: boolean; readonly drive: boolean }): Insets {
     const [left, right] = this.sides.value;
-    if (this.isPhone.value) return { left: 0, right: 0, top: tiles ? HEAD.phoneTile : HEAD.gap, bottom: this.phoneFoot(drive) };
+    if (this.isPhone.value)
+      return { left: 0, right: 0, top: tiles ? HEAD.phoneTile : HEAD.gap, bottom: this.phoneFoot(drive) };
     const bottom = this.dock.value + 16;
     const foot = tiles ? FOOT.tiles : drive ? FOOT.drive : 0;
     const isRoom = this.height.value - bottom - foot >= LEAST;

@@ -48,8 +48,18 @@ export interface Parts {
 export function mount(root: HTMLElement, { page, panels, commands, sceneHost, frozen = signal(false) }: Parts): Shell {
   const shell = new Shell(page, commands, sceneHost, frozen);
   shell.layout.listen();
-  const ofView = shell.isDrawn.peek() ? [...viewCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...splitCommands(shell)] : [];
-  commands.add(...insertionCommands(shell), ...simulationCommands(shell), ...saveCommands(shell), ...pageCommands(shell), ...ofView, ...modelCommands(shell), ...editorCommands(shell));
+  const ofView = shell.isDrawn.peek()
+    ? [...viewCommands(shell), ...toolCommands(shell), ...viewMenuCommands(shell), ...splitCommands(shell)]
+    : [];
+  commands.add(
+    ...insertionCommands(shell),
+    ...simulationCommands(shell),
+    ...saveCommands(shell),
+    ...pageCommands(shell),
+    ...ofView,
+    ...modelCommands(shell),
+    ...editorCommands(shell),
+  );
   rememberShown(page);
   let removeCameras = (): void => undefined;
   effect(() => {
@@ -59,7 +69,10 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
       removeCameras = commands.add(...cameras);
     });
   });
-  shell.dock.load(panels).then(() => commands.add(...panelCommands(shell)), (error: unknown) => shell.notices.report("Panels", error instanceof Error ? error.message : String(error)));
+  shell.dock.load(panels).then(
+    () => commands.add(...panelCommands(shell)),
+    (error: unknown) => shell.notices.report("Panels", error instanceof Error ? error.message : String(error)),
+  );
   listenForKeys(commands);
   acceptDroppedFiles(shell);
   effect(() => {

@@ -19,7 +19,9 @@ function command(id: string, group: Command["group"], title: string, run: () => 
 
 /** Commands of the panels that are there. */
 export function panelCommands({ dock }: Shell): readonly Command[] {
-  return dock.panels.peek().map(({ id, title }) => command(`panel.${id}`, "Panels", `Open ${title}`, () => dock.open(id)));
+  return dock.panels
+    .peek()
+    .map(({ id, title }) => command(`panel.${id}`, "Panels", `Open ${title}`, () => dock.open(id)));
 }
 
 /** Commands of the 3D view. */
@@ -32,7 +34,11 @@ export function viewCommands({ page, dialog, videos }: Shell): readonly Command[
     command("first_person", "View", "First person from what is selected, or the robot", () => toggleFirstPerson(page)),
     command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),
     command("video", "View", "Record a video of the view, or stop", () => videos.toggleView()),
-    ...SIDES.map((side) => command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () => views.lookFrom(side))),
+    ...SIDES.map((side) =>
+      command(`look.${side}`, "View", `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, () =>
+        views.lookFrom(side),
+      ),
+    ),
   ];
 }
 
@@ -46,15 +52,26 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
     command("link", "View", "Link to this view", () => (dialog.value = "link")),
-    ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) => command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id))),
+    ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) =>
+      command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id)),
+    ),
     command("left.toggle", "Panels", "Show or hide the left panel", toggle(layout.left.isOpen), "["),
     command("right.toggle", "Panels", "Show or hide the right panel", toggle(layout.right.isOpen), "]"),
     command("dock.toggle", "Panels", "Show or hide the dock", toggle(layout.dockOpen), "\\"),
     { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
-    { ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"), enabled: () => undo.redoTitle.peek() !== null },
+    {
+      ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"),
+      enabled: () => undo.redoTitle.peek() !== null,
+    },
     command("open_rviz", "Displays", "Open an .rviz file", () => chooseRviz(shell)),
-    { ...command("save_rviz", "Displays", "Save the .rviz file", () => save(shell)), enabled: () => rvizFile(shell)?.writable === true && canControl(page) },
-    { ...command("save_rviz_as", "Displays", "Save as .rviz", () => (dialog.value = "save")), enabled: () => canControl(page) },
+    {
+      ...command("save_rviz", "Displays", "Save the .rviz file", () => save(shell)),
+      enabled: () => rvizFile(shell)?.writable === true && canControl(page),
+    },
+    {
+      ...command("save_rviz_as", "Displays", "Save as .rviz", () => (dialog.value = "save")),
+      enabled: () => canControl(page),
+    },
     command("download_rviz", "Displays", "Download as .rviz", () => download(shell)),
     command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
     command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),

@@ -23,7 +23,9 @@ export function labelOthers(page: Page): void {
       const anchor = body === undefined ? null : page.world.object(body);
       return anchor === null ? [] : [{ anchor, person }];
     });
-    const labels = untracked(() => shown.map(({ anchor, person }) => page.scene.addLabel(anchor, nameOf(person), colourOf(person))));
+    const labels = untracked(() =>
+      shown.map(({ anchor, person }) => page.scene.addLabel(anchor, nameOf(person), colourOf(person))),
+    );
     return () => labels.forEach((label) => label.remove());
   });
 }

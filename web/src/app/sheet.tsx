@@ -54,7 +54,13 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
       />
       <nav aria-label="Pages of the sheet">
         {PAGES.map(({ id, title, icon }) => (
-          <button key={id} type="button" class={page === id && height !== "closed" ? "b on" : "b"} aria-pressed={page === id} onClick={() => choose(id)}>
+          <button
+            key={id}
+            type="button"
+            class={page === id && height !== "closed" ? "b on" : "b"}
+            aria-pressed={page === id}
+            onClick={() => choose(id)}
+          >
             <Icon name={icon} />
             {title}
           </button>

@@ -17,7 +17,18 @@ import { recallSplit } from "./panes/split";
 import { isBoolean, recall, remember } from "../page/storage";
 import { Videos } from "./video/videos";
 
-export type Dialog = "palette" | "help" | "notices" | "save" | "save_world" | "save_model" | "picture" | "link" | "upload" | "time" | null;
+export type Dialog =
+  | "palette"
+  | "help"
+  | "notices"
+  | "save"
+  | "save_world"
+  | "save_model"
+  | "picture"
+  | "link"
+  | "upload"
+  | "time"
+  | null;
 
 /** An .rviz file that is shown. */
 export interface RvizFileInfo {
@@ -59,7 +70,9 @@ export class Shell {
     return this.showsCameras.value ? cameraTopics(session, world.manifest.value, displays.displays.value) : [];
   });
   /** Edges of the scene that panels, tiles and the disc cover [px]; the camera looks into the middle of the rest. */
-  readonly insets = computed(() => this.layout.insets({ tiles: this.cameras.value.length > 0, drive: this.page.drive.topic.value !== null }));
+  readonly insets = computed(() =>
+    this.layout.insets({ tiles: this.cameras.value.length > 0, drive: this.page.drive.topic.value !== null }),
+  );
   /** Topics of cameras that are shown large. */
   readonly enlarged = signal<ReadonlySet<string>>(new Set());
   /** Rows of the Displays page that were opened or closed. */

@@ -29,7 +29,12 @@ export function SidePanel({ shell, side }: SidePanelProps): JSX.Element {
           <Tabs label={LABELS[side]} items={pages} selected={shown} onSelect={(id) => layout.open(id as SidePage)} />
           <span class="sp" />
           {side === "right" && <UndoButtons shell={shell} />}
-          <Button icon={`collapse_${side}`} label="Collapse to a rail" small onClick={() => (layout[side].isOpen.value = false)} />
+          <Button
+            icon={`collapse_${side}`}
+            label="Collapse to a rail"
+            small
+            onClick={() => (layout[side].isOpen.value = false)}
+          />
         </div>
         <section class="page" role="tabpanel" aria-label={page?.title}>
           {Content !== undefined && <Content shell={shell} />}
@@ -45,7 +50,12 @@ function Rail({ shell, side }: SidePanelProps): JSX.Element {
   return (
     <aside class={`panel rail ${side}`} aria-label={LABELS[side]}>
       <div class="railbox">
-        <Button icon={side === "left" ? "collapse_right" : "collapse_left"} label="Open the panel" small onClick={() => layout.open(layout[side].page.peek())} />
+        <Button
+          icon={side === "left" ? "collapse_right" : "collapse_left"}
+          label="Open the panel"
+          small
+          onClick={() => layout.open(layout[side].page.peek())}
+        />
         {sidePages(shell, side).map(({ id, title }) => (
           <Button key={id} class="v" onClick={() => layout.open(id)}>
             {title}
@@ -75,7 +85,8 @@ function Edge({ shell, side }: SidePanelProps): JSX.Element {
       style={{ [side]: `calc(var(--gap) + var(--${side}-now))` }}
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
       onPointerMove={(event) => {
-        if (event.currentTarget.hasPointerCapture(event.pointerId)) resize((side === "left" ? event.clientX : innerWidth - event.clientX) - 12);
+        if (event.currentTarget.hasPointerCapture(event.pointerId))
+          resize((side === "left" ? event.clientX : innerWidth - event.clientX) - 12);
       }}
       onKeyDown={(event) => {
         if (event.key === "ArrowRight") resize(width + outward * 8);

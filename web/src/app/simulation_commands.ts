@@ -23,7 +23,9 @@ export function simulationCommands(shell: Shell): readonly Command[] {
   });
   const clock = [
     command("play_pause", "Play or pause", () => toggle(shell), "Space"),
-    ...[0.1, 0.5, 1, 2].map((factor) => command(`speed.${factor}`, `Speed ${factor}×`, () => shell.request("Speed", "speed", { factor }))),
+    ...[0.1, 0.5, 1, 2].map((factor) =>
+      command(`speed.${factor}`, `Speed ${factor}×`, () => shell.request("Speed", "speed", { factor })),
+    ),
     command("time", "Go to a time, or take several steps…", () => void (shell.dialog.value = "time")),
     command("speed.max", "As fast as possible", () => shell.request("Speed", "speed", { factor: null })),
   ];

@@ -56,16 +56,23 @@ function followSession({ page, notices, ownFile }: Shell): void {
     untracked(() => {
       const { displays } = page;
       const { rviz, fixed_frame } = next;
-      const isOther = rviz !== null && ownFile.value === null && rviz.text !== shown.rviz?.text && displays.changes.value === 0 && displays.save() !== rviz.text;
+      const isOther =
+        rviz !== null &&
+        ownFile.value === null &&
+        rviz.text !== shown.rviz?.text &&
+        displays.changes.value === 0 &&
+        displays.save() !== rviz.text;
       if (isOther) for (const fault of displays.load(rviz.text)) notices.report(rviz.name, fault, "warn");
-      if (fixed_frame !== null && (isOther || fixed_frame !== shown.fixed_frame)) displays.fixedFrameSetting.value = fixed_frame;
+      if (fixed_frame !== null && (isOther || fixed_frame !== shown.fixed_frame))
+        displays.fixedFrameSetting.value = fixed_frame;
       shown = next;
     });
   });
 }
 
 function disable({ page }: Shell, className: string): void {
-  for (const display of page.displays.displays.peek()) if (display.className === className) display.enabled.decode(false);
+  for (const display of page.displays.displays.peek())
+    if (display.className === className) display.enabled.decode(false);
 }
 
 function loadTf({ page }: Shell, name: string, yaml: Yaml): void {
@@ -94,7 +101,8 @@ function showRobot({ page }: Shell): void {
   const described = computed(() => connection.parameters.value.has("/robot_description"));
   const stop = described.subscribe((isThere) => {
     if (!isThere) return;
-    for (const display of displays.displays.peek()) if (display.className === "rviz/RobotModel") display.enabled.decode(true);
+    for (const display of displays.displays.peek())
+      if (display.className === "rviz/RobotModel") display.enabled.decode(true);
     queueMicrotask(() => stop()); // also where it is there already
   });
 }
@@ -121,7 +129,10 @@ export function startView(shell: Shell): void {
   }
   const framed = new Box3();
   let settling = 0;
-  const isLoading = (): boolean => (world.manifest.peek() === null ? session.kind === "simulation" || session.kind === "log" : world.progress.peek() < 1);
+  const isLoading = (): boolean =>
+    world.manifest.peek() === null
+      ? session.kind === "simulation" || session.kind === "log"
+      : world.progress.peek() < 1;
   const stop = scene.onTick((elapsed) => {
     const box = isLoading() ? new Box3() : robotBox(page);
     if (box.isEmpty()) return;

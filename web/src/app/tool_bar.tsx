@@ -26,7 +26,13 @@ export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
         {offeredTools(shell).map((tool) => {
           const name = SHORT[tool.name] ?? tool.name;
           const icon = isIcon(tool.icon) ? tool.icon : "select";
-          const common = { icon, label: name, keys: keyOf(shell, tool.shortcut), on: tool === current, onClick: () => tools.use(tool.className) };
+          const common = {
+            icon,
+            label: name,
+            keys: keyOf(shell, tool.shortcut),
+            on: tool === current,
+            onClick: () => tools.use(tool.className),
+          };
           return named ? (
             <Button key={tool.className} {...common}>
               {name}
@@ -60,7 +66,13 @@ export function toolCommands(shell: Shell): readonly Command[] {
     .filter((tool) => tool.shortcut !== "")
     .flatMap((tool) => {
       const letter = tool.shortcut.toUpperCase();
-      const command: Command = { id: `tool.${tool.className}`, group: "Tools", title: tool.name, keys: letter, run: () => shell.page.tools.use(tool.className) };
+      const command: Command = {
+        id: `tool.${tool.className}`,
+        group: "Tools",
+        title: tool.name,
+        keys: letter,
+        run: () => shell.page.tools.use(tool.className),
+      };
       const isDriving = (): boolean => shell.page.drive.topic.peek() !== null;
       const shifted: Command = { ...command, id: `${command.id}.shift`, keys: `Shift ${letter}`, enabled: isDriving };
       return "WASD".includes(letter) ? [shifted, { ...command, enabled: () => !isDriving() }] : [command];

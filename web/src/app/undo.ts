@@ -19,8 +19,12 @@ export class UndoHistory implements PageUndo {
   private readonly other = computed(() => this.others.value?.value ?? null);
   /** Edits that were asked for and are not recorded yet. */
   private readonly asked = new Set<Promise<unknown>>();
-  readonly undoTitle = computed(() => (this.other.value === null ? (this.done.value.at(-1)?.title ?? null) : this.other.value.undoTitle));
-  readonly redoTitle = computed(() => (this.other.value === null ? (this.undone.value.at(-1)?.title ?? null) : this.other.value.redoTitle));
+  readonly undoTitle = computed(() =>
+    this.other.value === null ? (this.done.value.at(-1)?.title ?? null) : this.other.value.undoTitle,
+  );
+  readonly redoTitle = computed(() =>
+    this.other.value === null ? (this.undone.value.at(-1)?.title ?? null) : this.other.value.redoTitle,
+  );
 
   defer(other: ReadonlySignal<DeferredUndo | null>): void {
     this.others.value = other;

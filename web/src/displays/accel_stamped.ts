@@ -14,4 +14,9 @@ export class AccelStampedDisplay extends ScrewDisplay<AccelStamped> {
   }
 }
 
-register({ className: "rviz/AccelStamped", aliases: [], types: TYPES, create: (context) => new AccelStampedDisplay(context, TYPES, "Linear", "Angular") });
+register({
+  className: "rviz/AccelStamped",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new AccelStampedDisplay(context, TYPES, "Linear", "Angular"),
+});

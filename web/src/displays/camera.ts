@@ -27,7 +27,9 @@ const MOST_PIXELS = 4096 * 4096;
 export class CameraDisplay extends PictureDisplay {
   readonly className = "rviz/Camera";
   readonly rendering = this.add(
-    new EnumProperty("Image Rendering", BOTH, [BACKGROUND, OVERLAY, BOTH], { description: "The image behind all else, over it, or both." }),
+    new EnumProperty("Image Rendering", BOTH, [BACKGROUND, OVERLAY, BOTH], {
+      description: "The image behind all else, over it, or both.",
+    }),
   );
   readonly alpha = this.add(new NumberProperty("Overlay Alpha", 0.5, { min: 0, max: 1 }));
   readonly zoom = this.add(new NumberProperty("Zoom Factor", 1, { min: 0.00001, max: 100000 }));
@@ -81,9 +83,13 @@ export class CameraDisplay extends PictureDisplay {
     if (topic === "") return;
     const infoTopic = this.context.names.resolve(cameraInfoTopic(topic));
     this.setStatus("Camera Info", "warn", `No CameraInfo received on [${infoTopic}].\nTopic may not exist.`);
-    this.subscription = this.context.connection.subscribe<CameraInfo>(infoTopic, (received) => this.receiveInfo(received), {
-      onError: (text) => this.setStatus("Camera Info", "error", text),
-    });
+    this.subscription = this.context.connection.subscribe<CameraInfo>(
+      infoTopic,
+      (received) => this.receiveInfo(received),
+      {
+        onError: (text) => this.setStatus("Camera Info", "error", text),
+      },
+    );
   }
 
   private receiveInfo({ type, message }: Received<CameraInfo>): void {
@@ -116,12 +122,23 @@ export class CameraDisplay extends PictureDisplay {
     const size = calibratedSize(info, image);
     const matrix = projection(info, size, this.zoom.value.peek());
     if (typeof matrix === "string" || size.width * size.height > MOST_PIXELS) {
-      this.setStatus("Camera Info", "error", typeof matrix === "string" ? matrix : `An image of ${size.width} x ${size.height} is too large`);
+      this.setStatus(
+        "Camera Info",
+        "error",
+        typeof matrix === "string" ? matrix : `An image of ${size.width} x ${size.height} is too large`,
+      );
       return;
     }
     this.setStatus("Camera Info", "ok", "processed");
     const { scene, displays } = this.context;
-    this.scenePicture?.draw(renderer, scene.displays, size, matrix, cameraPose(info, transform), this.visibility.hidden(displays.peek()));
+    this.scenePicture?.draw(
+      renderer,
+      scene.displays,
+      size,
+      matrix,
+      cameraPose(info, transform),
+      this.visibility.hidden(displays.peek()),
+    );
     this.compose(image, info, size);
   }
 

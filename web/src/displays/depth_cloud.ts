@@ -23,13 +23,19 @@ const MOST_APART = 500_000_000n;
 
 export class DepthCloudDisplay extends Display {
   readonly className = "rviz/DepthCloud";
-  readonly topicFilter = this.add(new BoolProperty("Topic Filter", true, { description: "Kept for rviz, without effect here." }));
+  readonly topicFilter = this.add(
+    new BoolProperty("Topic Filter", true, { description: "Kept for rviz, without effect here." }),
+  );
   readonly depthTopic = this.add(new TopicProperty("Depth Map Topic", "", [IMAGE]));
   readonly depthTransport = this.add(new EnumProperty("Depth Map Transport Hint", "raw", ["raw"], { open: true }));
   readonly colorTopic = this.add(new TopicProperty("Color Image Topic", "", [IMAGE]));
   readonly colorTransport = this.add(new EnumProperty("Color Transport Hint", "raw", ["raw"], { open: true }));
-  readonly queueSize = this.add(new IntProperty("Queue Size", 5, { min: 1, description: "Images that wait for transforms and for each other." }));
-  readonly useAutoSize = this.add(new BoolProperty("Auto Size", true, { description: "Points as wide as a pixel of the camera sees." }));
+  readonly queueSize = this.add(
+    new IntProperty("Queue Size", 5, { min: 1, description: "Images that wait for transforms and for each other." }),
+  );
+  readonly useAutoSize = this.add(
+    new BoolProperty("Auto Size", true, { description: "Points as wide as a pixel of the camera sees." }),
+  );
   readonly autoSizeFactor = this.useAutoSize.add(
     new NumberProperty("Auto Size Factor", 1, { min: 0.0001, visible: computed(() => this.useAutoSize.value.value) }),
   );
@@ -76,7 +82,9 @@ export class DepthCloudDisplay extends Display {
             if (received.type === type) take(received.message);
             else this.setStatus("Message", "error", `${name} is of type ${received.type}, not ${type}`);
           };
-          const subscription = connection.subscribe<never>(name, onMessage, { onError: (text) => this.setStatus("Message", "error", text) });
+          const subscription = connection.subscribe<never>(name, onMessage, {
+            onError: (text) => this.setStatus("Message", "error", text),
+          });
           return () => subscription.close();
         }),
       );
@@ -101,12 +109,24 @@ export class DepthCloudDisplay extends Display {
       }),
       effect(() => this.nameUnsupported()),
     );
-    follow(() => this.depthTopic.value.value, IMAGE, (depth: Image) => this.takeDepth(depth));
-    follow(() => this.colorTopic.value.value, IMAGE, (color: Image) => this.takeColor(color));
-    follow(() => (this.depthTopic.value.value === "" ? "" : cameraInfoTopic(this.depthTopic.value.value)), INFO, (info: CameraInfo) => {
-      this.info = info;
-      this.fitSize();
-    });
+    follow(
+      () => this.depthTopic.value.value,
+      IMAGE,
+      (depth: Image) => this.takeDepth(depth),
+    );
+    follow(
+      () => this.colorTopic.value.value,
+      IMAGE,
+      (color: Image) => this.takeColor(color),
+    );
+    follow(
+      () => (this.depthTopic.value.value === "" ? "" : cameraInfoTopic(this.depthTopic.value.value)),
+      INFO,
+      (info: CameraInfo) => {
+        this.info = info;
+        this.fitSize();
+      },
+    );
   }
 
   protected onStop(): void {
@@ -123,12 +143,20 @@ export class DepthCloudDisplay extends Display {
     this.colors = [];
     this.count = 0;
     for (const name of ["Message", "Transform", "Depth Image Size", "Image Size", "Points"]) this.clearStatus(name);
-    this.setStatus("Depth Map", "warn", "0 depth maps received", this.topic === null ? "Choose a depth map topic." : undefined);
+    this.setStatus(
+      "Depth Map",
+      "warn",
+      "0 depth maps received",
+      this.topic === null ? "Choose a depth map topic." : undefined,
+    );
   }
 
   private nameUnsupported(): void {
     const others = [this.depthTransport, this.colorTransport].filter(({ value }) => value.value !== "raw");
-    const names = [...others.map(({ name, value }) => `${name} ${value.value}`), ...(this.occlusion.value.value ? ["Occlusion Compensation"] : [])];
+    const names = [
+      ...others.map(({ name, value }) => `${name} ${value.value}`),
+      ...(this.occlusion.value.value ? ["Occlusion Compensation"] : []),
+    ];
     untracked(() => {
       if (names.length === 0) this.clearStatus("Unsupported");
       else this.setStatus("Unsupported", "warn", `${names.join(" and ")}: not supported here`);
@@ -146,7 +174,8 @@ export class DepthCloudDisplay extends Display {
   }
 
   private fitSize(): void {
-    if (this.useAutoSize.value.peek() && this.info !== null) this.cloudProperties.size.value.value = autoSize(this.info, this.autoSizeFactor.value.peek());
+    if (this.useAutoSize.value.peek() && this.info !== null)
+      this.cloudProperties.size.value.value = autoSize(this.info, this.autoSizeFactor.value.peek());
   }
 
   override update(now: bigint, elapsed: number): void {
@@ -172,7 +201,8 @@ export class DepthCloudDisplay extends Display {
     if (color !== null) this.setStatus("Image Size", "ok", `${color.width} x ${color.height}`);
     const [own, other] = [depth.header.frame_id, color?.header.frame_id];
     if (other === undefined || other === own) this.setStatus("Message", "ok", "Ok");
-    else this.setStatus("Message", "warn", `Depth image frame id [${own}] doesn't match color image frame id [${other}]`);
+    else
+      this.setStatus("Message", "warn", `Depth image frame id [${own}] doesn't match color image frame id [${other}]`);
     this.common.add(cloud, transform, this.context.connection.now());
     this.setStatus("Points", "ok", this.common.status);
   }

@@ -132,7 +132,9 @@ export abstract class Display {
   /** Stand an object at its pose in the fixed frame; without one it is not seen. */
   protected stand(object: Object3D, pose: Transform | null): void {
     const isThere = pose !== null;
-    const isSame = object.visible === isThere && (pose === null || (object.position.equals(pose.position) && object.quaternion.equals(pose.orientation)));
+    const isSame =
+      object.visible === isThere &&
+      (pose === null || (object.position.equals(pose.position) && object.quaternion.equals(pose.orientation)));
     if (isSame) return;
     object.visible = isThere;
     if (pose !== null) {

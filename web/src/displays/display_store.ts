@@ -11,7 +11,14 @@ import { Edits } from "./edits";
 import { workOutFixedFrame } from "./fixed_frame";
 import { Group, isDisplay, type Entry, type UnsupportedEntry } from "./group";
 import { findOffers } from "./offers";
-import { BoolProperty, ColorProperty, IntProperty, TopicProperty, type Yaml, type YamlMapping } from "../rviz/properties";
+import {
+  BoolProperty,
+  ColorProperty,
+  IntProperty,
+  TopicProperty,
+  type Yaml,
+  type YamlMapping,
+} from "../rviz/properties";
 import { displayClass, displayClasses } from "./registry";
 
 /** Tools as a list of the file. */
@@ -60,14 +67,18 @@ export class DisplayStore implements DisplayList {
       return findOffers(connection.topics.value.values(), shown);
     });
     this.edits = new Edits(parts.undo);
-    this.changes = computed(() => this.edits.count.value + Number(this.savedLook.value !== null && this.lookText() !== this.savedLook.value));
+    this.changes = computed(
+      () => this.edits.count.value + Number(this.savedLook.value !== null && this.lookText() !== this.savedLook.value),
+    );
     this.load(DEFAULT_FILE);
     this.savedLook.value = null;
     this.root.start();
   }
 
   get classes(): readonly string[] {
-    return displayClasses().map((found) => found.className).sort();
+    return displayClasses()
+      .map((found) => found.className)
+      .sort();
   }
 
   add(className: string, topic?: string): Display {
@@ -103,7 +114,11 @@ export class DisplayStore implements DisplayList {
       group.remove(display);
       group.insert(display, index);
     };
-    this.edit(`Move ${display.name.peek()}`, () => place(to), () => place(from));
+    this.edit(
+      `Move ${display.name.peek()}`,
+      () => place(to),
+      () => place(from),
+    );
   }
 
   reset(): void {
@@ -153,7 +168,8 @@ export class DisplayStore implements DisplayList {
   private content(): RvizContent {
     const displays = this.root.save()["Displays"];
     const globalOptions: Record<string, Yaml> = {};
-    for (const option of [this.backgroundColor, this.defaultLight, this.frameRate]) globalOptions[option.name] = option.encode();
+    for (const option of [this.backgroundColor, this.defaultLight, this.frameRate])
+      globalOptions[option.name] = option.encode();
     if (this.fixedFrameSetting.value !== "") globalOptions["Fixed Frame"] = this.fixedFrameSetting.value;
     return {
       globalOptions,
@@ -180,7 +196,11 @@ export class DisplayStore implements DisplayList {
   }
 
   private insert(title: string, entry: Entry, index: number, group: Group): void {
-    this.edit(title, () => group.insert(entry, index), () => group.remove(entry));
+    this.edit(
+      title,
+      () => group.insert(entry, index),
+      () => group.remove(entry),
+    );
   }
 
   /** The group that holds a display, and where. */

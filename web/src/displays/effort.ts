@@ -50,7 +50,12 @@ class EffortRing extends Group {
     this.line.begin();
     this.line.addPolyline(points, rgba);
     this.line.finish();
-    this.arrow.setProportions({ shaftLength: 0, shaftDiameter: 2 * width, headLength: 2 * width, headDiameter: 4 * width });
+    this.arrow.setProportions({
+      shaftLength: 0,
+      shaftDiameter: 2 * width,
+      headLength: 2 * width,
+      headDiameter: 4 * width,
+    });
     this.arrow.setColor([rgba[0] * 255, rgba[1] * 255, rgba[2] * 255], alpha);
     this.arrow.position.set(0, radius, 0);
     this.arrow.quaternion.setFromAxisAngle(Z, side > 0 ? Math.PI : 0);
@@ -109,7 +114,12 @@ export class Effort extends TopicDisplay<JointState> {
       if (this.rows.get(name)?.value.peek() === false) return;
       const ring = this.ringAt(joint);
       if (ring === null) return;
-      ring.draw(effort / (joint.effort ?? 1), this.scale.value.peek(), this.width.value.peek(), this.alpha.value.peek());
+      ring.draw(
+        effort / (joint.effort ?? 1),
+        this.scale.value.peek(),
+        this.width.value.peek(),
+        this.alpha.value.peek(),
+      );
       rings.set(name, ring);
       this.root.add(ring);
     });

@@ -17,4 +17,9 @@ export class FluidPressureDisplay extends CloudDisplay<FluidPressure> {
   }
 }
 
-register({ className: "rviz/FluidPressure", aliases: [], types: TYPES, create: (context) => new FluidPressureDisplay(context, TYPES, CHANNEL) });
+register({
+  className: "rviz/FluidPressure",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new FluidPressureDisplay(context, TYPES, CHANNEL),
+});

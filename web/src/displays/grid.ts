@@ -3,14 +3,26 @@
 import { BufferAttribute, BufferGeometry, Group, LineSegments } from "three";
 
 import { Display } from "./display";
-import { ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, VectorProperty } from "../rviz/properties";
+import {
+  ColorProperty,
+  EnumProperty,
+  FIXED_FRAME,
+  FrameProperty,
+  IntProperty,
+  NumberProperty,
+  VectorProperty,
+} from "../rviz/properties";
 import { register } from "./registry";
 import { BillboardLines } from "../shapes/billboard_lines";
 import { flatMaterial } from "../shapes/shape_material";
 import { watch } from "./watch";
 
 /** Indices of the plane's two axes and its normal. */
-const PLANES: Readonly<Record<string, readonly [number, number, number]>> = { XY: [0, 1, 2], XZ: [0, 2, 1], YZ: [1, 2, 0] };
+const PLANES: Readonly<Record<string, readonly [number, number, number]>> = {
+  XY: [0, 1, 2],
+  XZ: [0, 2, 1],
+  YZ: [1, 2, 0],
+};
 
 /** Points of pairs [m]: `cells` squares a side about the origin, and `layers` of them above and below. */
 export function gridLines(cells: number, layers: number, size: number, plane: string): Float32Array<ArrayBuffer> {
@@ -75,7 +87,12 @@ export class Grid extends Display {
   }
 
   private draw(): void {
-    const points = gridLines(this.cells.value.value, this.layers.value.value, this.size.value.value, this.plane.value.value);
+    const points = gridLines(
+      this.cells.value.value,
+      this.layers.value.value,
+      this.size.value.value,
+      this.plane.value.value,
+    );
     const broad = this.style.value.value === "Billboards";
     const [red, green, blue] = this.color.value.value;
     const alpha = this.alpha.value.value;

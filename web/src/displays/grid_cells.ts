@@ -23,7 +23,8 @@ export class GridCellsDisplay extends HistoryDisplay<GridCells> {
   }
 
   protected override fault({ cells, cell_width, cell_height }: GridCells): string | null {
-    if (!Number.isFinite(cell_width) || !Number.isFinite(cell_height) || !cells.every(isFiniteXyz)) return INVALID_FLOATS;
+    if (!Number.isFinite(cell_width) || !Number.isFinite(cell_height) || !cells.every(isFiniteXyz))
+      return INVALID_FLOATS;
     if (cell_width === 0) return "Cell width is zero, cells will be invisible.";
     return cell_height === 0 ? "Cell height is zero, cells will be invisible." : null;
   }
@@ -44,4 +45,9 @@ export class GridCellsDisplay extends HistoryDisplay<GridCells> {
   }
 }
 
-register({ className: "rviz/GridCells", aliases: [], types: TYPES, create: (context) => new GridCellsDisplay(context) });
+register({
+  className: "rviz/GridCells",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new GridCellsDisplay(context),
+});

@@ -20,8 +20,13 @@ export function isDisplay(entry: Entry): entry is Display {
 }
 
 /** Displays with the members of their groups, groups before their members; without those that `keep` refuses and what is below them. */
-export function withMembers(displays: readonly Display[], keep: (display: Display) => boolean = () => true): readonly Display[] {
-  return displays.filter(keep).flatMap((display) => (display instanceof Group ? [display, ...withMembers(display.displays, keep)] : [display]));
+export function withMembers(
+  displays: readonly Display[],
+  keep: (display: Display) => boolean = () => true,
+): readonly Display[] {
+  return displays
+    .filter(keep)
+    .flatMap((display) => (display instanceof Group ? [display, ...withMembers(display.displays, keep)] : [display]));
 }
 
 export function isEnabled(display: Display): boolean {
@@ -73,7 +78,8 @@ export class Group extends Display {
   }
 
   override update(now: bigint, elapsed: number): void {
-    for (const display of this.active.keys()) if (display.enabled.value.peek()) guard(display, () => display.update(now, elapsed));
+    for (const display of this.active.keys())
+      if (display.enabled.value.peek()) guard(display, () => display.update(now, elapsed));
   }
 
   override save(): YamlMapping {
@@ -138,4 +144,9 @@ function text(yaml: Yaml | undefined): string {
   return typeof yaml === "string" ? yaml : "";
 }
 
-register({ className: "rviz/Group", aliases: ["rviz_common/Group"], types: [], create: (context: DisplayContext) => new Group(context) });
+register({
+  className: "rviz/Group",
+  aliases: ["rviz_common/Group"],
+  types: [],
+  create: (context: DisplayContext) => new Group(context),
+});

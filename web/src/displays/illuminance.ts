@@ -17,4 +17,9 @@ export class IlluminanceDisplay extends CloudDisplay<Illuminance> {
   }
 }
 
-register({ className: "rviz/Illuminance", aliases: [], types: TYPES, create: (context) => new IlluminanceDisplay(context, TYPES, CHANNEL) });
+register({
+  className: "rviz/Illuminance",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new IlluminanceDisplay(context, TYPES, CHANNEL),
+});

@@ -23,12 +23,19 @@ export class ImageDisplay extends PictureDisplay {
     const isFixed = computed(() => hasNumbers.value && !this.normalize.value.value);
     const isAutomatic = computed(() => hasNumbers.value && this.normalize.value.value);
     this.normalize = this.add(
-      new BoolProperty("Normalize Range", true, { visible: hasNumbers, description: "Black and white are the least and greatest value of the images." }),
+      new BoolProperty("Normalize Range", true, {
+        visible: hasNumbers,
+        description: "Black and white are the least and greatest value of the images.",
+      }),
     );
     this.min = this.add(new NumberProperty("Min Value", 0, { visible: isFixed, description: "Value that is black." }));
     this.max = this.add(new NumberProperty("Max Value", 1, { visible: isFixed, description: "Value that is white." }));
     this.window = this.add(
-      new IntProperty("Median window", 5, { visible: isAutomatic, min: 1, description: "Images whose median range is used." }),
+      new IntProperty("Median window", 5, {
+        visible: isAutomatic,
+        min: 1,
+        description: "Images whose median range is used.",
+      }),
     );
   }
 

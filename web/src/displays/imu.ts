@@ -22,7 +22,9 @@ const ARROW = { shaftDiameter: 0.5, headLength: 1, headDiameter: 1 };
 export class ImuDisplay extends HistoryDisplay<Imu> {
   readonly className = "rviz_imu_plugin/Imu";
   private readonly inFixedFrame = this.add(
-    new BoolProperty("fixed_frame_orientation", true, { description: "Turn by the IMU's orientation from the fixed frame, not from its own." }),
+    new BoolProperty("fixed_frame_orientation", true, {
+      description: "Turn by the IMU's orientation from the fixed frame, not from its own.",
+    }),
   );
   private readonly box = this.add(new GroupProperty("Box properties"));
   private readonly boxEnabled = this.box.add(new BoolProperty("Enable box", false));
@@ -41,7 +43,9 @@ export class ImuDisplay extends HistoryDisplay<Imu> {
   );
   private readonly accelerationScale = this.acceleration.add(new NumberProperty("Acc. vector scale", 1));
   private readonly accelerationColor = this.acceleration.add(new ColorProperty("Acc. vector color", [255, 0, 0]));
-  private readonly accelerationAlpha = this.acceleration.add(new NumberProperty("Acc. vector alpha", 1, { min: 0, max: 1 }));
+  private readonly accelerationAlpha = this.acceleration.add(
+    new NumberProperty("Acc. vector alpha", 1, { min: 0, max: 1 }),
+  );
 
   constructor(context: DisplayContext) {
     super(context, TYPES);
@@ -71,12 +75,21 @@ export class ImuDisplay extends HistoryDisplay<Imu> {
       axes.scale.setScalar(this.axesScale.value.peek());
       turned.add(axes);
     }
-    if (this.accelerationEnabled.value.peek()) group.add(this.drawAcceleration(vector(message.linear_acceleration), orientation));
+    if (this.accelerationEnabled.value.peek())
+      group.add(this.drawAcceleration(vector(message.linear_acceleration), orientation));
     return group;
   }
 
-  protected override describe({ orientation, angular_velocity, linear_acceleration }: Imu): Readonly<Record<string, unknown>> {
-    return { Orientation: orientation, "Angular Velocity": angular_velocity, "Linear Acceleration": linear_acceleration };
+  protected override describe({
+    orientation,
+    angular_velocity,
+    linear_acceleration,
+  }: Imu): Readonly<Record<string, unknown>> {
+    return {
+      Orientation: orientation,
+      "Angular Velocity": angular_velocity,
+      "Linear Acceleration": linear_acceleration,
+    };
   }
 
   private drawAcceleration(acceleration: Vector3, orientation: Quaternion): Object3D {

@@ -21,7 +21,9 @@ export class InteractiveMarkers extends Display {
   readonly topicProperty = this.add(new TopicProperty("Update Topic", "", [UPDATE]));
   private readonly descriptions = this.add(new BoolProperty("Show Descriptions", true));
   private readonly axes = this.add(new BoolProperty("Show Axes", false));
-  readonly visualAids = this.add(new BoolProperty("Show Visual Aids", false, { description: "Kept for rviz, without effect here." }));
+  readonly visualAids = this.add(
+    new BoolProperty("Show Visual Aids", false, { description: "Kept for rviz, without effect here." }),
+  );
   private readonly transparency = this.add(new BoolProperty("Enable Transparency", true));
 
   private readonly views = new Map<string, InteractiveMarkerView>();
@@ -73,18 +75,24 @@ export class InteractiveMarkers extends Display {
     const { names } = this.context;
     const servers = topic.slice(0, -"/update".length);
     this.setStatus("General", "warn", "Waiting for messages.");
-    this.client = new MarkerClient(this.context.connection, names.resolve(`${servers}/update_full`), names.resolve(topic), {
-      put: (marker) => this.put(withHandles(marker, isClear ? 0.5 : 1), names.resolve(`${servers}/feedback`)),
-      move: ({ name, pose }) => {
-        this.views.get(name)?.setPose(pose);
-        this.context.scene.invalidate();
+    this.client = new MarkerClient(
+      this.context.connection,
+      names.resolve(`${servers}/update_full`),
+      names.resolve(topic),
+      {
+        put: (marker) => this.put(withHandles(marker, isClear ? 0.5 : 1), names.resolve(`${servers}/feedback`)),
+        move: ({ name, pose }) => {
+          this.views.get(name)?.setPose(pose);
+          this.context.scene.invalidate();
+        },
+        erase: (name) => this.erase(name),
+        status: (server, level, text) => {
+          this.clearStatus("General");
+          this.setStatus(server, level, text);
+        },
       },
-      erase: (name) => this.erase(name),
-      status: (server, level, text) => {
-        this.clearStatus("General");
-        this.setStatus(server, level, text);
-      },
-    }, (text) => this.setStatus("Topic", "error", text));
+      (text) => this.setStatus("Topic", "error", text),
+    );
   }
 
   private disconnect(): void {
@@ -109,8 +117,13 @@ export class InteractiveMarkers extends Display {
       onFault: (_shape: unknown, text: string, advice: string) => this.setStatus(marker.name, "error", text, advice),
       onChange: () => scene.invalidate(),
     };
-    const view = new InteractiveMarkerView(marker, this.context, parts, `/trundle_page/${this.name.peek()}`, (message) =>
-      connection.publish(feedback, FEEDBACK, message));
+    const view = new InteractiveMarkerView(
+      marker,
+      this.context,
+      parts,
+      `/trundle_page/${this.name.peek()}`,
+      (message) => connection.publish(feedback, FEEDBACK, message),
+    );
     view.show({ descriptions: this.descriptions.value.peek(), axes: this.axes.value.peek() });
     this.views.set(marker.name, view);
     this.root.add(view);
@@ -129,9 +142,15 @@ export class InteractiveMarkers extends Display {
   }
 
   private showAll(): void {
-    for (const view of this.views.values()) view.show({ descriptions: this.descriptions.value.peek(), axes: this.axes.value.peek() });
+    for (const view of this.views.values())
+      view.show({ descriptions: this.descriptions.value.peek(), axes: this.axes.value.peek() });
     this.context.scene.invalidate();
   }
 }
 
-register({ className: "rviz/InteractiveMarkers", aliases: [], types: [UPDATE], create: (context) => new InteractiveMarkers(context) });
+register({
+  className: "rviz/InteractiveMarkers",
+  aliases: [],
+  types: [UPDATE],
+  create: (context) => new InteractiveMarkers(context),
+});

@@ -66,7 +66,10 @@ export function project(scan: LaserScan, start: Transform, end: Transform): Clou
     const angle = angle_min + index * angle_increment;
     orientation.slerpQuaternions(start.orientation, end.orientation, share);
     origin.lerpVectors(start.position, end.position, share);
-    point.set(range * Math.cos(angle), range * Math.sin(angle), 0).applyQuaternion(orientation).add(origin);
+    point
+      .set(range * Math.cos(angle), range * Math.sin(angle), 0)
+      .applyQuaternion(orientation)
+      .add(origin);
     point.toArray(values, count * width);
     if (hasIntensity) values[count * width + 3] = intensities[index] ?? 0;
     count += 1;
@@ -74,4 +77,9 @@ export function project(scan: LaserScan, start: Transform, end: Transform): Clou
   return cloudOf(hasIntensity ? ["x", "y", "z", "intensity"] : ["x", "y", "z"], values.subarray(0, count * width));
 }
 
-register({ className: "rviz/LaserScan", aliases: [], types: TYPES, create: (context) => new LaserScanDisplay(context, TYPES) });
+register({
+  className: "rviz/LaserScan",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new LaserScanDisplay(context, TYPES),
+});

@@ -36,14 +36,20 @@ export class MapDisplay extends Display {
   readonly topicProperty = this.add(new TopicProperty("Topic", "", [TYPE]));
   readonly alpha = this.add(new NumberProperty("Alpha", 0.7, { min: 0, max: 1 }));
   readonly colorScheme = this.add(new EnumProperty("Color Scheme", "map", COLOR_SCHEMES));
-  readonly drawBehind = this.add(new BoolProperty("Draw Behind", false, { description: "Draw the map behind everything else." }));
+  readonly drawBehind = this.add(
+    new BoolProperty("Draw Behind", false, { description: "Draw the map behind everything else." }),
+  );
   private readonly resolution = this.add(new ReadOnlyProperty("Resolution", "[m] of a cell"));
   private readonly width = this.add(new ReadOnlyProperty("Width", "Cells along x"));
   private readonly height = this.add(new ReadOnlyProperty("Height", "Cells along y"));
   private readonly position = this.add(new ReadOnlyProperty("Position", "Corner of the map in its frame [m]"));
   private readonly orientation = this.add(new ReadOnlyProperty("Orientation", "Quaternion x; y; z; w in its frame"));
-  readonly unreliable = this.add(new BoolProperty("Unreliable", false, { description: "Kept for rviz, without effect here." }));
-  readonly useTimestamp = this.add(new BoolProperty("Use Timestamp", false, { description: "Transform by the map's stamp, else by the newest." }));
+  readonly unreliable = this.add(
+    new BoolProperty("Unreliable", false, { description: "Kept for rviz, without effect here." }),
+  );
+  readonly useTimestamp = this.add(
+    new BoolProperty("Use Timestamp", false, { description: "Transform by the map's stamp, else by the newest." }),
+  );
 
   private message: OccupancyGrid | null = null;
   private map: OccupancyMap | null = null;
@@ -78,13 +84,22 @@ export class MapDisplay extends Display {
     this.clear();
     const { connection, names } = this.context;
     const topic = names.resolve(name);
-    const advice = topic === "" ? "Choose a topic." : connection.topics.peek().has(topic) ? undefined : `Nothing publishes ${topic}.`;
+    const advice =
+      topic === ""
+        ? "Choose a topic."
+        : connection.topics.peek().has(topic)
+          ? undefined
+          : `Nothing publishes ${topic}.`;
     this.setStatus("Message", "warn", "No map received", advice);
     if (topic === "") return;
     const onError = (text: string): void => this.setStatus("Map", "error", text);
     this.subscriptions = [
       connection.subscribe<OccupancyGrid>(topic, (received) => this.receive(received), { onError }),
-      connection.subscribe<OccupancyGridUpdate>(names.resolve(`${name}_updates`), (received) => this.receiveUpdate(received), { every: true, onError }),
+      connection.subscribe<OccupancyGridUpdate>(
+        names.resolve(`${name}_updates`),
+        (received) => this.receiveUpdate(received),
+        { every: true, onError },
+      ),
     ];
   }
 
@@ -145,7 +160,11 @@ export class MapDisplay extends Display {
   }
 
   private dress(): void {
-    this.object?.setLook(this.colorScheme.value.peek() as ColorScheme, this.alpha.value.peek(), this.drawBehind.value.peek());
+    this.object?.setLook(
+      this.colorScheme.value.peek() as ColorScheme,
+      this.alpha.value.peek(),
+      this.drawBehind.value.peek(),
+    );
     this.context.scene.invalidate();
   }
 
@@ -168,7 +187,9 @@ export class MapDisplay extends Display {
     const { header, info } = this.message;
     const frame = header.frame_id === "" ? "map" : header.frame_id;
     const stamp = this.useTimestamp.value.peek() ? nanoseconds(header.stamp) : 0n;
-    const isThere = stamp !== 0n && !(this.context.frames.lookup(this.context.fixedFrame.peek(), frame, stamp) instanceof NoTransform);
+    const isThere =
+      stamp !== 0n &&
+      !(this.context.frames.lookup(this.context.fixedFrame.peek(), frame, stamp) instanceof NoTransform);
     const transform = this.transform(frame, isThere ? stamp : 0n);
     this.root.visible = transform !== null;
     if (transform === null) return;

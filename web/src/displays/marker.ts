@@ -93,11 +93,14 @@ abstract class MarkerBase extends Display {
       this.statuses.value = new Map();
       this.received = 0;
       this.setStatus("Topic", "warn", "No messages received", `Nothing has come on ${topics[0] ?? "a topic"} yet.`);
-      this.subscriptions = topics.filter((topic) => topic !== "").map((topic) =>
-        this.context.connection.subscribe<Marker | MarkerArray>(topic, (received) => this.receive(received), {
-          every: true,
-          onError: (text) => this.setStatus("Topic", "error", text),
-        }));
+      this.subscriptions = topics
+        .filter((topic) => topic !== "")
+        .map((topic) =>
+          this.context.connection.subscribe<Marker | MarkerArray>(topic, (received) => this.receive(received), {
+            every: true,
+            onError: (text) => this.setStatus("Topic", "error", text),
+          }),
+        );
     });
   }
 
@@ -202,5 +205,15 @@ export class MarkerArrayDisplay extends MarkerBase {
   }
 }
 
-register({ className: "rviz/Marker", aliases: [], types: ["visualization_msgs/Marker"], create: (context) => new MarkerDisplay(context) });
-register({ className: "rviz/MarkerArray", aliases: [], types: ["visualization_msgs/MarkerArray"], create: (context) => new MarkerArrayDisplay(context) });
+register({
+  className: "rviz/Marker",
+  aliases: [],
+  types: ["visualization_msgs/Marker"],
+  create: (context) => new MarkerDisplay(context),
+});
+register({
+  className: "rviz/MarkerArray",
+  aliases: [],
+  types: ["visualization_msgs/MarkerArray"],
+  create: (context) => new MarkerArrayDisplay(context),
+});

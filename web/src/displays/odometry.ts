@@ -20,7 +20,9 @@ export class OdometryDisplay extends HistoryDisplay<Odometry> {
   readonly className = "rviz/Odometry";
   private readonly positionTolerance = this.add(new NumberProperty("Position Tolerance", 0.1, { min: 0, unit: "m" }));
   private readonly angleTolerance = this.add(new NumberProperty("Angle Tolerance", 0.1, { min: 0, unit: "rad" }));
-  private readonly keep = this.add(new IntProperty("Keep", 100, { min: 0, description: "Arrows that are shown; 0 keeps them all." }));
+  private readonly keep = this.add(
+    new IntProperty("Keep", 100, { min: 0, description: "Arrows that are shown; 0 keeps them all." }),
+  );
   private readonly shape = new PoseShape();
   private readonly covariance = new CovarianceProperty();
   private last: Pose | null = null;
@@ -36,7 +38,11 @@ export class OdometryDisplay extends HistoryDisplay<Odometry> {
   }
 
   protected override fault({ pose: { pose, covariance }, twist }: Odometry): string | null {
-    const isValid = isFinitePose(pose) && areFinite(covariance) && isFiniteXyz(twist.twist.linear) && isFiniteXyz(twist.twist.angular);
+    const isValid =
+      isFinitePose(pose) &&
+      areFinite(covariance) &&
+      isFiniteXyz(twist.twist.linear) &&
+      isFiniteXyz(twist.twist.angular);
     return isValid ? null : INVALID_FLOATS;
   }
 
@@ -62,7 +68,12 @@ export class OdometryDisplay extends HistoryDisplay<Odometry> {
   }
 
   protected override describe({ child_frame_id, pose, twist }: Odometry): Readonly<Record<string, unknown>> {
-    return { "Child Frame": child_frame_id, Position: pose.pose.position, Orientation: pose.pose.orientation, Twist: twist.twist };
+    return {
+      "Child Frame": child_frame_id,
+      Position: pose.pose.position,
+      Orientation: pose.pose.orientation,
+      Twist: twist.twist,
+    };
   }
 
   private isNear(last: Pose, pose: Pose): boolean {

@@ -19,17 +19,25 @@ export class PathDisplay extends HistoryDisplay<Path> {
   readonly className = "rviz/Path";
   private readonly style = this.add(new EnumProperty("Line Style", "Lines", ["Lines", "Billboards"]));
   private readonly width = this.add(
-    new NumberProperty("Line Width", 0.03, { min: 0.001, unit: "m", visible: computed(() => this.style.value.value === "Billboards") }),
+    new NumberProperty("Line Width", 0.03, {
+      min: 0.001,
+      unit: "m",
+      visible: computed(() => this.style.value.value === "Billboards"),
+    }),
   );
   private readonly color = this.add(new ColorProperty("Color", [25, 255, 0]));
   private readonly alpha = this.add(new NumberProperty("Alpha", 1, { min: 0, max: 1 }));
-  private readonly bufferLength = this.add(new IntProperty("Buffer Length", 1, { min: 1, description: "Number of paths to display." }));
+  private readonly bufferLength = this.add(
+    new IntProperty("Buffer Length", 1, { min: 1, description: "Number of paths to display." }),
+  );
   private readonly offset = this.add(new VectorProperty("Offset", [0, 0, 0]));
   private readonly poseStyle = this.add(new EnumProperty("Pose Style", "None", ["None", "Axes", "Arrows"]));
   private readonly axesLength = this.length("Length", 0.3, "Axes");
   private readonly axesRadius = this.length("Radius", 0.03, "Axes");
   private readonly poseColor = this.add(
-    new ColorProperty("Pose Color", [255, 85, 255], { visible: computed(() => this.poseStyle.value.value === "Arrows") }),
+    new ColorProperty("Pose Color", [255, 85, 255], {
+      visible: computed(() => this.poseStyle.value.value === "Arrows"),
+    }),
   );
   private readonly shaftLength = this.length("Shaft Length", 0.1, "Arrows");
   private readonly headLength = this.length("Head Length", 0.2, "Arrows");
@@ -91,7 +99,9 @@ export class PathDisplay extends HistoryDisplay<Path> {
   }
 
   private length(name: string, initial: number, style: string): NumberProperty {
-    return this.add(new NumberProperty(name, initial, { unit: "m", visible: computed(() => this.poseStyle.value.value === style) }));
+    return this.add(
+      new NumberProperty(name, initial, { unit: "m", visible: computed(() => this.poseStyle.value.value === style) }),
+    );
   }
 }
 

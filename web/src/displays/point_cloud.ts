@@ -25,4 +25,9 @@ export class PointCloudDisplay extends CloudDisplay<PointCloud> {
   }
 }
 
-register({ className: "rviz/PointCloud", aliases: [], types: TYPES, create: (context) => new PointCloudDisplay(context, TYPES) });
+register({
+  className: "rviz/PointCloud",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new PointCloudDisplay(context, TYPES),
+});

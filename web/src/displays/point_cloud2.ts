@@ -15,4 +15,9 @@ export class PointCloud2Display extends CloudDisplay<PointCloud2> {
   }
 }
 
-register({ className: "rviz/PointCloud2", aliases: [], types: TYPES, create: (context) => new PointCloud2Display(context, TYPES) });
+register({
+  className: "rviz/PointCloud2",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new PointCloud2Display(context, TYPES),
+});

@@ -19,7 +19,11 @@ export class PointStampedDisplay extends HistoryDisplay<PointStamped> {
   private readonly alpha = this.add(new NumberProperty("Alpha", 1, { min: 0, max: 1 }));
   private readonly radius = this.add(new NumberProperty("Radius", 0.2, { unit: "m" }));
   private readonly historyLength = this.add(
-    new IntProperty("History Length", 1, { min: 1, max: 100000, description: "Number of prior measurements to display." }),
+    new IntProperty("History Length", 1, {
+      min: 1,
+      max: 100000,
+      description: "Number of prior measurements to display.",
+    }),
   );
 
   constructor(context: DisplayContext) {
@@ -46,4 +50,9 @@ export class PointStampedDisplay extends HistoryDisplay<PointStamped> {
   }
 }
 
-register({ className: "rviz/PointStamped", aliases: [], types: TYPES, create: (context) => new PointStampedDisplay(context) });
+register({
+  className: "rviz/PointStamped",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new PointStampedDisplay(context),
+});

@@ -17,12 +17,21 @@ const FLAT = "Arrow (Flat)";
 const SOLID = "Arrow (3D)";
 const AXES = "Axes";
 /** rviz's flat arrow: pairs of points, in lengths of the arrow. */
-const FLAT_ARROW = [[0, 0], [1, 0], [1, 0], [0.75, 0.2], [1, 0], [0.75, -0.2]] as const;
+const FLAT_ARROW = [
+  [0, 0],
+  [1, 0],
+  [1, 0],
+  [0.75, 0.2],
+  [1, 0],
+  [0.75, -0.2],
+] as const;
 
 export class PoseArrayDisplay extends HistoryDisplay<PoseArray> {
   readonly className = "rviz/PoseArray";
   private readonly shape = this.add(new EnumProperty("Shape", FLAT, [FLAT, SOLID, AXES]));
-  private readonly color = this.add(new ColorProperty("Color", [255, 25, 0], { visible: computed(() => this.shape.value.value !== AXES) }));
+  private readonly color = this.add(
+    new ColorProperty("Color", [255, 25, 0], { visible: computed(() => this.shape.value.value !== AXES) }),
+  );
   private readonly alpha = this.add(
     new NumberProperty("Alpha", 1, { min: 0, max: 1, visible: computed(() => this.shape.value.value !== AXES) }),
   );
@@ -70,7 +79,9 @@ export class PoseArrayDisplay extends HistoryDisplay<PoseArray> {
   }
 
   private length(name: string, initial: number, shape: string): NumberProperty {
-    return this.add(new NumberProperty(name, initial, { unit: "m", visible: computed(() => this.shape.value.value === shape) }));
+    return this.add(
+      new NumberProperty(name, initial, { unit: "m", visible: computed(() => this.shape.value.value === shape) }),
+    );
   }
 }
 
@@ -81,11 +92,19 @@ export function flatArrows(poses: readonly Pose[], length: number): Float32Array
   poses.forEach((pose, index) => {
     const [position, orientation] = [vector(pose.position), quaternion(pose.orientation)];
     FLAT_ARROW.forEach(([x, y], corner) => {
-      point.set(x * length, y * length, 0).applyQuaternion(orientation).add(position);
+      point
+        .set(x * length, y * length, 0)
+        .applyQuaternion(orientation)
+        .add(position);
       point.toArray(points, (index * FLAT_ARROW.length + corner) * 3);
     });
   });
   return points;
 }
 
-register({ className: "rviz/PoseArray", aliases: [], types: TYPES, create: (context) => new PoseArrayDisplay(context) });
+register({
+  className: "rviz/PoseArray",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new PoseArrayDisplay(context),
+});

@@ -33,7 +33,9 @@ export class PoseWithCovarianceDisplay extends HistoryDisplay<PoseWithCovariance
     return new Group().add(placed(this.shape.draw(), pose), visual);
   }
 
-  protected override describe({ pose: { pose, covariance } }: PoseWithCovarianceStamped): Readonly<Record<string, unknown>> {
+  protected override describe({
+    pose: { pose, covariance },
+  }: PoseWithCovarianceStamped): Readonly<Record<string, unknown>> {
     const [x, y, z, roll, pitch, yaw] = [0, 7, 14, 21, 28, 35].map((index) => covariance[index] ?? NaN);
     return {
       Position: pose.position,
@@ -44,4 +46,9 @@ export class PoseWithCovarianceDisplay extends HistoryDisplay<PoseWithCovariance
   }
 }
 
-register({ className: "rviz/PoseWithCovariance", aliases: [], types: TYPES, create: (context) => new PoseWithCovarianceDisplay(context) });
+register({
+  className: "rviz/PoseWithCovariance",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new PoseWithCovarianceDisplay(context),
+});

@@ -45,7 +45,12 @@ export class RangeDisplay extends HistoryDisplay<Range> {
     return group.add(cone);
   }
 
-  protected override describe({ range, min_range, max_range, field_of_view }: Range): Readonly<Record<string, unknown>> {
+  protected override describe({
+    range,
+    min_range,
+    max_range,
+    field_of_view,
+  }: Range): Readonly<Record<string, unknown>> {
     return { Range: range, "Min Range": min_range, "Max Range": max_range, "Field of View": field_of_view };
   }
 }

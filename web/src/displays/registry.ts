@@ -17,7 +17,8 @@ const classes = new Map<string, DisplayClass>();
 /** Make a class known; each display's file calls this once. ROS 2's name is known without being said. */
 export function register(display: DisplayClass): void {
   const [, short = ""] = display.className.split("/");
-  for (const name of [display.className, `rviz_default_plugins/${short}`, ...display.aliases]) classes.set(name, display);
+  for (const name of [display.className, `rviz_default_plugins/${short}`, ...display.aliases])
+    classes.set(name, display);
 }
 
 export function displayClass(name: string): DisplayClass | undefined {

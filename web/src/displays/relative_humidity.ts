@@ -17,4 +17,9 @@ export class RelativeHumidityDisplay extends CloudDisplay<RelativeHumidity> {
   }
 }
 
-register({ className: "rviz/RelativeHumidity", aliases: [], types: TYPES, create: (context) => new RelativeHumidityDisplay(context, TYPES, CHANNEL) });
+register({
+  className: "rviz/RelativeHumidity",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new RelativeHumidityDisplay(context, TYPES, CHANNEL),
+});

@@ -83,7 +83,12 @@ export class RobotModel extends Display {
       this.drop();
       this.text = null;
       const missing = `Parameter [${name}] does not exist, and was not found by searchParam()`;
-      this.setStatus("URDF", "error", missing, "Load a robot description: <param name=\"robot_description\" …/> in the launch file");
+      this.setStatus(
+        "URDF",
+        "error",
+        missing,
+        'Load a robot description: <param name="robot_description" …/> in the launch file',
+      );
     } else if (text !== this.text) {
       this.text = text;
       this.build(text);
@@ -103,7 +108,9 @@ export class RobotModel extends Display {
     const onMissing = (uri: string, reason: string): void =>
       this.setStatus(`Mesh ${uri}`, "error", `Could not load mesh resource '${uri}'`, reason);
     const onChange = (): void => this.context.scene.invalidate();
-    this.views = robot.links.map((link) => new LinkView(this.context.connection, link, this.links, onMissing, onChange));
+    this.views = robot.links.map(
+      (link) => new LinkView(this.context.connection, link, this.links, onMissing, onChange),
+    );
     for (const view of this.views) this.root.add(view);
     this.setStatus("URDF", "ok", "URDF parsed OK");
     this.sinceUpdate = Infinity;
@@ -121,7 +128,8 @@ export class RobotModel extends Display {
   }
 
   private paint(): void {
-    for (const view of this.views) view.show(this.visual.value.peek(), this.collision.value.peek(), this.alpha.value.peek());
+    for (const view of this.views)
+      view.show(this.visual.value.peek(), this.collision.value.peek(), this.alpha.value.peek());
     this.context.scene.invalidate();
   }
 

@@ -46,9 +46,15 @@ export abstract class ScrewDisplay<M extends Stamped> extends HistoryDisplay<M> 
     this.angularScale = this.add(new NumberProperty(`${angularName} Arrow Scale`, 2));
     this.width = this.add(new NumberProperty("Arrow Width", 0.5));
     this.historyLength = this.add(
-      new IntProperty("History Length", 1, { min: 1, max: 100000, description: "Number of prior measurements to display." }),
+      new IntProperty("History Length", 1, {
+        min: 1,
+        max: 100000,
+        description: "Number of prior measurements to display.",
+      }),
     );
-    this.hideSmall = this.add(new BoolProperty("Hide Small Values", true, { description: "Hide arrows shorter than they are wide." }));
+    this.hideSmall = this.add(
+      new BoolProperty("Hide Small Values", true, { description: "Hide arrows shorter than they are wide." }),
+    );
   }
 
   protected abstract screw(message: M): Screw;
@@ -107,7 +113,12 @@ export abstract class ScrewDisplay<M extends Stamped> extends HistoryDisplay<M> 
     line.begin();
     line.addPolyline(points, [...color.map((part) => part / 255), alpha]);
     line.finish();
-    const head = new Arrow({ shaftLength: 0, shaftDiameter: 0.1 * width, headLength: 0.1 * width, headDiameter: 0.2 * width });
+    const head = new Arrow({
+      shaftLength: 0,
+      shaftDiameter: 0.1 * width,
+      headLength: 0.1 * width,
+      headDiameter: 0.2 * width,
+    });
     head.setColor(color, alpha);
     head.position.set(length / 4, 0, length / 2);
     head.rotation.set(0, 0, Math.PI / 2);

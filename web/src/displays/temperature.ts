@@ -17,4 +17,9 @@ export class TemperatureDisplay extends CloudDisplay<Temperature> {
   }
 }
 
-register({ className: "rviz/Temperature", aliases: [], types: TYPES, create: (context) => new TemperatureDisplay(context, TYPES, CHANNEL) });
+register({
+  className: "rviz/Temperature",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new TemperatureDisplay(context, TYPES, CHANNEL),
+});

@@ -43,7 +43,10 @@ export class Tf extends Display {
     this.root.add(this.shapes);
     this.wereEnabled = this.allFrames.value.peek();
     this.stops = [
-      watch([this.names, this.axes, this.arrows, this.scale, this.alpha, this.rows, this.whitelist, this.blacklist], () => this.restyle()),
+      watch(
+        [this.names, this.axes, this.arrows, this.scale, this.alpha, this.rows, this.whitelist, this.blacklist],
+        () => this.restyle(),
+      ),
       this.allFrames.value.subscribe((enabled) => this.enableAll(enabled)),
     ];
   }
@@ -94,7 +97,12 @@ export class Tf extends Display {
   /** Frames come and go, change their parents and age; true: it shows. */
   private followTree(now: bigint): boolean {
     let changed = false;
-    const infos = new Map(this.context.frames.describe().filter((info) => this.passes(info.name)).map((info) => [info.name, info]));
+    const infos = new Map(
+      this.context.frames
+        .describe()
+        .filter((info) => this.passes(info.name))
+        .map((info) => [info.name, info]),
+    );
     for (const name of [...this.views.keys()]) {
       if (infos.has(name)) continue;
       this.forget(name);

@@ -39,7 +39,11 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
     this.topicProperty = this.add(
       new TopicProperty("Topic", "", types, { description: `${types.join(" or ")} topic to subscribe to.` }),
     );
-    this.add(new BoolProperty("Unreliable", false, { description: "Prefer UDP topic transport; kept for rviz, without effect here." }));
+    this.add(
+      new BoolProperty("Unreliable", false, {
+        description: "Prefer UDP topic transport; kept for rviz, without effect here.",
+      }),
+    );
     this.queueSize = this.add(
       new IntProperty("Queue Size", 10, { min: 0, description: "Messages that wait for their transforms." }),
     );
@@ -167,7 +171,11 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
     try {
       run();
     } catch (error) {
-      this.setStatus("Topic", "error", `Message is not a ${this.types.join(" or ")} as it is known here: ${String(error)}`);
+      this.setStatus(
+        "Topic",
+        "error",
+        `Message is not a ${this.types.join(" or ")} as it is known here: ${String(error)}`,
+      );
     }
   }
 

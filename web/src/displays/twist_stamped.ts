@@ -14,4 +14,9 @@ export class TwistStampedDisplay extends ScrewDisplay<TwistStamped> {
   }
 }
 
-register({ className: "rviz/TwistStamped", aliases: [], types: TYPES, create: (context) => new TwistStampedDisplay(context, TYPES, "Linear", "Angular") });
+register({
+  className: "rviz/TwistStamped",
+  aliases: [],
+  types: TYPES,
+  create: (context) => new TwistStampedDisplay(context, TYPES, "Linear", "Angular"),
+});

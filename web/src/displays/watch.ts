@@ -15,5 +15,8 @@ export function watch(properties: readonly Property<unknown>[], draw: () => void
 /** Read the properties and those below them, but read-outs, so that an effect follows them. */
 export function readValues(properties: readonly Property<unknown>[]): readonly unknown[] {
   return properties.flatMap((property) =>
-    property.options.readOnly === true ? [] : [property.value.value, property.version.value, ...readValues(property.children)]);
+    property.options.readOnly === true
+      ? []
+      : [property.value.value, property.version.value, ...readValues(property.children)],
+  );
 }

@@ -14,4 +14,9 @@ export class WrenchStampedDisplay extends ScrewDisplay<WrenchStamped> {
   }
 }
 
-register({ className: "rviz/WrenchStamped", aliases: ["rviz_default_plugins/Wrench"], types: TYPES, create: (context) => new WrenchStampedDisplay(context, TYPES, "Force", "Torque") });
+register({
+  className: "rviz/WrenchStamped",
+  aliases: ["rviz_default_plugins/Wrench"],
+  types: TYPES,
+  create: (context) => new WrenchStampedDisplay(context, TYPES, "Force", "Torque"),
+});

@@ -28,7 +28,9 @@ export function feedTransforms(tree: TransformTree, connection: Connection, name
     last = 0n;
   });
   const subscriptions = [
-    connection.subscribe<TFMessage>(names.resolve("/tf_static"), ({ message }) => tree.add(message.transforms, true), { every: true }),
+    connection.subscribe<TFMessage>(names.resolve("/tf_static"), ({ message }) => tree.add(message.transforms, true), {
+      every: true,
+    }),
     connection.subscribe<TFMessage>(names.resolve("/tf"), receive, { every: true }),
   ];
   return {

@@ -177,7 +177,11 @@ function bareName(name: string): string {
   return name.startsWith("/") ? name.slice(1) : name;
 }
 
-function sampleOf(stamp: bigint, parent: string, { translation, rotation }: TransformStamped["transform"]): Sample | null {
+function sampleOf(
+  stamp: bigint,
+  parent: string,
+  { translation, rotation }: TransformStamped["transform"],
+): Sample | null {
   const position = new Vector3(translation.x, translation.y, translation.z);
   const orientation = new Quaternion(rotation.x, rotation.y, rotation.z, rotation.w);
   const length = orientation.length();

@@ -32,11 +32,14 @@ export class Drive {
     const published = [...connection.topics.value.values()].map(({ name, type }) => [name, type] as const);
     const typed = [...published, ...types].flatMap(([name, type]) => (TWISTS.includes(type) ? [name] : []));
     const named = [...subscribers.keys()].filter((name) => BY_NAME.test(name));
-    const isHeard = (name: string): boolean => (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
+    const isHeard = (name: string): boolean =>
+      (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
     const isUntold = types.size + subscribers.size === 0; // as after a lost connection, when topics are told of before the graph
     if (isUntold || connection.state.value.kind !== "connected") return this.known;
-    this.known = [...new Set([...typed, ...named].filter(isHeard))].sort((a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1));
+    this.known = [...new Set([...typed, ...named].filter(isHeard))].sort(
+      (a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1),
+    );
     return this.known;
   });
   /** The topic that is driven; null: there is none. */
@@ -47,7 +50,8 @@ export class Drive {
   /** Velocities that go out now [m/s], [rad/s]; null: nothing is held. */
   readonly command = computed<Held | null>(() => {
     if (this.held.value.size === 0) return null;
-    const sum = (part: keyof Held): number => clamp([...this.held.value.values()].reduce((total, each) => total + each[part], 0));
+    const sum = (part: keyof Held): number =>
+      clamp([...this.held.value.values()].reduce((total, each) => total + each[part], 0));
     return { linear: sum("linear") * this.linearLimit.value, angular: sum("angular") * this.angularLimit.value };
   });
 
@@ -92,7 +96,8 @@ export class Drive {
 
   private send(): void {
     const command = this.command.peek();
-    if (command !== null && this.driven !== null) this.page.connection.drive(this.driven, command.linear, command.angular);
+    if (command !== null && this.driven !== null)
+      this.page.connection.drive(this.driven, command.linear, command.angular);
   }
 
   private stop(): void {

@@ -12,7 +12,13 @@ export function canControl({ session }: Pick<Page, "session">): boolean {
 }
 
 /** Controls of what is shown; where the link only allows looking they are off, and a line says why. */
-export function Controls({ page, children }: { readonly page: Page; readonly children: ComponentChildren }): JSX.Element {
+export function Controls({
+  page,
+  children,
+}: {
+  readonly page: Page;
+  readonly children: ComponentChildren;
+}): JSX.Element {
   const isOff = !canControl(page);
   return (
     <fieldset class="controls" disabled={isOff}>

@@ -23,7 +23,10 @@ interface SelectedSensor {
 }
 
 /** What has a plugin. */
-export type PluginOwner = { readonly kind: "world" } | { readonly kind: "model"; readonly model: string } | SelectedSensor;
+export type PluginOwner =
+  | { readonly kind: "world" }
+  | { readonly kind: "model"; readonly model: string }
+  | SelectedSensor;
 
 /** What is selected, in tree or scene. */
 export type Selection =

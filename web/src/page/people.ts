@@ -22,7 +22,10 @@ const NOBODY: People = { you: 0, people: [] };
 const COLOURS = 6;
 
 /** Follow who is there, and show them what is selected here. */
-export function followPeople(connection: Connection, selection: ReadonlySignal<Selection | null>): ReadonlySignal<People> {
+export function followPeople(
+  connection: Connection,
+  selection: ReadonlySignal<Selection | null>,
+): ReadonlySignal<People> {
   const people = signal(NOBODY);
   const isThere = computed(() => people.value !== NOBODY);
   connection.subscribeRaw("trundle/people", (payload) => {

@@ -7,7 +7,10 @@ import type { Connection } from "../protocol/connection";
 export type Fields = Parameters<Connection["request"]>[1];
 
 /** A pose as requests have it: position [m] and a quaternion wxyz. */
-export function poseFields(position: Vector3, { x, y, z, w }: Quaternion): { position: number[]; orientation: number[] } {
+export function poseFields(
+  position: Vector3,
+  { x, y, z, w }: Quaternion,
+): { position: number[]; orientation: number[] } {
   return { position: position.toArray(), orientation: [w, x, y, z] };
 }
 

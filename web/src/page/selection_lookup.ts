@@ -26,7 +26,9 @@ export function findSensor(page: Pick<Page, "world">, model: string, link: strin
 export function findPlugin(page: Pick<Page, "world">, owner: PluginOwner, plugin: string): PluginInfo | null {
   const of = (): { readonly plugins: readonly PluginInfo[] } | null => {
     if (owner.kind === "world") return page.world.manifest.value;
-    return owner.kind === "model" ? findModel(page, owner.model) : findSensor(page, owner.model, owner.link, owner.sensor);
+    return owner.kind === "model"
+      ? findModel(page, owner.model)
+      : findSensor(page, owner.model, owner.link, owner.sensor);
   };
   return of()?.plugins.find(({ name }) => name === plugin) ?? null;
 }

@@ -10,7 +10,12 @@ export interface Session {
   readonly version: string;
   readonly robot: string | null;
   /** `saved`: at the page, by `save_rviz_as`; else it was given at the start. */
-  readonly rviz: { readonly name: string; readonly text: string; readonly writable: boolean; readonly saved: boolean } | null;
+  readonly rviz: {
+    readonly name: string;
+    readonly text: string;
+    readonly writable: boolean;
+    readonly saved: boolean;
+  } | null;
   readonly fixed_frame: string | null;
   /** The namespace and remappings of the launch's rviz, in which the names of the file are. */
   readonly namespace: string;
@@ -20,7 +25,12 @@ export interface Session {
   readonly plots: readonly string[];
   readonly images: readonly string[];
   readonly drive_topic: string | null;
-  readonly sliders: readonly { readonly name: string; readonly lower: number; readonly upper: number; readonly position: number }[];
+  readonly sliders: readonly {
+    readonly name: string;
+    readonly lower: number;
+    readonly upper: number;
+    readonly position: number;
+  }[];
   readonly joystick: boolean;
   /** Terminals of nodes; `ended` is a sentence on the node's end. */
   readonly terminals: readonly { readonly name: string; readonly ended: string | null }[];

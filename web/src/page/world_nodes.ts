@@ -55,7 +55,11 @@ export function worldNode(manifest: Manifest, title = manifest.name): WorldNode 
   const world = { kind: "world" } as const;
   return {
     ...leaf(world, name, count(manifest.models.length, "model"), "world"),
-    children: [...models, ...group("lights", "Lights", lights), ...group("world/plugins", "Plugins", pluginNodes(world, manifest.plugins))],
+    children: [
+      ...models,
+      ...group("lights", "Lights", lights),
+      ...group("world/plugins", "Plugins", pluginNodes(world, manifest.plugins)),
+    ],
   };
 }
 
@@ -75,8 +79,16 @@ function modelNode(model: ModelInfo, scope: string): WorldNode {
     ...leaf(selection, model.name, detail, "model", name),
     children: [
       ...model.models.map((nested) => modelNode(nested, name)),
-      ...group(`${key}/links`, "Links", model.links.map((link) => linkNode(name, link))),
-      ...group(`${key}/joints`, "Joints", model.joints.map((joint) => jointNode(name, joint))),
+      ...group(
+        `${key}/links`,
+        "Links",
+        model.links.map((link) => linkNode(name, link)),
+      ),
+      ...group(
+        `${key}/joints`,
+        "Joints",
+        model.joints.map((joint) => jointNode(name, joint)),
+      ),
       ...group(`${key}/plugins`, "Plugins", pluginNodes(selection, model.plugins)),
     ],
   };
@@ -86,9 +98,15 @@ function linkNode(model: string, link: LinkInfo): WorldNode {
   const selection = { model, link: link.name };
   const sensors = link.sensors.map(({ name, type, rate, plugins }) => {
     const own = { kind: "sensor", ...selection, sensor: name } as const;
-    return { ...leaf(own, name, rate > 0 ? `${fixed(rate, 0)} Hz` : type, sensorIcon(type)), children: pluginNodes(own, plugins) };
+    return {
+      ...leaf(own, name, rate > 0 ? `${fixed(rate, 0)} Hz` : type, sensorIcon(type)),
+      children: pluginNodes(own, plugins),
+    };
   });
-  return { ...leaf({ kind: "link", ...selection }, link.name, mass(link.mass), "link", `${model}::${link.name}`), children: sensors };
+  return {
+    ...leaf({ kind: "link", ...selection }, link.name, mass(link.mass), "link", `${model}::${link.name}`),
+    children: sensors,
+  };
 }
 
 export function sensorIcon(type: string): IconName {
@@ -96,14 +114,25 @@ export function sensorIcon(type: string): IconName {
 }
 
 function jointNode(model: string, joint: JointInfo): WorldNode {
-  return leaf({ kind: "joint", model, joint: joint.name }, joint.name, joint.index === null ? joint.type : { joint }, "joint");
+  return leaf(
+    { kind: "joint", model, joint: joint.name },
+    joint.name,
+    joint.index === null ? joint.type : { joint },
+    "joint",
+  );
 }
 
 function pluginNodes(of: PluginOwner, plugins: readonly PluginInfo[]): readonly WorldNode[] {
   return plugins.map(({ name, filename }) => leaf({ kind: "plugin", of, plugin: name }, name, filename, "plugin"));
 }
 
-function leaf(selection: Selection, label: string, detail: WorldNode["detail"], icon: IconName, hides: string | null = null): WorldNode {
+function leaf(
+  selection: Selection,
+  label: string,
+  detail: WorldNode["detail"],
+  icon: IconName,
+  hides: string | null = null,
+): WorldNode {
   return { key: keyOf(selection), label, detail, icon, selection, hides, children: [] };
 }
 
@@ -124,12 +153,18 @@ export interface SeenNode {
 }
 
 /** Nodes that are seen: below open ones, or those that match a search and their parents. */
-export function seenNodes(root: WorldNode, isOpen: (node: WorldNode) => boolean, search: string, depth = 0): readonly SeenNode[] {
+export function seenNodes(
+  root: WorldNode,
+  isOpen: (node: WorldNode) => boolean,
+  search: string,
+  depth = 0,
+): readonly SeenNode[] {
   const wanted = search.trim().toLowerCase();
   if (wanted !== "" && !matches(root, wanted)) return [];
   const ownMatch = wanted !== "" && root.label.toLowerCase().includes(wanted);
   const open = root.children.length === 0 ? undefined : wanted !== "" && !ownMatch ? true : isOpen(root);
-  const below = open === true ? root.children.flatMap((child) => seenNodes(child, isOpen, ownMatch ? "" : search, depth + 1)) : [];
+  const below =
+    open === true ? root.children.flatMap((child) => seenNodes(child, isOpen, ownMatch ? "" : search, depth + 1)) : [];
   return [{ node: root, depth, isOpen: open }, ...below];
 }
 

@@ -27,7 +27,11 @@ class GraphState {
 
   constructor(connection: Connection) {
     this.drawing = computed(() =>
-      graphDrawing(connection.graph.value, { view: this.view.value, hideDebug: this.hideDebug.value, text: this.filter.value }),
+      graphDrawing(connection.graph.value, {
+        view: this.view.value,
+        hideDebug: this.hideDebug.value,
+        text: this.filter.value,
+      }),
     );
   }
 
@@ -50,7 +54,13 @@ function Graph({ page }: PanelProps): JSX.Element {
     <div class="stack" ref={(div) => void (state.element.current = div)}>
       {state.isFiltering.value && <FilterField label="Filter nodes and topics" value={state.filter} />}
       {drawing.vertices.length === 0 && <div class="empty">{emptyText(state)}</div>}
-      <GraphDrawing label="Graph of nodes and topics" boxes={boxes(drawing)} arrows={arrows(drawing)} direction="LR" panZoom={state.panZoom} />
+      <GraphDrawing
+        label="Graph of nodes and topics"
+        boxes={boxes(drawing)}
+        arrows={arrows(drawing)}
+        direction="LR"
+        panZoom={state.panZoom}
+      />
     </div>
   );
 }
@@ -97,4 +107,10 @@ function Actions({ page }: PanelProps): JSX.Element {
   );
 }
 
-export const graphPanel: Panel = { id: "graph", title: "Graph", programs: ["rqt_graph"], component: Graph, actions: Actions };
+export const graphPanel: Panel = {
+  id: "graph",
+  title: "Graph",
+  programs: ["rqt_graph"],
+  component: Graph,
+  actions: Actions,
+};

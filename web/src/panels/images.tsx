@@ -20,13 +20,19 @@ class ImagesState {
   readonly enlarged = signal<string | null>(null);
 
   constructor(private readonly page: Page) {
-    forEachNew(() => page.session.images, (topic) => this.add(topic));
+    forEachNew(
+      () => page.session.images,
+      (topic) => this.add(topic),
+    );
   }
 
   /** Image topics that are not shown yet. */
   others(): readonly string[] {
     const all = [...this.page.connection.topics.value.values()];
-    return all.filter(({ name, type }) => TYPES.includes(type) && !this.topics.value.includes(name)).map(({ name }) => name).sort();
+    return all
+      .filter(({ name, type }) => TYPES.includes(type) && !this.topics.value.includes(name))
+      .map(({ name }) => name)
+      .sort();
   }
 
   add(topic: string): void {
@@ -80,7 +86,8 @@ function Images({ page }: PanelProps): JSX.Element {
 
 function Actions({ page }: PanelProps): JSX.Element {
   const state = imagesState(page);
-  const items = (): readonly MenuItem[] => state.others().map((topic) => ({ title: topic, run: () => state.add(topic) }));
+  const items = (): readonly MenuItem[] =>
+    state.others().map((topic) => ({ title: topic, run: () => state.add(topic) }));
   return (
     <MenuButton icon="plus" class="sml" items={items}>
       Picture
@@ -88,4 +95,10 @@ function Actions({ page }: PanelProps): JSX.Element {
   );
 }
 
-export const imagesPanel: Panel = { id: "images", title: "Images", programs: ["rqt_image_view", "image_view"], component: Images, actions: Actions };
+export const imagesPanel: Panel = {
+  id: "images",
+  title: "Images",
+  programs: ["rqt_image_view", "image_view"],
+  component: Images,
+  actions: Actions,
+};

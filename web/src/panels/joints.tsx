@@ -15,8 +15,16 @@ function Joints({ page }: PanelProps): JSX.Element {
   const groups = state.groups();
   return (
     <div class="scroll">
-      {groups.length === 0 && <div class="empty">No joints can be moved here: no joint_state_publisher_gui runs, and nothing is simulated.</div>}
-      {state.fault.value !== "" && <div class="fault pad" role="alert">{state.fault.value}</div>}
+      {groups.length === 0 && (
+        <div class="empty">
+          No joints can be moved here: no joint_state_publisher_gui runs, and nothing is simulated.
+        </div>
+      )}
+      {state.fault.value !== "" && (
+        <div class="fault pad" role="alert">
+          {state.fault.value}
+        </div>
+      )}
       <Controls page={page}>
         {groups.map(({ title, sliders }) => (
           <section key={title} aria-label={`Joints of ${title}`}>
@@ -55,7 +63,14 @@ function JointRow({ slider, isDegrees }: { readonly slider: JointSlider; readonl
           />
         </span>
       </div>
-      <Slider label={slider.name} value={slider.position} lower={slider.lower} upper={slider.upper} text={`${text(slider.position)} ${unit}`} onInput={slider.set} />
+      <Slider
+        label={slider.name}
+        value={slider.position}
+        lower={slider.lower}
+        upper={slider.upper}
+        text={`${text(slider.position)} ${unit}`}
+        onInput={slider.set}
+      />
       <div class="limits">
         {slider.hasLimits ? (
           <>
@@ -85,7 +100,12 @@ function Actions({ page }: PanelProps): JSX.Element {
           </Button>
         </>
       )}
-      <Button small on={state.isDegrees.value} label={`Angles in ${unit}`} onClick={() => void (state.isDegrees.value = !state.isDegrees.value)}>
+      <Button
+        small
+        on={state.isDegrees.value}
+        label={`Angles in ${unit}`}
+        onClick={() => void (state.isDegrees.value = !state.isDegrees.value)}
+      >
         {unit}
       </Button>
     </>

@@ -30,16 +30,35 @@ function Joystick({ page }: PanelProps): JSX.Element {
   if (!isAsked) return <div class="empty">No node reads a joystick: start joy's joy_node.</div>;
   return (
     <div class="scroll">
-      {state.fault.value !== "" && <div class="fault pad" role="alert">{state.fault.value}</div>}
+      {state.fault.value !== "" && (
+        <div class="fault pad" role="alert">
+          {state.fault.value}
+        </div>
+      )}
       <div class="pad sm t2">{padText(state)}</div>
       <div class="joystick">
-        <Stick label="Left stick" x={-axis(state, LEFT[0])} y={axis(state, LEFT[1])} onMove={(x, y) => move(state, LEFT, x, y)} />
+        <Stick
+          label="Left stick"
+          x={-axis(state, LEFT[0])}
+          y={axis(state, LEFT[1])}
+          onMove={(x, y) => move(state, LEFT, x, y)}
+        />
         <div class="buttons" role="group" aria-label="Buttons">
           {BUTTON_NAMES.map((name, index) => (
-            <HeldButton key={name} name={name} isDown={state.joy.value.buttons[index] === 1} onHold={(on) => state.setButton(index, on ? 1 : 0)} />
+            <HeldButton
+              key={name}
+              name={name}
+              isDown={state.joy.value.buttons[index] === 1}
+              onHold={(on) => state.setButton(index, on ? 1 : 0)}
+            />
           ))}
         </div>
-        <Stick label="Right stick" x={-axis(state, RIGHT[0])} y={axis(state, RIGHT[1])} onMove={(x, y) => move(state, RIGHT, x, y)} />
+        <Stick
+          label="Right stick"
+          x={-axis(state, RIGHT[0])}
+          y={axis(state, RIGHT[1])}
+          onMove={(x, y) => move(state, RIGHT, x, y)}
+        />
         <dl class="axes">
           {AXIS_NAMES.map((name, index) => (
             <div key={name}>
@@ -104,4 +123,9 @@ function HeldButton({ name, isDown, onHold }: HeldButtonProps): JSX.Element {
   );
 }
 
-export const joystickPanel: Panel = { id: "joystick", title: "Joystick", programs: ["joy", "joy_node"], component: Joystick };
+export const joystickPanel: Panel = {
+  id: "joystick",
+  title: "Joystick",
+  programs: ["joy", "joy_node"],
+  component: Joystick,
+};

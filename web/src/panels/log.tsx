@@ -113,7 +113,13 @@ function Actions({ page }: PanelProps): JSX.Element {
         const shape = SHAPES[level];
         const count = counts.get(level) ?? 0;
         return (
-          <button key={level} type="button" class={isOn ? "chip on" : "chip"} aria-pressed={isOn} onClick={() => state.toggle(level)}>
+          <button
+            key={level}
+            type="button"
+            class={isOn ? "chip on" : "chip"}
+            aria-pressed={isOn}
+            onClick={() => state.toggle(level)}
+          >
             {shape !== undefined && <StatusShape level={shape} label="" />}
             {shape !== undefined && count > 0 ? `${level} ${count}` : level}
           </button>
@@ -130,7 +136,11 @@ function Actions({ page }: PanelProps): JSX.Element {
       >
         Filter
       </Button>
-      <Button small icon={state.frozen.value === null ? "pause" : "play"} onClick={() => state.pause(state.frozen.value === null)}>
+      <Button
+        small
+        icon={state.frozen.value === null ? "pause" : "play"}
+        onClick={() => state.pause(state.frozen.value === null)}
+      >
         {state.frozen.value === null ? "Pause" : "Follow"}
       </Button>
       <Button small onClick={() => state.clear()}>

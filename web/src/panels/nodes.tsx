@@ -10,11 +10,18 @@ import type { Panel, PanelProps } from "./panel";
 import { FilterButton, FilterField, Split } from "./parts";
 import { perPage } from "./per_page";
 
-const nodesState = perPage(() => ({ filter: signal(""), isFiltering: signal(false), selected: signal<string | null>(null) }));
+const nodesState = perPage(() => ({
+  filter: signal(""),
+  isFiltering: signal(false),
+  selected: signal<string | null>(null),
+}));
 
 /** Names of topics or services that a node has a part in, sorted. */
 export function namesOf(map: ReadonlyMap<string, readonly string[]>, node: string): readonly string[] {
-  return [...map].filter(([, nodes]) => nodes.includes(node)).map(([name]) => name).sort();
+  return [...map]
+    .filter(([, nodes]) => nodes.includes(node))
+    .map(([name]) => name)
+    .sort();
 }
 
 function Nodes({ page }: PanelProps): JSX.Element {
@@ -26,9 +33,15 @@ function Nodes({ page }: PanelProps): JSX.Element {
   return (
     <Split
       head={state.isFiltering.value && <FilterField label="Filter nodes" value={state.filter} />}
-      detail={selected !== null && <Detail page={page} graph={graph} node={selected} onClose={() => void (state.selected.value = null)} />}
+      detail={
+        selected !== null && (
+          <Detail page={page} graph={graph} node={selected} onClose={() => void (state.selected.value = null)} />
+        )
+      }
     >
-      {nodes.length === 0 && <div class="empty">{part === "" ? "There are no nodes." : "No node has this in its name."}</div>}
+      {nodes.length === 0 && (
+        <div class="empty">{part === "" ? "There are no nodes." : "No node has this in its name."}</div>
+      )}
       {nodes.length > 0 && (
         <table class="data">
           <thead>
@@ -104,4 +117,10 @@ function Actions({ page }: PanelProps): JSX.Element {
   return <FilterButton on={state.isFiltering} text={state.filter} />;
 }
 
-export const nodesPanel: Panel = { id: "nodes", title: "Nodes", programs: ["rosnode"], component: Nodes, actions: Actions };
+export const nodesPanel: Panel = {
+  id: "nodes",
+  title: "Nodes",
+  programs: ["rosnode"],
+  component: Nodes,
+  actions: Actions,
+};

@@ -29,19 +29,23 @@ function Parameters({ page }: PanelProps): JSX.Element {
     <div class="stack">
       {state.isFiltering.value && <FilterField label="Filter parameters" value={state.filter} />}
       <div class="scroll">
-        {rows.length === 0 && <div class="empty">{parameters.size === 0 ? "There are no parameters." : "No parameter has this in its name."}</div>}
+        {rows.length === 0 && (
+          <div class="empty">
+            {parameters.size === 0 ? "There are no parameters." : "No parameter has this in its name."}
+          </div>
+        )}
         <Controls page={page}>
-        <Tree
-          label="Parameters"
-          rows={rows.map((row) => treeRow(page, row, row.name === state.selected.value))}
-          onSelect={(name) => void (state.selected.value = name)}
-          onToggle={(name, open) => {
-            const closed = new Set(state.closed.value);
-            if (open) closed.delete(name);
-            else closed.add(name);
-            state.closed.value = closed;
-          }}
-        />
+          <Tree
+            label="Parameters"
+            rows={rows.map((row) => treeRow(page, row, row.name === state.selected.value))}
+            onSelect={(name) => void (state.selected.value = name)}
+            onToggle={(name, open) => {
+              const closed = new Set(state.closed.value);
+              if (open) closed.delete(name);
+              else closed.add(name);
+              state.closed.value = closed;
+            }}
+          />
         </Controls>
       </div>
     </div>
@@ -68,8 +72,17 @@ function treeRow(page: Page, row: ParameterRow, selected: boolean): TreeRow {
   };
 }
 
-function Value({ page, name, value }: { readonly page: Page; readonly name: string; readonly value: ParameterValue }): JSX.Element {
-  if (typeof value === "boolean") return <Checkbox label={name} checked={value} onChange={(on) => change(page, name, value, on)} />;
+function Value({
+  page,
+  name,
+  value,
+}: {
+  readonly page: Page;
+  readonly name: string;
+  readonly value: ParameterValue;
+}): JSX.Element {
+  if (typeof value === "boolean")
+    return <Checkbox label={name} checked={value} onChange={(on) => change(page, name, value, on)} />;
   const isFloat = page.connection.floatParameters.value.has(name);
   return (
     <TextField

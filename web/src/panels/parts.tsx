@@ -49,7 +49,13 @@ export function FilterField({ label, value }: { readonly label: string; readonly
 }
 
 /** Shows and hides a filter; hiding it ends the filtering. */
-export function FilterButton({ on, text }: { readonly on: Signal<boolean>; readonly text: Signal<string> }): JSX.Element {
+export function FilterButton({
+  on,
+  text,
+}: {
+  readonly on: Signal<boolean>;
+  readonly text: Signal<string>;
+}): JSX.Element {
   const toggle = (): void => {
     on.value = !on.value;
     if (!on.value) text.value = "";

@@ -5,7 +5,15 @@ import { useEffect, useRef } from "preact/hooks";
 
 import { count, fixed } from "../theme/format";
 import type { Panel, PanelProps } from "./panel";
-import { barOf, GROUP_NAMES, performanceState, rowsOf, sparkline, type Profile, type Row } from "./performance/performance_state";
+import {
+  barOf,
+  GROUP_NAMES,
+  performanceState,
+  rowsOf,
+  sparkline,
+  type Profile,
+  type Row,
+} from "./performance/performance_state";
 import { useShown } from "./use";
 
 function Performance({ page }: PanelProps): JSX.Element {
@@ -61,13 +69,25 @@ function Head({ profile, factors, isPaused }: HeadProps): JSX.Element {
       <Figure name="Contacts" value={String(profile.contacts)} />
       <Figure name="Bodies" value={String(profile.bodies)} />
       <Figure name="Asleep" value={String(profile.asleep)} />
-      {profile.graph_s !== null && <Figure name="Graph's thread" value={fixed((100 * profile.graph_s) / profile.wall_s, 0)} unit="% of a core" />}
+      {profile.graph_s !== null && (
+        <Figure name="Graph's thread" value={fixed((100 * profile.graph_s) / profile.wall_s, 0)} unit="% of a core" />
+      )}
       {isPaused && <span class="dim">paused</span>}
     </dl>
   );
 }
 
-function Figure({ name, value, unit, children }: { readonly name: string; readonly value: string; readonly unit?: string; readonly children?: JSX.Element }): JSX.Element {
+function Figure({
+  name,
+  value,
+  unit,
+  children,
+}: {
+  readonly name: string;
+  readonly value: string;
+  readonly unit?: string;
+  readonly children?: JSX.Element;
+}): JSX.Element {
   return (
     <div>
       <dt>{name}</dt>
@@ -83,15 +103,29 @@ function Figure({ name, value, unit, children }: { readonly name: string; readon
 /** One simulated second, as wide as the wall time it took. */
 function Bar({ rows }: { readonly rows: readonly Row[] }): JSX.Element {
   const total = rows.reduce((sum, row) => sum + row.perSecond, 0);
-  const words = barOf(rows).filter(({ share }) => share >= 0.005).map((row) => `${row.name} ${fixed(100 * row.share, 0)} %`);
+  const words = barOf(rows)
+    .filter(({ share }) => share >= 0.005)
+    .map((row) => `${row.name} ${fixed(100 * row.share, 0)} %`);
   return (
     <div class="secondrow">
-      <div class="second" role="img" aria-label={`One simulated second takes ${fixed(total, 0)} ms: ${words.join(", ")}`}>
+      <div
+        class="second"
+        role="img"
+        aria-label={`One simulated second takes ${fixed(total, 0)} ms: ${words.join(", ")}`}
+      >
         {barOf(rows).map((row) => (
-          <i key={`${row.group} ${row.name}`} data-group={row.group} style={{ flexGrow: row.perSecond }} title={`${row.name}: ${fixed(row.perSecond, 2)} ms, ${fixed(100 * row.share, 1)} %`} />
+          <i
+            key={`${row.group} ${row.name}`}
+            data-group={row.group}
+            style={{ flexGrow: row.perSecond }}
+            title={`${row.name}: ${fixed(row.perSecond, 2)} ms, ${fixed(100 * row.share, 1)} %`}
+          />
         ))}
       </div>
-      <span class="sm t2">{fixed(total, 0)}<i class="unit">ms</i></span>
+      <span class="sm t2">
+        {fixed(total, 0)}
+        <i class="unit">ms</i>
+      </span>
     </div>
   );
 }
@@ -104,8 +138,12 @@ function Table({ rows }: { readonly rows: readonly Row[] }): JSX.Element {
         <tr>
           <th scope="col">Name</th>
           <th scope="col">Part</th>
-          <th scope="col" class="num">ms / simulated s</th>
-          <th scope="col" class="num">Share</th>
+          <th scope="col" class="num">
+            ms / simulated s
+          </th>
+          <th scope="col" class="num">
+            Share
+          </th>
         </tr>
       </thead>
       <tbody>
@@ -125,4 +163,9 @@ function Table({ rows }: { readonly rows: readonly Row[] }): JSX.Element {
   );
 }
 
-export const performancePanel: Panel = { id: "performance", title: "Performance", programs: [], component: Performance };
+export const performancePanel: Panel = {
+  id: "performance",
+  title: "Performance",
+  programs: [],
+  component: Performance,
+};

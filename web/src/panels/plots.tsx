@@ -36,7 +36,11 @@ function Plots({ page }: PanelProps): JSX.Element {
       ) : (
         <div class="plots" onDblClick={() => void (state.zoom.value = null)}>
           {state.plots.value.map((plot) => (
-            <section key={plot.id} class="plot" aria-label={`Plot of ${plot.curves.map((curve) => curve.name).join(", ")}`}>
+            <section
+              key={plot.id}
+              class="plot"
+              aria-label={`Plot of ${plot.curves.map((curve) => curve.name).join(", ")}`}
+            >
               <Legend state={state} plot={plot} />
               <PlotCanvas state={state} curves={plot.curves} theme={page.theme.value} />
             </section>
@@ -72,7 +76,12 @@ function Actions({ page }: PanelProps): JSX.Element {
           state.zoom.value = null;
         }}
       />
-      <Button small icon="plus" on={state.isAdding.value} onClick={() => void (state.isAdding.value = !state.isAdding.value)}>
+      <Button
+        small
+        icon="plus"
+        on={state.isAdding.value}
+        onClick={() => void (state.isAdding.value = !state.isAdding.value)}
+      >
         Add curve
       </Button>
       <Button small icon={isPaused ? "play" : "pause"} onClick={() => state.pause(!isPaused)}>
@@ -98,4 +107,10 @@ function exports(state: PlotsState): readonly MenuItem[] {
   ];
 }
 
-export const plotsPanel: Panel = { id: "plots", title: "Plots", programs: ["rqt_plot", "rxplot"], component: Plots, actions: Actions };
+export const plotsPanel: Panel = {
+  id: "plots",
+  title: "Plots",
+  programs: ["rqt_plot", "rxplot"],
+  component: Plots,
+  actions: Actions,
+};

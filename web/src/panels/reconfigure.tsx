@@ -22,7 +22,8 @@ function Reconfigure({ page }: PanelProps): JSX.Element {
   const { selected } = reconfigureState(page);
   const names = serverNames(page.connection.topics.value);
   const shown = names.find((name) => name === selected.value) ?? names[0];
-  if (shown === undefined) return <div class="empty">No node has options: none publishes …/parameter_descriptions.</div>;
+  if (shown === undefined)
+    return <div class="empty">No node has options: none publishes …/parameter_descriptions.</div>;
   return (
     <div class="split">
       <div class="servers" role="listbox" aria-label="Nodes with options">
@@ -54,12 +55,20 @@ function Server({ page, name }: PanelProps & { readonly name: string }): JSX.Ele
   const groups = server?.groups.value;
   if (server === null || groups === null || groups === undefined) {
     const fault = server?.fault.value ?? "";
-    return fault === "" ? <div class="empty">Waiting for the description of {name}.</div> : <div class="fault pad">{fault}</div>;
+    return fault === "" ? (
+      <div class="empty">Waiting for the description of {name}.</div>
+    ) : (
+      <div class="fault pad">{fault}</div>
+    );
   }
   return (
     <div class="main">
       <div class="scroll">
-        {server.fault.value !== "" && <div class="fault pad" role="alert">{server.fault.value}</div>}
+        {server.fault.value !== "" && (
+          <div class="fault pad" role="alert">
+            {server.fault.value}
+          </div>
+        )}
         <Controls page={page}>
           {groups.map((group) => (
             <section key={group.id} aria-label={group.name}>
@@ -155,4 +164,9 @@ function NumberEditor({ server, option, value }: EditorProps & { readonly value:
   );
 }
 
-export const reconfigurePanel: Panel = { id: "reconfigure", title: "Reconfigure", programs: ["rqt_reconfigure", "reconfigure_gui"], component: Reconfigure };
+export const reconfigurePanel: Panel = {
+  id: "reconfigure",
+  title: "Reconfigure",
+  programs: ["rqt_reconfigure", "reconfigure_gui"],
+  component: Reconfigure,
+};

@@ -86,7 +86,16 @@ function Services({ page }: PanelProps): JSX.Element {
   return (
     <Split
       head={state.isFiltering.value && <FilterField label="Filter services" value={state.filter} />}
-      detail={selected !== undefined && <Detail key={selected.name} page={page} call={state.call(selected)} onClose={() => void (state.selected.value = null)} />}
+      detail={
+        selected !== undefined && (
+          <Detail
+            key={selected.name}
+            page={page}
+            call={state.call(selected)}
+            onClose={() => void (state.selected.value = null)}
+          />
+        )
+      }
     >
       {state.shown.value.length === 0 && <div class="empty">There are no services.</div>}
       {state.shown.value.length > 0 && (
@@ -100,7 +109,11 @@ function Services({ page }: PanelProps): JSX.Element {
           </thead>
           <tbody>
             {state.shown.value.map(({ name, type }) => (
-              <tr key={name} class={selected?.name === name ? "sel" : ""} onClick={() => void (state.selected.value = name)}>
+              <tr
+                key={name}
+                class={selected?.name === name ? "sel" : ""}
+                onClick={() => void (state.selected.value = name)}
+              >
                 <td>
                   <button type="button" class="cell" aria-expanded={selected?.name === name}>
                     {name}
@@ -117,7 +130,11 @@ function Services({ page }: PanelProps): JSX.Element {
   );
 }
 
-function Detail({ page, call, onClose }: PanelProps & { readonly call: Call; readonly onClose: () => void }): JSX.Element {
+function Detail({
+  page,
+  call,
+  onClose,
+}: PanelProps & { readonly call: Call; readonly onClose: () => void }): JSX.Element {
   const { service, form, answer, fault, isRunning } = call;
   return (
     <>
@@ -134,7 +151,11 @@ function Detail({ page, call, onClose }: PanelProps & { readonly call: Call; rea
       <div class="scroll">
         {form.rows.length > 0 && <MessageForm label={`Request of ${service.name}`} form={form} />}
         {form.rows.length === 0 && <div class="empty">The request has no fields.</div>}
-        {fault.value !== "" && <div class="fault pad" role="alert">{fault.value}</div>}
+        {fault.value !== "" && (
+          <div class="fault pad" role="alert">
+            {fault.value}
+          </div>
+        )}
         {answer.value !== null && (
           <div role="status">
             <h4 class="headline">Answer</h4>

@@ -30,7 +30,12 @@ function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
         <Axis drive={drive} which="angular" name="Turning, w" unit="rad/s" />
         <div class={isHeld ? "sm held" : "sm t2"} role="status">
           {isHeld && `Driving ${topic ?? ""}. Let go to stop.`}
-          {!isHeld && (!canControl({ session }) ? LOOKS_ONLY : topic === null ? `Nothing listens to ${session.drive_topic ?? "velocities"} yet.` : "Hold a slider to drive; let go to stop.")}
+          {!isHeld &&
+            (!canControl({ session })
+              ? LOOKS_ONLY
+              : topic === null
+                ? `Nothing listens to ${session.drive_topic ?? "velocities"} yet.`
+                : "Hold a slider to drive; let go to stop.")}
         </div>
       </div>
     </div>
@@ -61,7 +66,14 @@ function Axis({ drive, which, name, unit }: AxisProps): JSX.Element {
         <b>{fixed(value, 2)}</b>
         <span class="unit">{unit} of</span>
         <span class="narrow">
-          <NumberField label={`Limit of ${name}`} unit={unit} class="small num" value={limit.value} min={0.01} onCommit={(size) => void (limit.value = size)} />
+          <NumberField
+            label={`Limit of ${name}`}
+            unit={unit}
+            class="small num"
+            value={limit.value}
+            min={0.01}
+            onCommit={(size) => void (limit.value = size)}
+          />
         </span>
       </div>
       <Slider
@@ -77,4 +89,9 @@ function Axis({ drive, which, name, unit }: AxisProps): JSX.Element {
   );
 }
 
-export const steeringPanel: Panel = { id: "steering", title: "Steering", programs: ["rqt_robot_steering"], component: Steering };
+export const steeringPanel: Panel = {
+  id: "steering",
+  title: "Steering",
+  programs: ["rqt_robot_steering"],
+  component: Steering,
+};

@@ -43,9 +43,17 @@ const terminalsState = perPage(() => new TerminalsState());
 function Terminals({ page }: PanelProps): JSX.Element {
   const state = terminalsState(page);
   const { terminals } = page.session;
-  if (terminals.length === 0) return <div class="empty">No node asks for a terminal: launch-prefix="xterm -e" in the launch file gives it one here.</div>;
+  if (terminals.length === 0)
+    return (
+      <div class="empty">
+        No node asks for a terminal: launch-prefix="xterm -e" in the launch file gives it one here.
+      </div>
+    );
   const number = Math.min(state.shown.value, terminals.length - 1);
-  const items = terminals.map(({ name, ended }, index) => ({ id: String(index), title: ended === null ? name : `${name} (ended)` }));
+  const items = terminals.map(({ name, ended }, index) => ({
+    id: String(index),
+    title: ended === null ? name : `${name} (ended)`,
+  }));
   return (
     <div class="stack">
       {terminals.length > 1 && (
@@ -109,7 +117,15 @@ function follow(view: TerminalView, element: HTMLElement): () => void {
 
 function Actions({ page }: PanelProps): JSX.Element | null {
   const [only, ...others] = page.session.terminals;
-  return only === undefined || others.length > 0 ? null : <span class="sm t2">{only.ended === null ? only.name : `${only.name} (ended)`}</span>;
+  return only === undefined || others.length > 0 ? null : (
+    <span class="sm t2">{only.ended === null ? only.name : `${only.name} (ended)`}</span>
+  );
 }
 
-export const terminalPanel: Panel = { id: "terminal", title: "Terminal", programs: ["xterm"], component: Terminals, actions: Actions };
+export const terminalPanel: Panel = {
+  id: "terminal",
+  title: "Terminal",
+  programs: ["xterm"],
+  component: Terminals,
+  actions: Actions,
+};

@@ -24,7 +24,14 @@ function TfTree({ page }: PanelProps): JSX.Element {
   return (
     <div class="stack" ref={root}>
       {boxes.length === 0 && <div class="empty">No transforms have come on /tf or /tf_static.</div>}
-      <GraphDrawing label="Tree of frames" boxes={boxes} arrows={arrows} direction="fit" panZoom={state.panZoom} onSelect={(frame) => select(page, frame)} />
+      <GraphDrawing
+        label="Tree of frames"
+        boxes={boxes}
+        arrows={arrows}
+        direction="fit"
+        panZoom={state.panZoom}
+        onSelect={(frame) => select(page, frame)}
+      />
     </div>
   );
 }
@@ -37,4 +44,10 @@ function Actions({ page }: PanelProps): JSX.Element {
   return <Button small icon="focus" label="Fit" onClick={() => tfState(page).panZoom.fit()} />;
 }
 
-export const tfTreePanel: Panel = { id: "tf_tree", title: "TF tree", programs: ["rqt_tf_tree", "view_frames"], component: TfTree, actions: Actions };
+export const tfTreePanel: Panel = {
+  id: "tf_tree",
+  title: "TF tree",
+  programs: ["rqt_tf_tree", "view_frames"],
+  component: TfTree,
+  actions: Actions,
+};

@@ -18,7 +18,16 @@ import { useShown, useTick } from "./use";
 
 const PERIOD = 250; // ms
 const MOST_LABELS = 8;
-const SPEEDS: Readonly<Record<string, number | null>> = { "0.1×": 0.1, "0.25×": 0.25, "0.5×": 0.5, "1×": 1, "2×": 2, "4×": 4, "10×": 10, "As fast as possible": null };
+const SPEEDS: Readonly<Record<string, number | null>> = {
+  "0.1×": 0.1,
+  "0.25×": 0.25,
+  "0.5×": 0.5,
+  "1×": 1,
+  "2×": 2,
+  "4×": 4,
+  "10×": 10,
+  "As fast as possible": null,
+};
 
 function Timeline({ page }: PanelProps): JSX.Element {
   const state = timelineState(page);
@@ -29,13 +38,25 @@ function Timeline({ page }: PanelProps): JSX.Element {
     if (isShown) state.followContacts();
   }, [state, isShown]);
   const span = state.span();
-  if (span === null) return <div class="empty" ref={root}>There is no timeline: neither a simulation runs nor a recording plays.</div>;
+  if (span === null)
+    return (
+      <div class="empty" ref={root}>
+        There is no timeline: neither a simulation runs nor a recording plays.
+      </div>
+    );
   const { kind } = page.session;
-  const entries = logState(page).entries.value.filter(({ level, time }) => time !== null && time >= span.start && time <= span.end && level !== "Info" && level !== "Debug");
+  const entries = logState(page).entries.value.filter(
+    ({ level, time }) =>
+      time !== null && time >= span.start && time <= span.end && level !== "Info" && level !== "Debug",
+  );
   const share = (time: number): string => `${(100 * (time - span.start)) / Math.max(1e-9, span.end - span.start)}%`;
   return (
     <div class="stack" ref={root}>
-      {state.fault.value !== "" && <div class="fault pad" role="alert">{state.fault.value}</div>}
+      {state.fault.value !== "" && (
+        <div class="fault pad" role="alert">
+          {state.fault.value}
+        </div>
+      )}
       <div class="scroll">
         <div class="timeline">
           <div class="lanename ruler" />
@@ -108,7 +129,14 @@ function Head({ state, span, share }: ShareProps & { readonly state: TimelineSta
     if (state.scrub.peek() === null || box === undefined) return;
     go(span.start + ((event.clientX - box.left) / box.width) * (span.end - span.start));
   };
-  const keys: Readonly<Record<string, number>> = { ArrowLeft: now - 1, ArrowRight: now + 1, PageDown: now - 10, PageUp: now + 10, Home: span.start, End: span.end };
+  const keys: Readonly<Record<string, number>> = {
+    ArrowLeft: now - 1,
+    ArrowRight: now + 1,
+    PageDown: now - 10,
+    PageUp: now + 10,
+    Home: span.start,
+    End: span.end,
+  };
   return (
     <div
       ref={area}
@@ -149,10 +177,23 @@ function Head({ state, span, share }: ShareProps & { readonly state: TimelineSta
 }
 
 /** A mark, whose name is edited in place; an empty name removes it. */
-function MarkFlag({ state, mark, left }: { readonly state: TimelineState; readonly mark: Mark; readonly left: string }): JSX.Element {
+function MarkFlag({
+  state,
+  mark,
+  left,
+}: {
+  readonly state: TimelineState;
+  readonly mark: Mark;
+  readonly left: string;
+}): JSX.Element {
   return (
     <span class="mark-flag" style={{ left }} onClick={() => state.canSeek() && state.seek(mark.time)}>
-      <TextField label={`Mark at ${timeText(mark.time)}`} class="small bare" value={mark.name} onCommit={(name) => state.rename(mark, name.trim())} />
+      <TextField
+        label={`Mark at ${timeText(mark.time)}`}
+        class="small bare"
+        value={mark.name}
+        onCommit={(name) => state.rename(mark, name.trim())}
+      />
     </span>
   );
 }
@@ -162,17 +203,43 @@ function Actions({ page }: PanelProps): JSX.Element | null {
   if (state.span() === null) return null;
   const world = page.world.state.value;
   const isPaused = world?.paused ?? true;
-  const speed = Object.entries(SPEEDS).find(([, factor]) => factor === (world?.speed ?? null))?.[0] ?? `${world?.speed ?? 1}×`;
+  const speed =
+    Object.entries(SPEEDS).find(([, factor]) => factor === (world?.speed ?? null))?.[0] ?? `${world?.speed ?? 1}×`;
   return (
     <>
       {canControl(page) && (
         <>
-          <Button small icon={isPaused ? "play" : "pause"} disabled={world === null} onClick={() => state.do(isPaused ? "play" : "pause")}>
+          <Button
+            small
+            icon={isPaused ? "play" : "pause"}
+            disabled={world === null}
+            onClick={() => state.do(isPaused ? "play" : "pause")}
+          >
             {isPaused ? "Play" : "Pause"}
           </Button>
-          <Button small icon="step" label="Step 1" disabled={world === null} onClick={() => state.do("step", { count: 1 })} />
-          <Select label="Speed" value={speed} choices={Object.keys(SPEEDS)} onChange={(name) => state.do("speed", { factor: SPEEDS[name] ?? null })} />
-          <Button small disabled={world === null} onClick={() => page.commands.all.peek().find(({ id }) => id === "time")?.run()}>
+          <Button
+            small
+            icon="step"
+            label="Step 1"
+            disabled={world === null}
+            onClick={() => state.do("step", { count: 1 })}
+          />
+          <Select
+            label="Speed"
+            value={speed}
+            choices={Object.keys(SPEEDS)}
+            onChange={(name) => state.do("speed", { factor: SPEEDS[name] ?? null })}
+          />
+          <Button
+            small
+            disabled={world === null}
+            onClick={() =>
+              page.commands.all
+                .peek()
+                .find(({ id }) => id === "time")
+                ?.run()
+            }
+          >
             Go to…
           </Button>
         </>
@@ -189,4 +256,10 @@ function Actions({ page }: PanelProps): JSX.Element | null {
   );
 }
 
-export const timelinePanel: Panel = { id: "timeline", title: "Timeline", programs: ["rqt_bag"], component: Timeline, actions: Actions };
+export const timelinePanel: Panel = {
+  id: "timeline",
+  title: "Timeline",
+  programs: ["rqt_bag"],
+  component: Timeline,
+  actions: Actions,
+};

@@ -36,7 +36,9 @@ function Topics({ page }: PanelProps): JSX.Element {
       head={state.isFiltering.value && <FilterField label="Filter topics" value={state.filter} />}
     >
       {topics.length === 0 ? (
-        <div class="empty">{state.filter.value === "" ? "There are no topics." : "No topic has this in its name or type."}</div>
+        <div class="empty">
+          {state.filter.value === "" ? "There are no topics." : "No topic has this in its name or type."}
+        </div>
       ) : (
         <TopicTable connection={connection} state={state} topics={topics} now={performance.now()} />
       )}
@@ -109,7 +111,12 @@ function NewTopic({ page, name, type, onName, onType }: NewTopicProps): JSX.Elem
         onCommit={(text) => onName(text === "" || text.startsWith("/") ? text : `/${text}`)}
       />
       <span class="sm t2">Type</span>
-      <Combo label="Type" value={type} choices={() => [...types].sort().map((value) => ({ value }))} onCommit={onType} />
+      <Combo
+        label="Type"
+        value={type}
+        choices={() => [...types].sort().map((value) => ({ value }))}
+        onCommit={onType}
+      />
     </>
   );
 }

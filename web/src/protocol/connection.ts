@@ -58,7 +58,13 @@ export interface Subscription {
 }
 
 /** A dynamic parameter value as the protocol carries it. */
-export type ParameterValue = string | number | boolean | null | readonly ParameterValue[] | { readonly [key: string]: ParameterValue };
+export type ParameterValue =
+  | string
+  | number
+  | boolean
+  | null
+  | readonly ParameterValue[]
+  | { readonly [key: string]: ParameterValue };
 
 /** What a request is answered with, by its kind. */
 export interface RequestAnswer {
@@ -70,7 +76,12 @@ export interface RequestAnswer {
   /** Text of a world. */
   readonly sdf?: string;
   /** Models that can be inserted. */
-  readonly models?: readonly { readonly name: string; readonly title: string; readonly description: string; readonly uploaded: boolean }[];
+  readonly models?: readonly {
+    readonly name: string;
+    readonly title: string;
+    readonly description: string;
+    readonly uploaded: boolean;
+  }[];
   /** A replay of the last minutes. */
   readonly html?: string;
   /** The same as a glTF file, in base64. */
@@ -108,7 +119,9 @@ export interface Connection {
   readonly floatParameters: ReadonlySignal<ReadonlySet<string>>;
   readonly graph: ReadonlySignal<GraphInfo>;
   /** Messages of the server about itself, newest last; one with an id takes the place of the earlier one with it. */
-  readonly notices: ReadonlySignal<readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]>;
+  readonly notices: ReadonlySignal<
+    readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]
+  >;
   /** ROS time now [ns]: of /clock where it is used, else the wall's. */
   now(): bigint;
 

@@ -23,7 +23,10 @@ export class DecodeService {
 
   handle(request: DecodeRequest): void {
     if (request.kind === "open") {
-      this.#schemas.set(request.channel, attempt(() => parseSchema(request.name, request.definition)));
+      this.#schemas.set(
+        request.channel,
+        attempt(() => parseSchema(request.name, request.definition)),
+      );
     } else if (request.kind === "close") {
       this.#schemas.delete(request.channel);
     } else {

@@ -1,6 +1,14 @@
 /** The connection to the page's server. */
 
-import type { Connection, ParameterValue, Received, RequestAnswer, SharedSelection, Subscription, TopicStatistics } from "./connection";
+import type {
+  Connection,
+  ParameterValue,
+  Received,
+  RequestAnswer,
+  SharedSelection,
+  Subscription,
+  TopicStatistics,
+} from "./connection";
 import { Calls } from "./calls";
 import { Decoder, type DecodePort } from "./decoder";
 import { Notices } from "./notices";

@@ -22,7 +22,11 @@ export class GraphNames {
   search(name: string): readonly string[] {
     const found = [this.resolve(name)];
     if (name === "" || name.startsWith("/")) return found;
-    for (let at = this.namespace.lastIndexOf("/"); at >= 0; at = at === 0 ? -1 : this.namespace.lastIndexOf("/", at - 1)) {
+    for (
+      let at = this.namespace.lastIndexOf("/");
+      at >= 0;
+      at = at === 0 ? -1 : this.namespace.lastIndexOf("/", at - 1)
+    ) {
       found.push(join(this.namespace.slice(0, at), name));
     }
     return [...new Set(found)];

@@ -6,8 +6,16 @@ export interface RosTime {
 }
 
 export type NumberArray =
-  | Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array
-  | BigInt64Array | BigUint64Array | Float32Array | Float64Array;
+  | Int8Array
+  | Uint8Array
+  | Int16Array
+  | Uint16Array
+  | Int32Array
+  | Uint32Array
+  | BigInt64Array
+  | BigUint64Array
+  | Float32Array
+  | Float64Array;
 
 export type RosValue = number | bigint | boolean | string | RosTime | NumberArray | RosMessage | readonly RosValue[];
 

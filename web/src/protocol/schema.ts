@@ -57,11 +57,13 @@ export function parseSchema(name: string, text: string): Schema {
     open.add(type);
     const fields = definition.definitions
       .filter((field) => field.isConstant !== true)
-      .map((field): Field => ({
-        name: field.name,
-        type: field.isComplex === true ? nested(field.type, type) : primitive(field.type),
-        length: field.isArray === true ? (field.arrayLength ?? "any") : null,
-      }));
+      .map(
+        (field): Field => ({
+          name: field.name,
+          type: field.isComplex === true ? nested(field.type, type) : primitive(field.type),
+          length: field.isArray === true ? (field.arrayLength ?? "any") : null,
+        }),
+      );
     open.delete(type);
     const schema = { name: type, fields, minimum: fields.reduce((sum, field) => sum + minimumOf(field), 0) };
     done.set(type, schema);

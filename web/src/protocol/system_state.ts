@@ -61,7 +61,12 @@ export class SystemState {
 
   graphChanged(update: GraphUpdate): void {
     const { types, publishers, subscribers, services } = this.graph.peek();
-    const next = { types: new Map(types), publishers: new Map(publishers), subscribers: new Map(subscribers), services: new Map(services) };
+    const next = {
+      types: new Map(types),
+      publishers: new Map(publishers),
+      subscribers: new Map(subscribers),
+      services: new Map(services),
+    };
     for (const name of update.removedTopics) {
       next.publishers.delete(name);
       next.subscribers.delete(name);

@@ -36,7 +36,11 @@ export interface Parameter {
 
 export interface GraphUpdate {
   readonly publishedTopics: readonly { readonly name: string; readonly publisherIds: readonly string[] }[];
-  readonly subscribedTopics: readonly { readonly name: string; readonly subscriberIds: readonly string[]; readonly type?: string }[];
+  readonly subscribedTopics: readonly {
+    readonly name: string;
+    readonly subscriberIds: readonly string[];
+    readonly type?: string;
+  }[];
   readonly advertisedServices: readonly { readonly name: string; readonly providerIds: readonly string[] }[];
   readonly removedTopics: readonly string[];
   readonly removedServices: readonly string[];

@@ -22,7 +22,13 @@ export function Bar({ player, title, start }: BarProps): JSX.Element {
   const now = clock(start + time.value);
   return (
     <div class="replay-bar">
-      <Button tone="primary" icon={isPlaying.value ? "pause" : "play"} label={isPlaying.value ? "Pause" : "Play"} keys="Space" onClick={() => player.toggle()} />
+      <Button
+        tone="primary"
+        icon={isPlaying.value ? "pause" : "play"}
+        label={isPlaying.value ? "Pause" : "Play"}
+        keys="Space"
+        onClick={() => player.toggle()}
+      />
       <span class="num now">{now}</span>
       <input
         type="range"
@@ -38,7 +44,12 @@ export function Bar({ player, title, start }: BarProps): JSX.Element {
         }}
       />
       <span class="num t2">{clock(start + duration)}</span>
-      <Select label="Speed" value={`${speed.value}×`} choices={SPEEDS.map((factor) => `${factor}×`)} onChange={(text) => (speed.value = Number.parseFloat(text))} />
+      <Select
+        label="Speed"
+        value={`${speed.value}×`}
+        choices={SPEEDS.map((factor) => `${factor}×`)}
+        onChange={(text) => (speed.value = Number.parseFloat(text))}
+      />
       <span class="n t2 title" title={title}>
         {title}
       </span>

@@ -48,7 +48,8 @@ async function start(root: HTMLElement): Promise<void> {
   scene.onTick((elapsed) => player.advance(elapsed));
   lookFirst(views, about, world);
   addEventListener("keydown", (event) => {
-    if (event.key !== " " || event.target instanceof HTMLSelectElement || event.target instanceof HTMLButtonElement) return;
+    if (event.key !== " " || event.target instanceof HTMLSelectElement || event.target instanceof HTMLButtonElement)
+      return;
     event.preventDefault();
     player.toggle();
   });

@@ -47,7 +47,9 @@ export class RecordedWorld {
   /** What moves, or all but planes without an end where nothing does. */
   bounds(): Box3 {
     this.model.root.updateWorldMatrix(true, true);
-    const names = new Set(this.model.animations.flatMap(({ tracks }) => tracks.map(({ name }) => name.slice(0, name.lastIndexOf(".")))));
+    const names = new Set(
+      this.model.animations.flatMap(({ tracks }) => tracks.map(({ name }) => name.slice(0, name.lastIndexOf(".")))),
+    );
     const bodies = [...this.model.bodies.values()];
     const moving = bodies.filter(({ name }) => names.has(name));
     const box = new Box3();

@@ -46,7 +46,9 @@ function findEntry(old: readonly unknown[], entry: Yaml): number {
 /** `rviz/Grid` and `rviz_default_plugins/Grid` are one class, `Orbit (rviz)` and `Orbit (rviz_default_plugins)`, too. */
 function shortName(name: unknown): unknown {
   if (typeof name !== "string") return name;
-  return name.replace(/^(rviz|rviz_default_plugins|rviz_common)\//, "").replace(/ \((rviz|rviz_default_plugins)\)$/, "");
+  return name
+    .replace(/^(rviz|rviz_default_plugins|rviz_common)\//, "")
+    .replace(/ \((rviz|rviz_default_plugins)\)$/, "");
 }
 
 /** True if a scalar says the value, in whichever spelling: `0.030` is 0.03, and `~` an empty text. */

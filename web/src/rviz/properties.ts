@@ -166,7 +166,12 @@ export class StringProperty extends Property<string> {
 export class EnumProperty extends Property<string> {
   readonly kind = "choice";
   readonly choices: Signal<readonly string[]>;
-  constructor(name: string, initial: string, choices: readonly string[], options: PropertyOptions & { readonly open?: boolean } = {}) {
+  constructor(
+    name: string,
+    initial: string,
+    choices: readonly string[],
+    options: PropertyOptions & { readonly open?: boolean } = {},
+  ) {
     super(name, initial, options);
     this.choices = signal(choices);
     this.isOpen = options.open ?? false;

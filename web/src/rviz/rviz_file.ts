@@ -40,7 +40,9 @@ export class RvizFile {
       globalOptions: child(manager, "Global Options"),
       displays: list(manager["Displays"]),
       views: rviz1(child(manager, "Views")) as YamlMapping,
-      tools: list(manager["Tools"]).filter(isMapping).map((tool) => rviz1(tool) as YamlMapping),
+      tools: list(manager["Tools"])
+        .filter(isMapping)
+        .map((tool) => rviz1(tool) as YamlMapping),
     };
   }
 
@@ -79,8 +81,10 @@ function rviz1(yaml: Yaml): Yaml {
   if (Array.isArray(yaml)) return (yaml as readonly Yaml[]).map(rviz1);
   if (!isMapping(yaml)) return yaml;
   const entries = Object.entries(yaml).map(([key, value]): [string, Yaml] => {
-    if (key === "Class" && typeof value === "string") return [key, value.replace(/^rviz_(default_plugins|common)\//, "rviz/")];
-    if (key === "Value" && typeof value === "string") return [key, value.replace(/\(rviz_default_plugins\)$/, "(rviz)")];
+    if (key === "Class" && typeof value === "string")
+      return [key, value.replace(/^rviz_(default_plugins|common)\//, "rviz/")];
+    if (key === "Value" && typeof value === "string")
+      return [key, value.replace(/\(rviz_default_plugins\)$/, "(rviz)")];
     return [key, rviz1(value)];
   });
   return Object.fromEntries(entries);

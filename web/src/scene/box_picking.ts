@@ -9,7 +9,13 @@ import type { Pick, PictureBox, Selectable } from "./scene_view";
 export const SELECTABLE = "selectable";
 
 /** Objects, instances and points whose middle lies within the box, at most `limit`. */
-export function pickBox(roots: readonly Object3D[], camera: Camera, size: PictureSize, box: PictureBox, limit: number): Pick[] {
+export function pickBox(
+  roots: readonly Object3D[],
+  camera: Camera,
+  size: PictureSize,
+  box: PictureBox,
+  limit: number,
+): Pick[] {
   const picked: Pick[] = [];
   const seen = new Vector3();
   camera.updateMatrixWorld();

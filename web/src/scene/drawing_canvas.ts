@@ -30,7 +30,11 @@ export function drawingCanvas(): DrawingCanvas {
 
 /** Device pixels per pixel of a canvas [px]. */
 export function pixelRatio(width: number, height: number, isSlow: boolean): number {
-  return Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO, Math.sqrt((isSlow ? MAX_SLOW_PIXELS : MAX_PIXELS) / (width * height)));
+  return Math.min(
+    window.devicePixelRatio,
+    MAX_PIXEL_RATIO,
+    Math.sqrt((isSlow ? MAX_SLOW_PIXELS : MAX_PIXELS) / (width * height)),
+  );
 }
 
 function create(): DrawingCanvas {
@@ -43,8 +47,15 @@ function create(): DrawingCanvas {
 /** As large as the window, which the scene fills: another size would wait for the browser's drawing. */
 function withContext(isSlow: boolean): DrawingCanvas {
   const ratio = pixelRatio(innerWidth, innerHeight, isSlow);
-  const element = Object.assign(document.createElement("canvas"), { width: Math.floor(innerWidth * ratio), height: Math.floor(innerHeight * ratio) });
-  return { element, context: element.getContext("webgl2", { powerPreference: "high-performance", antialias: !isSlow }), isSlow };
+  const element = Object.assign(document.createElement("canvas"), {
+    width: Math.floor(innerWidth * ratio),
+    height: Math.floor(innerHeight * ratio),
+  });
+  return {
+    element,
+    context: element.getContext("webgl2", { powerPreference: "high-performance", antialias: !isSlow }),
+    isSlow,
+  };
 }
 
 function drawsOnCpu(context: WebGL2RenderingContext): boolean {

@@ -24,7 +24,12 @@ export function freeArea(width: number, height: number, insets: Insets): Area {
 }
 
 /** Shift a camera's picture so that its axis meets the middle of the free area. */
-export function centreOn(area: Area, camera: PerspectiveCamera | OrthographicCamera, width: number, height: number): void {
+export function centreOn(
+  area: Area,
+  camera: PerspectiveCamera | OrthographicCamera,
+  width: number,
+  height: number,
+): void {
   const x = width / 2 - (area.left + area.width / 2);
   const y = height / 2 - (area.top + area.height / 2);
   if (x === 0 && y === 0) camera.clearViewOffset();

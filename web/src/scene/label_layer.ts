@@ -183,7 +183,19 @@ export class LabelLayer {
     let seen = this.known.get(label);
     if (seen === undefined) {
       const box = { x: 0, y: 0, width: 0 };
-      seen = { label, box, x: 0, y: 0, width: 0, distance: 0, hovered: false, corner: -1, measured: "", measuredDetail: "", isMeasuredBoxed: false };
+      seen = {
+        label,
+        box,
+        x: 0,
+        y: 0,
+        width: 0,
+        distance: 0,
+        hovered: false,
+        corner: -1,
+        measured: "",
+        measuredDetail: "",
+        isMeasuredBoxed: false,
+      };
       this.known.set(label, seen);
     }
     return seen;
@@ -193,7 +205,13 @@ export class LabelLayer {
   private measure(context: CanvasRenderingContext2D, seen: Seen): void {
     const { label, hovered: isBoxed } = seen;
     const detail = label === this.hovered ? label.detail : "";
-    if (seen.width > 0 && seen.measured === label.text && seen.measuredDetail === detail && seen.isMeasuredBoxed === isBoxed) return;
+    if (
+      seen.width > 0 &&
+      seen.measured === label.text &&
+      seen.measuredDetail === detail &&
+      seen.isMeasuredBoxed === isBoxed
+    )
+      return;
     seen.measured = label.text;
     seen.measuredDetail = detail;
     seen.isMeasuredBoxed = isBoxed;
@@ -207,7 +225,15 @@ export class LabelLayer {
     if (this.pointer === null) return null;
     const { x, y } = this.pointer;
     for (const { label, box, corner } of this.seen) {
-      if (corner >= 0 && this.set.labels.has(label) && x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + BAND) return label;
+      if (
+        corner >= 0 &&
+        this.set.labels.has(label) &&
+        x >= box.x &&
+        x <= box.x + box.width &&
+        y >= box.y &&
+        y <= box.y + BAND
+      )
+        return label;
     }
     let best: SceneLabel | null = null;
     let nearest = NEAR;

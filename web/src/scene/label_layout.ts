@@ -81,7 +81,14 @@ function rank({ hovered, distance }: LabelRequest): number {
 }
 
 /** Put a request's box at a corner; true: it may stay there. */
-function fits(request: LabelRequest, corner: number, own: number, requests: readonly LabelRequest[], width: number, height: number): boolean {
+function fits(
+  request: LabelRequest,
+  corner: number,
+  own: number,
+  requests: readonly LabelRequest[],
+  width: number,
+  height: number,
+): boolean {
   putBox(request, corner);
   const { box } = request;
   if (box.x < 0 || box.y < 0 || box.x + box.width > width || box.y + BAND > height) return false;

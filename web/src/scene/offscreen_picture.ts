@@ -18,7 +18,8 @@ export class OffscreenPicture {
     const choose = context.drawBuffers.bind(context);
     this.bind = context.bindFramebuffer.bind(context);
     context.bindFramebuffer = (target, framebuffer) => this.bind(target, framebuffer ?? this.framebuffer);
-    context.drawBuffers = (buffers: Iterable<GLenum>) => choose([...buffers].map((each) => (each === context.BACK ? context.COLOR_ATTACHMENT0 : each)));
+    context.drawBuffers = (buffers: Iterable<GLenum>) =>
+      choose([...buffers].map((each) => (each === context.BACK ? context.COLOR_ATTACHMENT0 : each)));
     context.canvas.addEventListener("webglcontextrestored", () => this.create()); // before who draws begins again
     this.create();
   }
@@ -48,7 +49,10 @@ export class OffscreenPicture {
 
   /** True if the picture that was begun is drawn. */
   isDone(): boolean {
-    return this.sync !== null && this.context.getSyncParameter(this.sync, this.context.SYNC_STATUS) !== this.context.UNSIGNALED;
+    return (
+      this.sync !== null &&
+      this.context.getSyncParameter(this.sync, this.context.SYNC_STATUS) !== this.context.UNSIGNALED
+    );
   }
 
   /** Copy the picture to the canvas; the page waits if it is not done. */
@@ -67,7 +71,10 @@ export class OffscreenPicture {
     this.sync = null;
     this.framebuffer = context.createFramebuffer();
     this.bind(context.FRAMEBUFFER, this.framebuffer);
-    const parts = [[context.COLOR_ATTACHMENT0, context.RGBA8], [context.DEPTH_ATTACHMENT, context.DEPTH_COMPONENT24]] as const;
+    const parts = [
+      [context.COLOR_ATTACHMENT0, context.RGBA8],
+      [context.DEPTH_ATTACHMENT, context.DEPTH_COMPONENT24],
+    ] as const;
     this.buffers = parts.map(([attachment, format]) => {
       const buffer = context.createRenderbuffer();
       context.bindRenderbuffer(context.RENDERBUFFER, buffer);

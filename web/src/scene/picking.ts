@@ -1,7 +1,19 @@
 /** What lies under a point of the picture. */
 
 import {
-  BufferGeometry, Mesh, OrthographicCamera, Plane, Ray, Raycaster, Vector2, Vector3, type Camera, type Intersection, type Line, type LineSegments, type Object3D,
+  BufferGeometry,
+  Mesh,
+  OrthographicCamera,
+  Plane,
+  Ray,
+  Raycaster,
+  Vector2,
+  Vector3,
+  type Camera,
+  type Intersection,
+  type Line,
+  type LineSegments,
+  type Object3D,
   type Points,
 } from "three";
 import { acceleratedRaycast, computeBoundsTree, disposeBoundsTree } from "three-mesh-bvh";
@@ -67,13 +79,15 @@ export class Picker {
 
   private aim(camera: Camera, size: PictureSize, x: number, y: number): void {
     camera.updateMatrixWorld();
-    const metresPerPx = camera instanceof OrthographicCamera ? (camera.top - camera.bottom) / camera.zoom / size.height : 0;
+    const metresPerPx =
+      camera instanceof OrthographicCamera ? (camera.top - camera.bottom) / camera.zoom / size.height : 0;
     this.raycaster.params.Points = { threshold: TOLERANCE * metresPerPx };
     this.raycaster.setFromCamera(new Vector2((2 * x) / size.width - 1, 1 - (2 * y) / size.height), camera);
   }
 
   private visit(object: Object3D, camera: Camera, size: PictureSize, at: Vector2, found: Candidate[]): void {
-    if (!object.visible || object.userData[NOT_PICKED] === true || this.bodies.isMissed(object, this.raycaster.ray)) return;
+    if (!object.visible || object.userData[NOT_PICKED] === true || this.bodies.isMissed(object, this.raycaster.ray))
+      return;
     if (isPoints(object)) pickPoints(object, camera, size, at, found);
     else if (isLine(object)) pickLine(object, camera, size, at, found);
     else if (isMesh(object)) this.pickMesh(object, camera, found);

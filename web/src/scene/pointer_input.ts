@@ -81,7 +81,14 @@ export class SceneInput {
   }
 
   private offer(event: PointerEvent | MouseEvent, kind: PointerInput["kind"], button: number): boolean {
-    return this.tool({ x: event.offsetX, y: event.offsetY, button, shift: event.shiftKey, control: event.ctrlKey, kind });
+    return this.tool({
+      x: event.offsetX,
+      y: event.offsetY,
+      button,
+      shift: event.shiftKey,
+      control: event.ctrlKey,
+      kind,
+    });
   }
 
   private down(event: PointerEvent): void {

@@ -1,7 +1,16 @@
 /** Interface of the 3D view, for displays and tools. */
 
 import type { ReadonlySignal, Signal } from "@preact/signals";
-import type { Camera, Group, Object3D, OrthographicCamera, PerspectiveCamera, Ray, Vector3, WebGLRenderer } from "three";
+import type {
+  Camera,
+  Group,
+  Object3D,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Ray,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 
 import type { Area } from "./free_area";
 

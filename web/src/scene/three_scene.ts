@@ -4,7 +4,15 @@ import "./conventions";
 
 import { computed, effect, signal } from "@preact/signals";
 import {
-  AmbientLight, Color, DirectionalLight, Group, Scene, WebGLRenderer, type Object3D, type Ray, type Vector3,
+  AmbientLight,
+  Color,
+  DirectionalLight,
+  Group,
+  Scene,
+  WebGLRenderer,
+  type Object3D,
+  type Ray,
+  type Vector3,
 } from "three";
 
 import { drawingCanvas, pixelRatio } from "./drawing_canvas";
@@ -19,7 +27,8 @@ import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
 import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
-const NO_WEBGL = "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
+const NO_WEBGL =
+  "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";
 
 export class ThreeScene implements SceneView {
   readonly status = signal<SceneStatus>({ kind: "drawing" });
@@ -68,10 +77,24 @@ export class ThreeScene implements SceneView {
     this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
     this.element.setAttribute("aria-label", "3D view");
-    Object.assign(this.element.style, { position: "absolute", inset: "0", width: "100%", height: "100%", touchAction: "none", outline: "none" });
+    Object.assign(this.element.style, {
+      position: "absolute",
+      inset: "0",
+      width: "100%",
+      height: "100%",
+      touchAction: "none",
+      outline: "none",
+    });
     host.append(this.element);
     this.panes = new ScenePanes(host, this.labels, this.size, this.freeArea);
-    this.scene.add(this.world, this.displays, this.ground, new AmbientLight(0xffffff, 0.35 * Math.PI), this.headlight, this.headlight.target);
+    this.scene.add(
+      this.world,
+      this.displays,
+      this.ground,
+      new AmbientLight(0xffffff, 0.35 * Math.PI),
+      this.headlight,
+      this.headlight.target,
+    );
     this.listen();
     this.frame = requestAnimationFrame((now) => this.tick(now));
   }
@@ -129,7 +152,8 @@ export class ThreeScene implements SceneView {
   picture(width: number, height: number): HTMLCanvasElement {
     const picture = Object.assign(document.createElement("canvas"), { width, height });
     const context = picture.getContext("2d");
-    if (this.renderer === null || this.status.peek().kind !== "drawing" || context === null) throw new Error("Nothing can be drawn now.");
+    if (this.renderer === null || this.status.peek().kind !== "drawing" || context === null)
+      throw new Error("Nothing can be drawn now.");
     const ratio = height / this.size.peek().height;
     const size = { width: width / ratio, height: height / ratio };
     const places = panePlaces(this.panes.layout.peek(), size, NO_INSETS, 0);
@@ -139,7 +163,8 @@ export class ThreeScene implements SceneView {
     context.drawImage(this.element, 0, 0, width, height);
     this.panes.shown.peek().forEach(({ labels }, index) => {
       const area = places[index]?.area;
-      if (area !== undefined) context.drawImage(labels.canvas, area.left * ratio, area.top * ratio, area.width * ratio, area.height * ratio);
+      if (area !== undefined)
+        context.drawImage(labels.canvas, area.left * ratio, area.top * ratio, area.width * ratio, area.height * ratio);
     });
     this.invalidate();
     if (drawingBufferWidth < width - 1 || drawingBufferHeight < height - 1) {
@@ -205,7 +230,11 @@ export class ThreeScene implements SceneView {
   private hoverLabels(over: Pane | null, at?: PointerEvent): void {
     for (const pane of this.panes.shown.peek()) {
       const { left, top } = pane.place.peek().area;
-      pane.labels.hover(pane === over && at !== undefined ? { x: at.offsetX - left, y: at.offsetY - top } : null, pane.camera.peek(), pane.size);
+      pane.labels.hover(
+        pane === over && at !== undefined ? { x: at.offsetX - left, y: at.offsetY - top } : null,
+        pane.camera.peek(),
+        pane.size,
+      );
     }
   }
 
@@ -241,7 +270,10 @@ export class ThreeScene implements SceneView {
 
   /** Fit the canvas to a size [px]; true: it had another one, and is empty. */
   private fit({ width, height }: PictureSize, ratio: number): boolean {
-    const isSame = ratio === this.pixelRatio && this.element.width === Math.floor(width * ratio) && this.element.height === Math.floor(height * ratio);
+    const isSame =
+      ratio === this.pixelRatio &&
+      this.element.width === Math.floor(width * ratio) &&
+      this.element.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
       this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
     }

@@ -28,7 +28,13 @@ const ENDS = [
 export class ViewAxes {
   /** Width and height [px]. */
   static readonly size = 62;
-  readonly element = make("svg", { width: `${ViewAxes.size}`, height: `${ViewAxes.size}`, viewBox: "-31 -31 62 62", role: "group", "aria-label": "View axes" });
+  readonly element = make("svg", {
+    width: `${ViewAxes.size}`,
+    height: `${ViewAxes.size}`,
+    viewBox: "-31 -31 62 62",
+    role: "group",
+    "aria-label": "View axes",
+  });
   private readonly tips: Tip[];
   private readonly turned = new Vector3();
   private order = "";
@@ -37,7 +43,10 @@ export class ViewAxes {
 
   constructor(onPress: (side: SixSides) => void) {
     Object.assign(this.element.style, { position: "absolute", touchAction: "none" });
-    const disc = { r: `${RADIUS}`, style: "fill: color-mix(in srgb, var(--panel) 80%, transparent); stroke: var(--line-hard)" };
+    const disc = {
+      r: `${RADIUS}`,
+      style: "fill: color-mix(in srgb, var(--panel) 80%, transparent); stroke: var(--line-hard)",
+    };
     this.element.append(make("circle", disc));
     this.tips = ENDS.map((end) => this.addTip(end, onPress));
   }
@@ -46,11 +55,21 @@ export class ViewAxes {
     const colour = `var(--${"of" in end ? end.of : end.letter})`;
     const line = end.letter === "" ? null : make("line", { style: `stroke: ${colour}; stroke-width: 2` });
     const name = `Look from ${end.side === "top" || end.side === "bottom" ? end.side : `the ${end.side}`}`;
-    const group = make("g", { role: "button", tabindex: "0", "aria-label": name, style: "cursor: pointer; outline-offset: 1px" });
+    const group = make("g", {
+      role: "button",
+      tabindex: "0",
+      "aria-label": name,
+      style: "cursor: pointer; outline-offset: 1px",
+    });
     const title = make("title", {});
     title.textContent = name;
     group.append(title, make("circle", { r: "9", style: "fill: transparent" }));
-    group.append(make("circle", { r: end.letter === "" ? "3.5" : "7", style: `fill: ${colour}; opacity: ${end.letter === "" ? 0.6 : 1}` }));
+    group.append(
+      make("circle", {
+        r: end.letter === "" ? "3.5" : "7",
+        style: `fill: ${colour}; opacity: ${end.letter === "" ? 0.6 : 1}`,
+      }),
+    );
     if (end.letter !== "") {
       const style = "fill: var(--panel); font: 700 10px var(--font); text-anchor: middle; pointer-events: none";
       const text = make("text", { y: "3.3", style });
@@ -88,7 +107,10 @@ export class ViewAxes {
   }
 }
 
-function make<K extends keyof SVGElementTagNameMap>(tag: K, attributes: Readonly<Record<string, string>>): SVGElementTagNameMap[K] {
+function make<K extends keyof SVGElementTagNameMap>(
+  tag: K,
+  attributes: Readonly<Record<string, string>>,
+): SVGElementTagNameMap[K] {
   const element = document.createElementNS(SVG, tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
   return element;

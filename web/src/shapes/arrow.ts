@@ -12,7 +12,9 @@ export class Arrow extends Group {
   private readonly shaft = new Mesh(SHAFT, this.shaftMaterial);
   private readonly head = new Mesh(HEAD, this.headMaterial);
 
-  constructor(proportions: ArrowProportions = { shaftLength: 1, shaftDiameter: 0.1, headLength: 0.3, headDiameter: 0.2 }) {
+  constructor(
+    proportions: ArrowProportions = { shaftLength: 1, shaftDiameter: 0.1, headLength: 0.3, headDiameter: 0.2 },
+  ) {
     super();
     super.add(this.shaft, this.head);
     this.setProportions(proportions);

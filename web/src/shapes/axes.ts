@@ -6,7 +6,11 @@ import type { Rgb } from "../rviz/properties";
 import { ShapeMaterial } from "./shape_material";
 import { SHAFT } from "./solids";
 
-export const AXIS_RGB: readonly [Rgb, Rgb, Rgb] = [[255, 0, 0], [0, 255, 0], [0, 0, 255]];
+export const AXIS_RGB: readonly [Rgb, Rgb, Rgb] = [
+  [255, 0, 0],
+  [0, 255, 0],
+  [0, 0, 255],
+];
 
 export class Axes extends Group {
   private readonly axes = AXIS_RGB.map(() => new Mesh(SHAFT, new ShapeMaterial()));

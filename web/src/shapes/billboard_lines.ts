@@ -1,8 +1,18 @@
 /** Lines with a width in metres that face the viewer, as rviz's billboards: one draw call for all segments. */
 
 import {
-  BufferAttribute, DoubleSide, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Matrix4, Mesh, Ray,
-  ShaderMaterial, Vector3, type Intersection, type Raycaster,
+  BufferAttribute,
+  DoubleSide,
+  DynamicDrawUsage,
+  InstancedBufferAttribute,
+  InstancedBufferGeometry,
+  Matrix4,
+  Mesh,
+  Ray,
+  ShaderMaterial,
+  Vector3,
+  type Intersection,
+  type Raycaster,
 } from "three";
 
 const VERTEX = /* glsl */ `
@@ -61,7 +71,10 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
     super(
       new InstancedBufferGeometry(),
       new ShaderMaterial({
-        vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide, toneMapped: false,
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        side: DoubleSide,
+        toneMapped: false,
         uniforms: { lineWidth: { value: width } },
       }),
     );
@@ -93,7 +106,14 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
   }
 
   /** Points three numbers each [m]; colours four each, 0…1. */
-  addSegment(a: ArrayLike<number>, aAt: number, b: ArrayLike<number>, bAt: number, colorA: ArrayLike<number>, colorB: ArrayLike<number>): void {
+  addSegment(
+    a: ArrayLike<number>,
+    aAt: number,
+    b: ArrayLike<number>,
+    bAt: number,
+    colorA: ArrayLike<number>,
+    colorB: ArrayLike<number>,
+  ): void {
     const index = this.geometry.instanceCount++;
     if (index >= this.capacity) this.reserve(2 * this.capacity);
     for (let k = 0; k < 3; k++) {
@@ -110,7 +130,11 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
   }
 
   /** Points x y z one after another, in one colour or one each; closed: the last is joined to the first. */
-  addPolyline(points: ArrayLike<number>, rgba: ArrayLike<number> | ((point: number) => ArrayLike<number>), closed = false): void {
+  addPolyline(
+    points: ArrayLike<number>,
+    rgba: ArrayLike<number> | ((point: number) => ArrayLike<number>),
+    closed = false,
+  ): void {
     const count = Math.floor(points.length / 3);
     const color = typeof rgba === "function" ? rgba : (): ArrayLike<number> => rgba;
     const first = this.geometry.instanceCount;
@@ -143,7 +167,11 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
     const reach = (this.width / 2) ** 2;
     for (let index = 0; index < this.segments; index++) {
       const squared = LOCAL.distanceSqToSegment(
-        START.fromArray(this.starts, 3 * index), END.fromArray(this.ends, 3 * index), ON_RAY, ON_LINE);
+        START.fromArray(this.starts, 3 * index),
+        END.fromArray(this.ends, 3 * index),
+        ON_RAY,
+        ON_LINE,
+      );
       if (squared > reach) continue;
       const point = ON_RAY.clone().applyMatrix4(this.matrixWorld);
       const distance = raycaster.ray.origin.distanceTo(point);

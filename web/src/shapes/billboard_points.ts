@@ -1,8 +1,17 @@
 /** Squares in metres that face the viewer: one draw call for all. */
 
 import {
-  BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Matrix4, Mesh, Ray, ShaderMaterial, Vector2, Vector3,
-  type Intersection, type Raycaster,
+  BufferAttribute,
+  InstancedBufferAttribute,
+  InstancedBufferGeometry,
+  Matrix4,
+  Mesh,
+  Ray,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  type Intersection,
+  type Raycaster,
 } from "three";
 
 const VERTEX = /* glsl */ `
@@ -53,7 +62,11 @@ export class BillboardPoints extends Mesh<InstancedBufferGeometry, ShaderMateria
     super(
       new InstancedBufferGeometry(),
       new ShaderMaterial({
-        vertexShader: VERTEX, fragmentShader: FRAGMENT, toneMapped: false, transparent: blended, depthWrite: !blended,
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        toneMapped: false,
+        transparent: blended,
+        depthWrite: !blended,
         uniforms: { pointSize: { value: size } },
       }),
     );
@@ -74,7 +87,8 @@ export class BillboardPoints extends Mesh<InstancedBufferGeometry, ShaderMateria
       if (LOCAL.distanceSqToPoint(CENTER) > reach) continue;
       const point = CENTER.clone().applyMatrix4(this.matrixWorld);
       const distance = raycaster.ray.origin.distanceTo(point);
-      if (distance >= raycaster.near && distance <= raycaster.far) intersects.push({ distance, point, object: this, instanceId: index });
+      if (distance >= raycaster.near && distance <= raycaster.far)
+        intersects.push({ distance, point, object: this, instanceId: index });
     }
   }
 

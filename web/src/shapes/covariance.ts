@@ -88,7 +88,17 @@ export class CovarianceVisual extends Group {
   private drawPosition(entry: (row: number, column: number) => number, planar: boolean): void {
     const { property } = this;
     const [xz, yz, zz] = planar ? [0, 0, 0] : [entry(0, 2), entry(1, 2), entry(2, 2)];
-    const { values, rotation } = principalAxes([entry(0, 0), entry(0, 1), xz, entry(1, 0), entry(1, 1), yz, xz, yz, zz]);
+    const { values, rotation } = principalAxes([
+      entry(0, 0),
+      entry(0, 1),
+      xz,
+      entry(1, 0),
+      entry(1, 1),
+      yz,
+      xz,
+      yz,
+      zz,
+    ]);
     const scale = 2 * property.positionScale.value.value;
     const size = (variance: number): number => Math.max(FLAT, scale * Math.sqrt(variance));
     this.ellipsoid.quaternion.copy(rotation);
@@ -111,7 +121,10 @@ export class CovarianceVisual extends Group {
     this.triangle.material.setColor(color(2), alpha);
     this.discs.forEach((disc, axis) => {
       disc.visible = !planar;
-      const { rows: [first, second], turn } = DISCS[axis] ?? DISCS[2];
+      const {
+        rows: [first, second],
+        turn,
+      } = DISCS[axis] ?? DISCS[2];
       const { angle, major, minor } = planeAxes(entry(first, first), entry(first, second), entry(second, second));
       disc.position.set(0, 0, 0).setComponent(axis, offset);
       disc.quaternion.setFromAxisAngle(Z, angle).premultiply(turn);
@@ -134,7 +147,11 @@ const Z = new Vector3(0, 0, 1);
 function planeAxes(a: number, b: number, c: number): { angle: number; major: number; minor: number } {
   const mean = (a + c) / 2;
   const radius = Math.hypot((a - c) / 2, b);
-  return { angle: 0.5 * Math.atan2(2 * b, a - c), major: Math.max(0, mean + radius), minor: Math.max(0, mean - radius) };
+  return {
+    angle: 0.5 * Math.atan2(2 * b, a - c),
+    major: Math.max(0, mean + radius),
+    minor: Math.max(0, mean - radius),
+  };
 }
 
 /** Flat triangle from its tip at the origin to a base of 1 m at x = 1. */

@@ -14,11 +14,20 @@ export interface Principal {
  */
 export function principalAxes(matrix: readonly number[]): Principal {
   const a = [0, 1, 2].map((row) => [0, 1, 2].map((column) => matrix[3 * row + column] ?? 0));
-  const v = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const v = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ];
   for (let sweep = 0; sweep < 32; sweep++) {
     const rest = Math.abs(at(a, 0, 1)) + Math.abs(at(a, 0, 2)) + Math.abs(at(a, 1, 2));
     if (rest < 1e-15) break;
-    for (const [p, q] of [[0, 1], [0, 2], [1, 2]] as const) rotate(a, v, p, q);
+    for (const [p, q] of [
+      [0, 1],
+      [0, 2],
+      [1, 2],
+    ] as const)
+      rotate(a, v, p, q);
   }
   const column = (index: number): [number, number, number] => [at(v, 0, index), at(v, 1, index), at(v, 2, index)];
   const [x, y] = [column(0), column(1)];

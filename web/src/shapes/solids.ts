@@ -12,7 +12,9 @@ export const SPHERE: BufferGeometry = new SphereGeometry(0.5, 24, 16).rotateX(Ma
 /** Cylinder of 1 m diameter and height about its middle, along z. */
 export const CYLINDER: BufferGeometry = new CylinderGeometry(0.5, 0.5, 1, SIDES).rotateX(Math.PI / 2);
 /** Cylinder from the origin to (1, 0, 0), 1 m in diameter. */
-export const SHAFT: BufferGeometry = new CylinderGeometry(0.5, 0.5, 1, SIDES).rotateZ(-Math.PI / 2).translate(0.5, 0, 0);
+export const SHAFT: BufferGeometry = new CylinderGeometry(0.5, 0.5, 1, SIDES)
+  .rotateZ(-Math.PI / 2)
+  .translate(0.5, 0, 0);
 /** Cone from its base at the origin to its tip at (1, 0, 0), 1 m in diameter. */
 export const HEAD: BufferGeometry = new CylinderGeometry(0, 0.5, 1, SIDES).rotateZ(-Math.PI / 2).translate(0.5, 0, 0);
 
@@ -32,7 +34,11 @@ export function arrowGeometry(arrow: ArrowProportions): BufferGeometry {
 }
 
 export type Rgba = readonly [number, number, number, number];
-const AXIS_COLORS: readonly Rgba[] = [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]];
+const AXIS_COLORS: readonly Rgba[] = [
+  [1, 0, 0, 1],
+  [0, 1, 0, 1],
+  [0, 0, 1, 1],
+];
 
 /** One geometry of three coloured axes (`vertexRgba`), for instances; rviz's radius is the diameter of its cylinders. */
 export function axesGeometry(length: number, radius: number): BufferGeometry {

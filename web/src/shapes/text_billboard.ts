@@ -1,6 +1,14 @@
 /** A text in metres that faces the viewer. */
 
-import { CanvasTexture, LinearFilter, LinearMipmapLinearFilter, NoColorSpace, Sprite, SpriteMaterial, SRGBColorSpace } from "three";
+import {
+  CanvasTexture,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  NoColorSpace,
+  Sprite,
+  SpriteMaterial,
+  SRGBColorSpace,
+} from "three";
 
 /** Height of a line on the canvas [px]. */
 const LINE_PX = 64;
@@ -29,7 +37,16 @@ export class TextBillboard extends Sprite {
     texture.colorSpace = NoColorSpace;
     texture.minFilter = LinearMipmapLinearFilter;
     texture.magFilter = LinearFilter;
-    super(new SpriteMaterial({ map: texture, transparent: true, depthWrite: false, opacity: alpha, toneMapped: false, alphaTest: 0.02 }));
+    super(
+      new SpriteMaterial({
+        map: texture,
+        transparent: true,
+        depthWrite: false,
+        opacity: alpha,
+        toneMapped: false,
+        alphaTest: 0.02,
+      }),
+    );
     this.material.color.setRGB(red, green, blue, SRGBColorSpace);
     this.texture = texture;
     this.scale.set((whole * canvas.width) / canvas.height, whole, 1);

@@ -69,7 +69,13 @@ export function Combo({ label, value, choices, onCommit }: ComboProps): JSX.Elem
           onKeyDown={keyDown}
         />
       </span>
-      <span id={id} role="listbox" aria-label={label} class={found.length > 0 ? "menu" : "sr"} ref={(list) => put(list, anchor.current)}>
+      <span
+        id={id}
+        role="listbox"
+        aria-label={label}
+        class={found.length > 0 ? "menu" : "sr"}
+        ref={(list) => put(list, anchor.current)}
+      >
         {found.map((choice, index) => (
           <span
             key={choice.value}

@@ -28,7 +28,9 @@ export function clock(seconds: number, decimals = 2): string {
   const fraction = decimals > 0 ? `.${String(ticks % scale).padStart(decimals, "0")}` : "";
   const [hours, minutes, rest] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
   const two = (number: number): string => String(number).padStart(2, "0");
-  return hours > 0 ? `${sign}${hours}:${two(minutes)}:${two(rest)}${fraction}` : `${sign}${minutes}:${two(rest)}${fraction}`;
+  return hours > 0
+    ? `${sign}${hours}:${two(minutes)}:${two(rest)}${fraction}`
+    : `${sign}${minutes}:${two(rest)}${fraction}`;
 }
 
 /** ROS time [ns]: the time of day where it counts from 1970, else as `clock`. */

@@ -39,7 +39,9 @@ export function MenuButton({ label, icon, class: extra = "", items, children }: 
         {children}
         {children !== undefined && <Icon name="down" class="chev" />}
       </button>
-      {open && anchor !== null && <Menu items={items()} anchor={anchor} place={(list) => placeBelow(list, anchor)} onClose={close} />}
+      {open && anchor !== null && (
+        <Menu items={items()} anchor={anchor} place={(list) => placeBelow(list, anchor)} onClose={close} />
+      )}
     </>
   );
 }

@@ -38,7 +38,8 @@ export function Menu({ items, label, anchor, place, onClose }: MenuProps): JSX.E
   const root = useRef<HTMLDivElement>(null);
   useEffect(() => {
     const outside = ({ target }: PointerEvent): void => {
-      if (target instanceof Node && root.current?.contains(target) !== true && anchor?.contains(target) !== true) onClose();
+      if (target instanceof Node && root.current?.contains(target) !== true && anchor?.contains(target) !== true)
+        onClose();
     };
     addEventListener("pointerdown", outside, true);
     return () => removeEventListener("pointerdown", outside, true);
@@ -59,7 +60,9 @@ interface ListProps extends Pick<MenuProps, "items" | "place" | "onClose"> {
 function List({ items, label, place, onClose, onBack }: ListProps): JSX.Element {
   const list = useRef<HTMLDivElement>(null);
   const [opened, setOpened] = useState<string | null>(null);
-  const buttons = (): HTMLElement[] => [...(list.current?.querySelectorAll<HTMLElement>("button:not(:disabled)") ?? [])];
+  const buttons = (): HTMLElement[] => [
+    ...(list.current?.querySelectorAll<HTMLElement>("button:not(:disabled)") ?? []),
+  ];
   useLayoutEffect(() => {
     if (list.current === null) return;
     place(list.current);
@@ -72,11 +75,15 @@ function List({ items, label, place, onClose, onBack }: ListProps): JSX.Element 
     event.stopPropagation();
     if (event.key === "Escape" || event.key === "Tab") onClose();
     else if (event.key === "ArrowLeft" && onBack !== undefined) onBack();
-    else if (to !== undefined) buttons().at(to % buttons().length)?.focus();
+    else if (to !== undefined)
+      buttons()
+        .at(to % buttons().length)
+        ?.focus();
     else return;
     event.preventDefault();
   };
-  const from = (title: string): HTMLElement | undefined => buttons().find((button) => button.dataset["title"] === title);
+  const from = (title: string): HTMLElement | undefined =>
+    buttons().find((button) => button.dataset["title"] === title);
   const inner = items.find(({ title }) => title === opened);
   const back = (): void => {
     if (opened !== null) from(opened)?.focus();
@@ -86,12 +93,25 @@ function List({ items, label, place, onClose, onBack }: ListProps): JSX.Element 
     <>
       <div ref={list} class="menu" role="menu" aria-label={label} onKeyDown={keyDown}>
         {items.map((item) => (
-          <Entry key={item.title} item={item} isOpen={item.title === opened} onOpen={() => setOpened(item.items === undefined ? null : item.title)} onClose={onClose} />
+          <Entry
+            key={item.title}
+            item={item}
+            isOpen={item.title === opened}
+            onOpen={() => setOpened(item.items === undefined ? null : item.title)}
+            onClose={onClose}
+          />
         ))}
         {items.length === 0 && <div class="empty">Nothing here.</div>}
       </div>
       {inner?.items !== undefined && (
-        <List key={inner.title} items={inner.items()} label={inner.title} place={(element) => placeBeside(element, from(inner.title))} onClose={onClose} onBack={back} />
+        <List
+          key={inner.title}
+          items={inner.items()}
+          label={inner.title}
+          place={(element) => placeBeside(element, from(inner.title))}
+          onClose={onClose}
+          onBack={back}
+        />
       )}
     </>
   );

@@ -36,7 +36,9 @@ export function NumberField(props: NumberFieldProps): JSX.Element {
     const direction = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
     if (direction === 0 || event.altKey) return null;
     const size = (integer ? 1 : 10 ** -(decimals ?? (Math.abs(value) < 1 ? 2 : 1))) * (event.shiftKey ? 10 : 1);
-    return String(Math.min(max, Math.max(min, Number(((parseNumber(text) ?? value) + direction * size).toPrecision(12)))));
+    return String(
+      Math.min(max, Math.max(min, Number(((parseNumber(text) ?? value) + direction * size).toPrecision(12)))),
+    );
   };
   return (
     <TextField

@@ -16,7 +16,12 @@ export function Select({ label, value, choices, disabled, onChange }: SelectProp
   const all = choices.includes(value) ? choices : [value, ...choices];
   return (
     <span class="choice">
-      <select aria-label={label} value={value} disabled={disabled} onChange={(event) => onChange(event.currentTarget.value)}>
+      <select
+        aria-label={label}
+        value={value}
+        disabled={disabled}
+        onChange={(event) => onChange(event.currentTarget.value)}
+      >
         {all.map((choice) => (
           <option key={choice} value={choice}>
             {choice}

@@ -16,7 +16,8 @@ export interface SliderProps {
 }
 
 export function Slider({ label, value, lower, upper, text, disabled, onInput, onRelease }: SliderProps): JSX.Element {
-  const share = (at: number): number => (upper > lower ? Math.min(1, Math.max(0, (at - lower) / (upper - lower))) : 0) * 100;
+  const share = (at: number): number =>
+    (upper > lower ? Math.min(1, Math.max(0, (at - lower) / (upper - lower))) : 0) * 100;
   const zero = share(0);
   const at = share(value);
   return (

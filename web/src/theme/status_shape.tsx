@@ -7,7 +7,13 @@ import type { StatusLevel } from "../rviz/status_level";
 const NAMES: Readonly<Record<StatusLevel, string>> = { ok: "OK", warn: "Warning", error: "Error", none: "No data" };
 
 /** An empty label: the text beside it says as much. */
-export function StatusShape({ level, label = NAMES[level] }: { readonly level: StatusLevel; readonly label?: string }): JSX.Element {
+export function StatusShape({
+  level,
+  label = NAMES[level],
+}: {
+  readonly level: StatusLevel;
+  readonly label?: string;
+}): JSX.Element {
   const said = label === "" ? ({ "aria-hidden": true } as const) : ({ role: "img", "aria-label": label } as const);
   return (
     <svg class={`st ${level}`} viewBox="0 0 12 12" {...said}>
@@ -15,7 +21,9 @@ export function StatusShape({ level, label = NAMES[level] }: { readonly level: S
       {level === "none" && <circle cx="6" cy="6" r="3.6" fill="none" stroke="currentColor" stroke-width="1.6" />}
       {level === "warn" && <path d="M6 1.2L11.3 10.8H.7z" fill="currentColor" />}
       {level === "error" && <rect x="1" y="1" width="10" height="10" rx="2" fill="currentColor" />}
-      {level === "error" && <path d="M4 4l4 4M8 4l-4 4" stroke="var(--panel)" stroke-width="1.6" stroke-linecap="round" />}
+      {level === "error" && (
+        <path d="M4 4l4 4M8 4l-4 4" stroke="var(--panel)" stroke-width="1.6" stroke-linecap="round" />
+      )}
     </svg>
   );
 }

@@ -64,7 +64,14 @@ export function Tree(props: TreeProps): JSX.Element {
     event.stopPropagation();
   };
   return (
-    <div ref={list} class="tree" role="tree" aria-label={label} onKeyDown={keyDown} onPointerLeave={() => onHover?.(null)}>
+    <div
+      ref={list}
+      class="tree"
+      role="tree"
+      aria-label={label}
+      onKeyDown={keyDown}
+      onPointerLeave={() => onHover?.(null)}
+    >
       {rows.map((row) => {
         const isInOrder = row === inOrder;
         const known = drawn.current.get(row);
@@ -90,7 +97,12 @@ function below(row: HTMLElement): [number, number] {
 }
 
 /** Draw a row; what it does is what the tree is asked for at that time. */
-function drawRow(row: TreeRow, isInOrder: boolean, setFocused: (key: string) => void, latest: { readonly current: TreeProps }): JSX.Element {
+function drawRow(
+  row: TreeRow,
+  isInOrder: boolean,
+  setFocused: (key: string) => void,
+  latest: { readonly current: TreeProps },
+): JSX.Element {
   return (
     <div
       key={row.key}

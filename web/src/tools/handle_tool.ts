@@ -18,7 +18,12 @@ import type { WorldEditor } from "../page/world_editor";
 
 /** Wall seconds after which the server hears again of a drag that rests; after one it lets go. */
 const RENEWAL = 0.3;
-const MODES = { axis: InteractionMode.moveAxis, plane: InteractionMode.movePlane, free: InteractionMode.movePlane, ring: InteractionMode.rotateAxis } as const;
+const MODES = {
+  axis: InteractionMode.moveAxis,
+  plane: InteractionMode.movePlane,
+  free: InteractionMode.movePlane,
+  ring: InteractionMode.rotateAxis,
+} as const;
 
 interface Dragged {
   readonly target: HandleTarget;
@@ -78,7 +83,13 @@ export abstract class HandleTool extends BaseTool {
       }),
       effect(() => {
         const target = this.target.value;
-        this.handles.show(target === null ? [] : target.axis === null ? this.handlesOf(target) : [{ kind: target.axis.turns ? "ring" : "axis", axis: target.axis.direction }]);
+        this.handles.show(
+          target === null
+            ? []
+            : target.axis === null
+              ? this.handlesOf(target)
+              : [{ kind: target.axis.turns ? "ring" : "axis", axis: target.axis.direction }],
+        );
         this.hint.value = target === null ? "Click what to move." : this.said;
         scene.invalidate();
       }),
@@ -97,7 +108,8 @@ export abstract class HandleTool extends BaseTool {
     if (input.kind === "down") return input.button === 0 && this.press(input);
     if (dragged === null) {
       if (input.kind === "move") this.pointed = input;
-      else if (input.kind === "up" && input.button === 0) this.context.selection.value = selectionOf(this.context.scene.pick(input.x, input.y));
+      else if (input.kind === "up" && input.button === 0)
+        this.context.selection.value = selectionOf(this.context.scene.pick(input.x, input.y));
       return false;
     }
     if (input.kind === "move") this.pull(dragged, input);
@@ -115,21 +127,50 @@ export abstract class HandleTool extends BaseTool {
     const hit = this.handles.hit(ray) ?? this.hitBody(target, input);
     if (hit === null) return false;
     const { handle } = hit;
-    const back = new Vector3().setFromMatrixColumn(scene.camera.peek().matrixWorld, 2).transformDirection(this.worldFromFixed());
-    const axis = handle.kind === "free" ? back : handle === this.body ? handle.axis.clone() : handle.axis.clone().applyQuaternion(this.handles.quaternion);
-    const drag = new Drag(MODES[handle.kind], axis, hit.point.applyMatrix4(this.worldFromFixed()), from.position.clone(), from.orientation.clone(), this.inputOf(input, ray));
-    const lowest = target.bodies.length === 0 ? from.position.z : this.editor.world.bounds(target.bodies).applyMatrix4(this.worldFromFixed()).min.z;
-    this.dragged = { target, drawn: target.begin(), drag, handle, from: copyOf(from), to: copyOf(from), height: from.position.z - lowest };
+    const back = new Vector3()
+      .setFromMatrixColumn(scene.camera.peek().matrixWorld, 2)
+      .transformDirection(this.worldFromFixed());
+    const axis =
+      handle.kind === "free"
+        ? back
+        : handle === this.body
+          ? handle.axis.clone()
+          : handle.axis.clone().applyQuaternion(this.handles.quaternion);
+    const drag = new Drag(
+      MODES[handle.kind],
+      axis,
+      hit.point.applyMatrix4(this.worldFromFixed()),
+      from.position.clone(),
+      from.orientation.clone(),
+      this.inputOf(input, ray),
+    );
+    const lowest =
+      target.bodies.length === 0
+        ? from.position.z
+        : this.editor.world.bounds(target.bodies).applyMatrix4(this.worldFromFixed()).min.z;
+    this.dragged = {
+      target,
+      drawn: target.begin(),
+      drag,
+      handle,
+      from: copyOf(from),
+      to: copyOf(from),
+      height: from.position.z - lowest,
+    };
     this.handles.light(handle);
     this.ask(this.dragged);
     return true;
   }
 
-  private hitBody(target: HandleTarget, { x, y }: PointerInput): { readonly handle: Handle; readonly point: Vector3 } | null {
+  private hitBody(
+    target: HandleTarget,
+    { x, y }: PointerInput,
+  ): { readonly handle: Handle; readonly point: Vector3 } | null {
     if (this.body === null || target.axis !== null) return null;
     const pick = this.context.scene.pick(x, y);
     for (let at = pick?.object ?? null; at !== null; at = at.parent) {
-      if (pick !== null && target.bodies.includes(at.userData["body"] as number)) return { handle: this.body, point: pick.point.clone() };
+      if (pick !== null && target.bodies.includes(at.userData["body"] as number))
+        return { handle: this.body, point: pick.point.clone() };
     }
     return null;
   }
@@ -138,11 +179,14 @@ export abstract class HandleTool extends BaseTool {
     const { scene } = this.context;
     const { drag, from, handle, height, target } = dragged;
     const matrix = scene.camera.peek().matrixWorld;
-    const [right, up, back] = [0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(matrix, column).transformDirection(this.worldFromFixed())) as [Vector3, Vector3, Vector3];
+    const [right, up, back] = [0, 1, 2].map((column) =>
+      new Vector3().setFromMatrixColumn(matrix, column).transformDirection(this.worldFromFixed()),
+    ) as [Vector3, Vector3, Vector3];
     drag.move(this.inputOf(input, scene.ray(input.x, input.y)), { right, up, back });
     dragged.to = copyOf(drag);
     if (target.axis === null) this.snap(dragged.to, from, input);
-    const ground = target.axis === null && this.standsOnSurface(input, handle) ? this.surfaceUnder(target, input) : null;
+    const ground =
+      target.axis === null && this.standsOnSurface(input, handle) ? this.surfaceUnder(target, input) : null;
     if (ground !== null) dragged.to.position.set(ground.x, ground.y, ground.z + height);
     this.hint.value = dragged.drawn.describe?.(dragged.to) ?? this.describe(dragged.to, from);
     this.ask(dragged);
@@ -201,7 +245,8 @@ export abstract class HandleTool extends BaseTool {
     this.pointed = null;
     if (dragged !== null || pointed === null || pointed.button >= 0) return;
     this.placeForPointer();
-    if (this.handles.light(this.handles.hit(this.context.scene.ray(pointed.x, pointed.y))?.handle ?? null)) this.context.scene.invalidate();
+    if (this.handles.light(this.handles.hit(this.context.scene.ray(pointed.x, pointed.y))?.handle ?? null))
+      this.context.scene.invalidate();
   }
 
   private placeForPointer(): void {
@@ -216,10 +261,17 @@ export abstract class HandleTool extends BaseTool {
     this.handles.visible = pose !== null && target !== null;
     if (pose === null || target === null) return;
     const isTurned = target.axis !== null || this.axes.value.peek() === "Model";
-    this.handles.place({ position: pose.position, orientation: isTurned ? pose.orientation : new Quaternion() }, camera, height);
+    this.handles.place(
+      { position: pose.position, orientation: isTurned ? pose.orientation : new Quaternion() },
+      camera,
+      height,
+    );
   }
 
-  private inputOf({ x, y, shift, control }: PointerInput, ray: Ray): { ray: Ray; x: number; y: number; shift: boolean; control: boolean } {
+  private inputOf(
+    { x, y, shift, control }: PointerInput,
+    ray: Ray,
+  ): { ray: Ray; x: number; y: number; shift: boolean; control: boolean } {
     return { ray: ray.clone().applyMatrix4(this.worldFromFixed()), x, y, shift, control };
   }
 

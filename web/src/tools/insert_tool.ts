@@ -39,7 +39,10 @@ export class InsertTool extends BaseTool implements Inserter {
     this.ghost?.dispose();
     this.ghost = null;
     this.chosen.value = thing;
-    this.hint.value = thing === null ? "Choose what to insert." : `Click where the ${thing.title} is to be. Enter: in the middle. Esc: nowhere.`;
+    this.hint.value =
+      thing === null
+        ? "Choose what to insert."
+        : `Click where the ${thing.title} is to be. Enter: in the middle. Esc: nowhere.`;
     if (thing !== null) {
       const accent = getComputedStyle(scene.element).getPropertyValue("--accent").trim() || "#3fbed0";
       this.ghost = new InsertionGhost(thing, new Color(accent), () => scene.invalidate());

@@ -1,6 +1,19 @@
 /** What follows the pointer until it is placed: see-through, with its bounds. */
 
-import { Box3, Box3Helper, BoxGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry, type BufferGeometry, type Color, type MeshStandardMaterial, type Object3D } from "three";
+import {
+  Box3,
+  Box3Helper,
+  BoxGeometry,
+  CylinderGeometry,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  SphereGeometry,
+  type BufferGeometry,
+  type Color,
+  type MeshStandardMaterial,
+  type Object3D,
+} from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import { NOT_PICKED } from "../scene/picking";
@@ -87,7 +100,10 @@ function shapeOf(name: "box" | "sphere" | "cylinder"): Mesh {
 function lightOf(height: number): Group {
   const bulb = new Mesh(new SphereGeometry(0.15, 16, 12), new MeshBasicMaterial({ color: BULB }));
   bulb.position.z = height;
-  const thread = new Mesh(new CylinderGeometry(0.01, 0.01, height, 6).rotateX(Math.PI / 2), new MeshBasicMaterial({ color: BULB }));
+  const thread = new Mesh(
+    new CylinderGeometry(0.01, 0.01, height, 6).rotateX(Math.PI / 2),
+    new MeshBasicMaterial({ color: BULB }),
+  );
   thread.position.z = height / 2;
   return new Group().add(bulb, thread);
 }

@@ -21,7 +21,8 @@ export class Interact extends BaseTool {
   private pressed: Pick | null = null;
   private stop: (() => void) | null = null;
   /** What a drag with Ctrl pulls, as in MuJoCo's viewer. */
-  private readonly pulled = this.context.editor === null ? null : new PulledPoint(this.context.scene, this.context.editor);
+  private readonly pulled =
+    this.context.editor === null ? null : new PulledPoint(this.context.scene, this.context.editor);
 
   activate(): void {
     this.hint.value = "Click selects. Drag turns the camera, or moves what can be moved.";

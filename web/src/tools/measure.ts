@@ -14,7 +14,10 @@ export class Measure extends BaseTool {
   readonly icon = "measure";
   private state: "empty" | "open" | "closed" = "empty";
   private readonly ends = new BufferAttribute(new Float32Array(6), 3);
-  private readonly line = new Line(new BufferGeometry().setAttribute("position", this.ends), new LineBasicMaterial({ depthTest: false }));
+  private readonly line = new Line(
+    new BufferGeometry().setAttribute("position", this.ends),
+    new LineBasicMaterial({ depthTest: false }),
+  );
   private readonly middle = new Object3D();
   private label: Label | null = null;
   private readonly start = new Vector3();

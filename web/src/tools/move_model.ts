@@ -20,7 +20,11 @@ export class MoveModel extends HandleTool {
   readonly icon = "move";
   readonly snaps = this.add(new BoolProperty("Snap to Grid", false, { description: "Always, not only with Ctrl" }));
   readonly cell = this.add(new NumberProperty("Grid", 0.1, { min: 0.001, max: 100, unit: "m" }));
-  readonly stands = this.add(new BoolProperty("Snap to Surfaces", false, { description: "Stands on what is under the pointer, not only with Shift" }));
+  readonly stands = this.add(
+    new BoolProperty("Snap to Surfaces", false, {
+      description: "Stands on what is under the pointer, not only with Shift",
+    }),
+  );
   protected readonly axes = this.add(new EnumProperty("Axes", "World", ["World", "Model"]));
   protected readonly said = "Drag an arrow, or the model over the ground. Ctrl: to the grid. Shift: onto surfaces.";
   protected readonly body: Handle = { kind: "plane", axis: AXES[2] };

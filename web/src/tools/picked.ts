@@ -13,7 +13,10 @@ export function selectionOf(pick: Pick | null): Selection | null {
     const selectable = at.userData[SELECTABLE] as Selectable | undefined;
     if (selectable !== undefined) return { kind: "picked", title: nameOf(at), fields: selectable.describe(pick.index) };
     const body: unknown = at.userData["body"];
-    if (typeof body === "number") return isDraftBody(body) ? { kind: "part", part: pathOfLink(String(at.userData["name"])) } : linkOf(String(at.userData["name"]));
+    if (typeof body === "number")
+      return isDraftBody(body)
+        ? { kind: "part", part: pathOfLink(String(at.userData["name"])) }
+        : linkOf(String(at.userData["name"]));
   }
   return null;
 }

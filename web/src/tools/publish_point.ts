@@ -12,7 +12,9 @@ export class PublishPoint extends BaseTool {
   readonly name = "Publish Point";
   readonly shortcut = "u";
   readonly icon = "point";
-  readonly singleClick = this.add(new BoolProperty("Single click", true, { description: "Go back to the tool before after one click" }));
+  readonly singleClick = this.add(
+    new BoolProperty("Single click", true, { description: "Go back to the tool before after one click" }),
+  );
   readonly topic = this.add(new TopicProperty("Topic", "/clicked_point", [TYPE]));
 
   activate(): void {
@@ -29,7 +31,10 @@ export class PublishPoint extends BaseTool {
     if (kind !== "down" && kind !== "move") return true;
     const point = scene.pick(x, y)?.point ?? scene.pickGround(x, y);
     if (point === null) return false;
-    this.hint.value = `x ${point.x.toFixed(3)} m, y ${point.y.toFixed(3)} m, z ${point.z.toFixed(3)} m`.replace(/-/g, "−");
+    this.hint.value = `x ${point.x.toFixed(3)} m, y ${point.y.toFixed(3)} m, z ${point.z.toFixed(3)} m`.replace(
+      /-/g,
+      "−",
+    );
     if (kind === "move") return false;
     const message = { header: this.header(), point: { x: point.x, y: point.y, z: point.z } };
     connection.publish(names.resolve(this.topic.value.peek()), TYPE, message);

@@ -18,7 +18,8 @@ export class Select extends BaseTool {
 
   activate(): void {
     this.hint.value = "Click, or drag a box.";
-    const style = "position: absolute; pointer-events: none; border: 1px dashed var(--accent); background: var(--accent-soft)";
+    const style =
+      "position: absolute; pointer-events: none; border: 1px dashed var(--accent); background: var(--accent-soft)";
     this.frame.setAttribute("style", style);
   }
 
@@ -52,7 +53,12 @@ export class Select extends BaseTool {
 
   private draw(from: PointerInput, to: PointerInput): void {
     const { left, top, right, bottom } = boxOf(from, to);
-    Object.assign(this.frame.style, { left: `${left}px`, top: `${top}px`, width: `${right - left}px`, height: `${bottom - top}px` });
+    Object.assign(this.frame.style, {
+      left: `${left}px`,
+      top: `${top}px`,
+      width: `${right - left}px`,
+      height: `${bottom - top}px`,
+    });
     if (this.frame.parentElement === null) this.context.scene.element.parentElement?.append(this.frame);
   }
 }

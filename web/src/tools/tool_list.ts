@@ -24,7 +24,14 @@ const CLASSES = [Interact, MoveCamera, Select, FocusCamera, Measure, SetInitialP
 /** ROS 2's classes have rviz's names; that of its goal is another. */
 const ALIASES: Readonly<Record<string, string>> = { SetGoal2D: "SetGoal" };
 /** Tools that stay on; the others go back to the one of these that was on last. */
-const LASTING: readonly string[] = ["rviz/Interact", "rviz/MoveCamera", "rviz/Select", "trundle/Move", "trundle/Rotate", "trundle/Push"];
+const LASTING: readonly string[] = [
+  "rviz/Interact",
+  "rviz/MoveCamera",
+  "rviz/Select",
+  "trundle/Move",
+  "trundle/Rotate",
+  "trundle/Push",
+];
 
 export class ToolList implements ToolBox {
   readonly tools: readonly BaseTool[];
@@ -39,7 +46,8 @@ export class ToolList implements ToolBox {
     const [interact, ...others] = CLASSES.map((Class) => new Class(context, back));
     if (interact === undefined) throw new Error("there are no tools");
     const { editor } = context;
-    const handling = editor === null ? [] : [MoveModel, RotateModel, PushModel].map((Class) => new Class(context, back, editor));
+    const handling =
+      editor === null ? [] : [MoveModel, RotateModel, PushModel].map((Class) => new Class(context, back, editor));
     this.insert = editor === null ? null : new InsertTool(context, back);
     this.tools = [interact, ...handling, ...others, ...(this.insert === null ? [] : [this.insert])];
     this.chosen = signal<BaseTool>(interact);
@@ -65,7 +73,9 @@ export class ToolList implements ToolBox {
 
   save(): readonly YamlMapping[] {
     const inFile = this.entries.map((entry) => this.find(classOf(entry)));
-    const saved = this.entries.map((entry, i): YamlMapping => ({ ...entry, ...inFile[i]?.save(), Class: classOf(entry) }));
+    const saved = this.entries.map(
+      (entry, i): YamlMapping => ({ ...entry, ...inFile[i]?.save(), Class: classOf(entry) }),
+    );
     const more = this.tools.filter((tool) => !inFile.includes(tool) && tool.className.startsWith("rviz/")); // rviz has no others
     return [...saved, ...more.map((tool) => tool.save())];
   }

@@ -34,7 +34,14 @@ describe("keys", () => {
     const commands = new CommandList();
     let ran = 0;
     let enabled = false;
-    const remove = commands.add({ id: "a", title: "A", group: "View", keys: "F", enabled: () => enabled, run: () => (ran += 1) });
+    const remove = commands.add({
+      id: "a",
+      title: "A",
+      group: "View",
+      keys: "F",
+      enabled: () => enabled,
+      run: () => (ran += 1),
+    });
     expect(commands.press("F")).toBe(false);
     enabled = true;
     expect(commands.press("F")).toBe(true);

@@ -24,7 +24,12 @@ it("takes edits back and does them again, with their titles", () => {
 it("takes back nothing earlier than an edit that is on its way", async () => {
   const undo = new UndoHistory();
   const taken: string[] = [];
-  const record = (title: string): void => undo.record(title, () => undefined, () => taken.push(title));
+  const record = (title: string): void =>
+    undo.record(
+      title,
+      () => undefined,
+      () => taken.push(title),
+    );
   let answer = (): void => undefined;
   record("first");
   const edit = undo.ask(new Promise<void>((resolve) => (answer = resolve)).then(() => record("second")));
@@ -40,7 +45,11 @@ it("takes back nothing earlier than an edit that is on its way", async () => {
 it("goes on after an edit that failed", async () => {
   const undo = new UndoHistory();
   const taken: string[] = [];
-  undo.record("first", () => undefined, () => taken.push("first"));
+  undo.record(
+    "first",
+    () => undefined,
+    () => taken.push("first"),
+  );
   const edit = undo.ask(Promise.reject(new Error("refused")));
   undo.undo();
   await expect(edit).rejects.toThrow("refused");

@@ -31,24 +31,28 @@ async function bundle(options: Parameters<typeof build>[0]): Promise<Rolldown.Ro
   return result.output;
 }
 
-test("every package in the page's bundle has its licence beside it", async () => {
-  const modules = new Set<string>();
-  const collect: Plugin = {
-    name: "collect",
-    generateBundle(_options, files) {
-      for (const file of Object.values(files)) {
-        if (file.type === "chunk") for (const module of file.moduleIds) modules.add(module);
-      }
-    },
-  };
-  const output = await bundle({ configFile: `${WEB}/vite.config.ts`, plugins: [collect] });
+test(
+  "every package in the page's bundle has its licence beside it",
+  async () => {
+    const modules = new Set<string>();
+    const collect: Plugin = {
+      name: "collect",
+      generateBundle(_options, files) {
+        for (const file of Object.values(files)) {
+          if (file.type === "chunk") for (const module of file.moduleIds) modules.add(module);
+        }
+      },
+    };
+    const output = await bundle({ configFile: `${WEB}/vite.config.ts`, plugins: [collect] });
 
-  const packages = packageNames(modules);
-  const licensed = headings(output);
-  expect(packages).toContain("preact");
-  expect([...packages].filter((name) => !licensed.has(name))).toEqual([]);
-  expectFewFirst(output);
-}, SLOW);
+    const packages = packageNames(modules);
+    const licensed = headings(output);
+    expect(packages).toContain("preact");
+    expect([...packages].filter((name) => !licensed.has(name))).toEqual([]);
+    expectFewFirst(output);
+  },
+  SLOW,
+);
 
 /** The document's script is small and names all others; what the first picture needs is without the dock and its panels. */
 function expectFewFirst(output: Rolldown.RolldownOutput["output"]): void {
@@ -59,22 +63,33 @@ function expectFewFirst(output: Rolldown.RolldownOutput["output"]): void {
   const file = output.find(({ fileName }) => fileName === "index.html");
   const document = file?.type === "asset" ? String(file.source) : "";
   expect(chunks.filter((chunk) => !isLibrary(chunk) && !document.includes(chunk.fileName))).toEqual([]);
-  const first = packageNames([page, ...chunks.filter(({ fileName }) => page?.imports.includes(fileName))].flatMap((chunk) => chunk?.moduleIds ?? []));
+  const first = packageNames(
+    [page, ...chunks.filter(({ fileName }) => page?.imports.includes(fileName))].flatMap(
+      (chunk) => chunk?.moduleIds ?? [],
+    ),
+  );
   expect(first).toContain("three");
-  for (const name of ["dockview-core", "uplot", "@dagrejs/dagre", "hyparquet-writer"]) expect(first).not.toContain(name);
+  for (const name of ["dockview-core", "uplot", "@dagrejs/dagre", "hyparquet-writer"])
+    expect(first).not.toContain(name);
 }
 
-test("a worker's packages have theirs, and those that they carry", async () => {
-  const { page, worker } = licenses();
-  const output = await bundle({
-    configFile: false,
-    plugins: [page],
-    worker: { format: "es", plugins: () => [worker] },
-    build: { rolldownOptions: { input: `${WEB}/test/bundle/only_a_worker.ts` } },
-  });
+test(
+  "a worker's packages have theirs, and those that they carry",
+  async () => {
+    const { page, worker } = licenses();
+    const output = await bundle({
+      configFile: false,
+      plugins: [page],
+      worker: { format: "es", plugins: () => [worker] },
+      build: { rolldownOptions: { input: `${WEB}/test/bundle/only_a_worker.ts` } },
+    });
 
-  expect(headings(output)).toEqual(new Set(["@foxglove/rosmsg", "nearley, in @foxglove/rosmsg", "moo, in @foxglove/rosmsg"]));
-}, SLOW);
+    expect(headings(output)).toEqual(
+      new Set(["@foxglove/rosmsg", "nearley, in @foxglove/rosmsg", "moo, in @foxglove/rosmsg"]),
+    );
+  },
+  SLOW,
+);
 
 test("the lock names no registry, so that anybody's mirror serves", () => {
   expect(readFileSync(`${WEB}/package-lock.json`, "utf8")).not.toMatch(/https?:\/\/[^"]*\.tgz|"resolved"/);

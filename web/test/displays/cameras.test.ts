@@ -14,16 +14,34 @@ import { fakes, header, status } from "./fakes";
 function info(changes: Partial<CameraInfo> = {}): CameraInfo {
   const matrix = [100, 0, 1, 0, 0, 200, 0.5, 0, 0, 0, 1, 0];
   return {
-    header: header("optical"), width: 2, height: 1, distortion_model: "plumb_bob", D: new Float64Array(5), R: new Float64Array(9),
-    K: Float64Array.of(100, 0, 1, 0, 200, 0.5, 0, 0, 1), P: Float64Array.from(matrix), binning_x: 0, binning_y: 0,
-    roi: { x_offset: 0, y_offset: 0, width: 0, height: 0, do_rectify: false }, ...changes,
+    header: header("optical"),
+    width: 2,
+    height: 1,
+    distortion_model: "plumb_bob",
+    D: new Float64Array(5),
+    R: new Float64Array(9),
+    K: Float64Array.of(100, 0, 1, 0, 200, 0.5, 0, 0, 1),
+    P: Float64Array.from(matrix),
+    binning_x: 0,
+    binning_y: 0,
+    roi: { x_offset: 0, y_offset: 0, width: 0, height: 0, do_rectify: false },
+    ...changes,
   };
 }
 
 function depth(encoding: string, values: readonly number[], changes: Partial<Image> = {}): Image {
   const numbers = encoding === "32FC1" ? Float32Array.from(values) : Uint16Array.from(values);
   const data = new Uint8Array(numbers.buffer);
-  return { header: header("optical"), width: values.length, height: 1, encoding, is_bigendian: 0, step: data.length, data, ...changes };
+  return {
+    header: header("optical"),
+    width: values.length,
+    height: 1,
+    encoding,
+    is_bigendian: 0,
+    step: data.length,
+    data,
+    ...changes,
+  };
 }
 
 function cloud(read: Cloud | string): Cloud {
@@ -45,25 +63,68 @@ describe("points of a depth image", () => {
   });
 
   it("have the colours of the other image", () => {
-    const color = { width: 2, height: 1, rgba: new Uint8ClampedArray([1, 2, 3, 255, 4, 5, 6, 255]), history: { minima: [], maxima: [] } };
+    const color = {
+      width: 2,
+      height: 1,
+      rgba: new Uint8ClampedArray([1, 2, 3, 255, 4, 5, 6, 255]),
+      history: { minima: [], maxima: [] },
+    };
     expect(cloud(depthPoints(depth("32FC1", [1, 1]), info(), color)).words[7]).toBe(0x040506);
   });
 
   it("follow binning and region of interest", () => {
-    const binned = info({ binning_x: 2, binning_y: 2, width: 8, height: 2, roi: { x_offset: 1, y_offset: 0, width: 4, height: 2, do_rectify: false } });
+    const binned = info({
+      binning_x: 2,
+      binning_y: 2,
+      width: 8,
+      height: 2,
+      roi: { x_offset: 1, y_offset: 0, width: 4, height: 2, do_rectify: false },
+    });
     const read = cloud(depthPoints(depth("32FC1", [1, 1]), binned, null));
     expect([read.floats[0], read.floats[4]].map((x) => Math.round((x ?? 0) * 1000) / 1000 + 0)).toEqual([0, 0.02]);
   });
 
   it.each([
-    ["bytes", depth("16UC1", [1, 1], { encoding: "rgb8" }), info(), "Depth image has invalid format (only 16 bit and float are supported)!"],
-    ["another size", depth("16UC1", [1, 1, 1]), info(), "Depth image size and camera info don't match: 3 x 1 vs 2 x 1(binning: 1 x 1, ROI size: 2 x 1)"],
-    ["a focal length of no number", depth("16UC1", [1, 1]), info({ P: new Float64Array(12).fill(NaN) }), "Camera info contains invalid floating point values (nans or infs)"],
-    ["no projection", depth("16UC1", [1, 1]), info({ P: new Float64Array(0) }), "Camera info contains invalid floating point values (nans or infs)"],
-    ["a width of a thousand millions", depth("16UC1", [1], { width: 1e9 }), info({ width: 1e9 }), /^Data size \(2 bytes\)/],
-    ["a thousand million empty rows", depth("16UC1", [1], { width: 0, height: 1e9, step: 0 }), info({ width: 0, height: 1e9 }), "Depth image is zero-sized (0x1000000000)"],
+    [
+      "bytes",
+      depth("16UC1", [1, 1], { encoding: "rgb8" }),
+      info(),
+      "Depth image has invalid format (only 16 bit and float are supported)!",
+    ],
+    [
+      "another size",
+      depth("16UC1", [1, 1, 1]),
+      info(),
+      "Depth image size and camera info don't match: 3 x 1 vs 2 x 1(binning: 1 x 1, ROI size: 2 x 1)",
+    ],
+    [
+      "a focal length of no number",
+      depth("16UC1", [1, 1]),
+      info({ P: new Float64Array(12).fill(NaN) }),
+      "Camera info contains invalid floating point values (nans or infs)",
+    ],
+    [
+      "no projection",
+      depth("16UC1", [1, 1]),
+      info({ P: new Float64Array(0) }),
+      "Camera info contains invalid floating point values (nans or infs)",
+    ],
+    [
+      "a width of a thousand millions",
+      depth("16UC1", [1], { width: 1e9 }),
+      info({ width: 1e9 }),
+      /^Data size \(2 bytes\)/,
+    ],
+    [
+      "a thousand million empty rows",
+      depth("16UC1", [1], { width: 0, height: 1e9, step: 0 }),
+      info({ width: 0, height: 1e9 }),
+      "Depth image is zero-sized (0x1000000000)",
+    ],
   ])("are refused with %s", (_name, image, calibration, sentence) => {
-    expect(depthPoints(image, calibration, null)).toEqual(typeof sentence === "string" ? sentence : expect.stringMatching(sentence));
+    expect(depthPoints(image, calibration, null)).toEqual(
+      typeof sentence === "string" ? sentence : expect.stringMatching(sentence),
+    );
   });
 
   it("are as large as a pixel sees", () => {
@@ -86,11 +147,17 @@ describe("a camera's projection", () => {
     const pose = cameraPose(calibration, { position: new Vector3(), orientation: new Quaternion() });
     const seen = point.clone().sub(pose.position).applyQuaternion(pose.orientation.clone().invert());
     const clip = new Vector4(seen.x, seen.y, seen.z, 1).applyMatrix4(matrix);
-    return [(clip.x / clip.w + 1) / 2 * size.width, (1 - clip.y / clip.w) / 2 * size.height].map((value) => Math.round(value * 1e6) / 1e6);
+    return [((clip.x / clip.w + 1) / 2) * size.width, ((1 - clip.y / clip.w) / 2) * size.height].map(
+      (value) => Math.round(value * 1e6) / 1e6,
+    );
   }
 
   it("puts a point on its pixel: u = fx x/z + cx, v = fy y/z + cy", () => {
-    const calibration = info({ width: 640, height: 480, P: Float64Array.of(500, 0, 310, 0, 0, 510, 250, 0, 0, 0, 1, 0) });
+    const calibration = info({
+      width: 640,
+      height: 480,
+      P: Float64Array.of(500, 0, 310, 0, 0, 510, 250, 0, 0, 0, 1, 0),
+    });
     expect(pixel(calibration, new Vector3(0.2, -0.1, 2))).toEqual([360, 224.5]);
     expect(pixel(calibration, new Vector3(0, 0, 5))).toEqual([310, 250]);
   });
@@ -101,7 +168,11 @@ describe("a camera's projection", () => {
   });
 
   it("zooms about the middle, as its picture does", () => {
-    const calibration = info({ width: 640, height: 480, P: Float64Array.of(500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0) });
+    const calibration = info({
+      width: 640,
+      height: 480,
+      P: Float64Array.of(500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0),
+    });
     expect(pixel(calibration, new Vector3(0.1, 0, 1), 2)).toEqual([420, 240]);
     expect(pictureRectangle(calibration, { width: 640, height: 480 }, 2)).toEqual([-320, -240, 1280, 960]);
     const region = info({ roi: { x_offset: 100, y_offset: 50, width: 200, height: 100, do_rectify: false } });
@@ -112,7 +183,9 @@ describe("a camera's projection", () => {
     [info({ P: new Float64Array(12).fill(NaN) }), "Contains invalid floating point values (nans or infs)"],
     [info({ P: new Float64Array(2) }), "Contains invalid floating point values (nans or infs)"],
     [info({ P: new Float64Array(12) }), "CameraInfo/P resulted in an invalid position calculation (nans or infs)"],
-  ])("of no use is refused", (calibration, sentence) => expect(projection(calibration, { width: 2, height: 1 }, 1)).toBe(sentence));
+  ])("of no use is refused", (calibration, sentence) =>
+    expect(projection(calibration, { width: 2, height: 1 }, 1)).toBe(sentence),
+  );
 
   it("of no size takes the picture's", () => {
     expect(calibratedSize(info({ width: 0, height: 0 }), { width: 7, height: 5 })).toEqual({ width: 7, height: 5 });
@@ -156,16 +229,30 @@ describe("DepthCloud", () => {
     around.connection.receive("/c/depth", depth("16UC1", [1000, 2000]));
     display.update(0n, 0.1);
     expect(status(display, "Points")).toBeUndefined();
-    const rgb = { header: header("other"), width: 2, height: 1, encoding: "rgb8", is_bigendian: 0, step: 6, data: new Uint8Array(6) };
+    const rgb = {
+      header: header("other"),
+      width: 2,
+      height: 1,
+      encoding: "rgb8",
+      is_bigendian: 0,
+      step: 6,
+      data: new Uint8Array(6),
+    };
     around.connection.receive("/c/rgb", rgb);
     display.update(0n, 0.1);
     expect(status(display, "Points")).toBe("ok: Showing [2] points from [1] messages");
-    expect(status(display, "Message")).toBe("warn: Depth image frame id [optical] doesn't match color image frame id [other]");
+    expect(status(display, "Message")).toBe(
+      "warn: Depth image frame id [optical] doesn't match color image frame id [other]",
+    );
     around.connection.receive("/c/depth", depth("16UC1", [1000, 2000], { encoding: "rgb8" }));
     display.update(0n, 0.1);
-    expect(status(display, "Message")).toBe("error: Depth image has invalid format (only 16 bit and float are supported)!");
+    expect(status(display, "Message")).toBe(
+      "error: Depth image has invalid format (only 16 bit and float are supported)!",
+    );
     display.stop();
-    expect(["/c/depth", "/c/rgb", "/c/camera_info"].map((topic) => around.connection.subscriptions(topic))).toEqual([0, 0, 0]);
+    expect(["/c/depth", "/c/rgb", "/c/camera_info"].map((topic) => around.connection.subscriptions(topic))).toEqual([
+      0, 0, 0,
+    ]);
   });
 
   it("says what it does not support", () => {

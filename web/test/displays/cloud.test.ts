@@ -2,13 +2,26 @@ import { Matrix4, Raycaster, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
 import { readCloud, type Cloud } from "../../src/displays/clouds/cloud";
-import { axisBounds, channelBounds, choose, intensityChannel, packedColor, range, supported } from "../../src/displays/clouds/cloud_colors";
+import {
+  axisBounds,
+  channelBounds,
+  choose,
+  intensityChannel,
+  packedColor,
+  range,
+  supported,
+} from "../../src/displays/clouds/cloud_colors";
 import { describePoint } from "../../src/displays/clouds/cloud_look";
 import { nearestPoint, pointsWithin } from "../../src/displays/clouds/pick_point";
 import type { PointCloud2, PointField } from "../../src/protocol/messages";
 import { header } from "./fakes";
 
-const INT8 = 1, UINT8 = 2, UINT16 = 4, UINT32 = 6, FLOAT32 = 7, FLOAT64 = 8;
+const INT8 = 1,
+  UINT8 = 2,
+  UINT16 = 4,
+  UINT32 = 6,
+  FLOAT32 = 7,
+  FLOAT64 = 8;
 
 function field(name: string, offset: number, datatype = FLOAT32): PointField {
   return { name, offset, datatype, count: 1 };
@@ -19,8 +32,16 @@ function message(points: readonly number[][], changes: Partial<PointCloud2> = {}
   const data = new Uint8Array(new Float32Array(points.flat()).buffer);
   const step = 4 * (points[0]?.length ?? 3);
   return {
-    header: header("map"), height: 1, width: points.length, fields: XYZ, is_bigendian: false,
-    point_step: step, row_step: step * points.length, data, is_dense: true, ...changes,
+    header: header("map"),
+    height: 1,
+    width: points.length,
+    fields: XYZ,
+    is_bigendian: false,
+    point_step: step,
+    row_step: step * points.length,
+    data,
+    is_dense: true,
+    ...changes,
   };
 }
 
@@ -31,15 +52,23 @@ function cloud(read: Cloud | string): Cloud {
 
 function positions(of: Cloud): number[][] {
   const axes = ["x", "y", "z"].map((name) => of.channel(name));
-  return Array.from({ length: of.count }, (_, index) => axes.map((axis) => (axis === undefined ? NaN : of.value(axis, index))));
+  return Array.from({ length: of.count }, (_, index) =>
+    axes.map((axis) => (axis === undefined ? NaN : of.value(axis, index))),
+  );
 }
 
 describe("a cloud", () => {
   it("is read without a copy where its bytes are aligned", () => {
-    const sent = message([[1, 2, 3], [4, 5, 6]]);
+    const sent = message([
+      [1, 2, 3],
+      [4, 5, 6],
+    ]);
     const read = cloud(readCloud(sent));
     expect(read.words.buffer).toBe(sent.data.buffer);
-    expect(positions(read)).toEqual([[1, 2, 3], [4, 5, 6]]);
+    expect(positions(read)).toEqual([
+      [1, 2, 3],
+      [4, 5, 6],
+    ]);
   });
 
   it("is copied where its bytes begin at an odd address", () => {
@@ -50,7 +79,13 @@ describe("a cloud", () => {
   });
 
   it("keeps values of every type when its layout fits no words, of either byte order", () => {
-    const fields = [...XYZ, field("a", 12, UINT8), field("b", 13, UINT16), field("c", 15, FLOAT64), field("d", 23, UINT32)];
+    const fields = [
+      ...XYZ,
+      field("a", 12, UINT8),
+      field("b", 13, UINT16),
+      field("c", 15, FLOAT64),
+      field("d", 23, UINT32),
+    ];
     for (const little of [true, false]) {
       const view = new DataView(new ArrayBuffer(2 * 27));
       for (const at of [0, 27]) {
@@ -64,7 +99,13 @@ describe("a cloud", () => {
       const read = cloud(readCloud(message([], { data, width: 2, fields, point_step: 27, is_bigendian: !little })));
       const values = fields.map(({ name }) => read.channels.find((channel) => channel.name === name));
       expect(values.map((channel) => (channel === undefined ? NaN : read.value(channel, 1)))).toEqual([
-        1.5, -2.5, Math.fround(1e-3), 200, 60000, 98765.25, 4000000000,
+        1.5,
+        -2.5,
+        Math.fround(1e-3),
+        200,
+        60000,
+        98765.25,
+        4000000000,
       ]);
     }
   });
@@ -77,16 +118,46 @@ describe("a cloud", () => {
   });
 
   it.each([
-    ["width of a thousand millions", { width: 1e9 }, "Data size (12 bytes) does not match width (1000000000) times height (1) times point_step (12).  Dropping message."],
-    ["height times width beyond 32 bits", { width: 65536, height: 65536, data: new Uint8Array(0) }, /^Data size \(0 bytes\) does not match/],
-    ["points of no bytes", { width: 4e9, point_step: 0, data: new Uint8Array(0) }, "Field x at offset 0 reaches beyond point_step (0).  Dropping message."],
-    ["a field outside of the point", { fields: [...XYZ, field("i", 12)] }, "Field i at offset 12 reaches beyond point_step (12).  Dropping message."],
-    ["an offset outside of the data", { fields: [field("x", 4e9), ...XYZ.slice(1)] }, /^Field x at offset 4000000000 reaches/],
+    [
+      "width of a thousand millions",
+      { width: 1e9 },
+      "Data size (12 bytes) does not match width (1000000000) times height (1) times point_step (12).  Dropping message.",
+    ],
+    [
+      "height times width beyond 32 bits",
+      { width: 65536, height: 65536, data: new Uint8Array(0) },
+      /^Data size \(0 bytes\) does not match/,
+    ],
+    [
+      "points of no bytes",
+      { width: 4e9, point_step: 0, data: new Uint8Array(0) },
+      "Field x at offset 0 reaches beyond point_step (0).  Dropping message.",
+    ],
+    [
+      "a field outside of the point",
+      { fields: [...XYZ, field("i", 12)] },
+      "Field i at offset 12 reaches beyond point_step (12).  Dropping message.",
+    ],
+    [
+      "an offset outside of the data",
+      { fields: [field("x", 4e9), ...XYZ.slice(1)] },
+      /^Field x at offset 4000000000 reaches/,
+    ],
     ["no z", { fields: XYZ.slice(0, 2) }, "No position transformer available for cloud"],
-    ["an x of doubles", { fields: [field("x", 0, FLOAT64), ...XYZ.slice(1)] }, "No position transformer available for cloud"],
-    ["a datatype that does not exist", { fields: [field("x", 0, 77), ...XYZ.slice(1)] }, "No position transformer available for cloud"],
+    [
+      "an x of doubles",
+      { fields: [field("x", 0, FLOAT64), ...XYZ.slice(1)] },
+      "No position transformer available for cloud",
+    ],
+    [
+      "a datatype that does not exist",
+      { fields: [field("x", 0, 77), ...XYZ.slice(1)] },
+      "No position transformer available for cloud",
+    ],
   ])("with %s is refused", (_name, changes, sentence) => {
-    expect(readCloud(message([[1, 2, 3]], changes))).toEqual(typeof sentence === "string" ? sentence : expect.stringMatching(sentence));
+    expect(readCloud(message([[1, 2, 3]], changes))).toEqual(
+      typeof sentence === "string" ? sentence : expect.stringMatching(sentence),
+    );
   });
 
   it("of no points is one", () => {
@@ -97,7 +168,9 @@ describe("a cloud", () => {
 describe("color transformers", () => {
   const plain = cloud(readCloud(message([[0, 0, 0]])));
   const colored = cloud(readCloud(message([[0, 0, 0, 0]], { fields: [...XYZ, field("rgb", 12)] })));
-  const floats = cloud(readCloud(message([[0, 0, 0, 1, 0.5, 0]], { fields: [...XYZ, field("r", 12), field("g", 16), field("b", 20)] })));
+  const floats = cloud(
+    readCloud(message([[0, 0, 0, 1, 0.5, 0]], { fields: [...XYZ, field("r", 12), field("g", 16), field("b", 20)] })),
+  );
 
   it("are those that rviz offers", () => {
     expect(supported(plain)).toEqual(["AxisColor", "FlatColor", "Intensity"]);
@@ -112,7 +185,9 @@ describe("color transformers", () => {
   });
 
   it("take no packed colour of another type", () => {
-    expect(packedColor(cloud(readCloud(message([[0, 0, 0, 0]], { fields: [...XYZ, field("rgb", 12, UINT16)] }))))).toBeUndefined();
+    expect(
+      packedColor(cloud(readCloud(message([[0, 0, 0, 0]], { fields: [...XYZ, field("rgb", 12, UINT16)] })))),
+    ).toBeUndefined();
   });
 
   it("find intensities where intensity is asked for", () => {
@@ -123,7 +198,13 @@ describe("color transformers", () => {
 });
 
 describe("bounds", () => {
-  const points = [[0, 0, 1, 5], [1, 0, 2, NaN], [0, 1, -3, -2], [NaN, 0, 0, Infinity], [0, 0, Infinity, 1]];
+  const points = [
+    [0, 0, 1, 5],
+    [1, 0, 2, NaN],
+    [0, 1, -3, -2],
+    [NaN, 0, 0, Infinity],
+    [0, 0, Infinity, 1],
+  ];
   const read = cloud(readCloud(message(points, { fields: [...XYZ, field("intensity", 12)] })));
 
   it("of a channel leave NaN out and stay within rviz's limits", () => {
@@ -154,7 +235,17 @@ it("a picked point has its fields, numbered as rviz numbers them", () => {
 });
 
 describe("a pointer", () => {
-  const read = cloud(readCloud(message([[5, 0, 0], [2, 0.02, 0], [NaN, 0, 0], [3, 1, 0], [-1, 0, 0]])));
+  const read = cloud(
+    readCloud(
+      message([
+        [5, 0, 0],
+        [2, 0.02, 0],
+        [NaN, 0, 0],
+        [3, 1, 0],
+        [-1, 0, 0],
+      ]),
+    ),
+  );
   const ray = (to: Vector3): Raycaster => new Raycaster(new Vector3(), to.normalize());
 
   it("meets the nearest point that it hits", () => {

@@ -36,7 +36,12 @@ class Probe extends Display {
   }
 }
 
-register({ className: "rviz/Probe", aliases: [], types: ["probe_msgs/Probe"], create: (context) => new Probe(context) });
+register({
+  className: "rviz/Probe",
+  aliases: [],
+  types: ["probe_msgs/Probe"],
+  create: (context) => new Probe(context),
+});
 
 interface StoreSetup extends Setup {
   readonly store: DisplayStore;
@@ -78,7 +83,8 @@ describe("the list", () => {
 
   it("starts what is enabled, within groups only while the group is", () => {
     const { store } = makeStore();
-    store.load(file(`
+    store.load(
+      file(`
     - Class: rviz/Group
       Name: Robot
       Enabled: true
@@ -89,7 +95,8 @@ describe("the list", () => {
         - Class: rviz/Probe
           Name: Second
           Enabled: false
-`));
+`),
+    );
     const group = store.displays.value[0] as Group;
     const [first, second] = group.displays.filter((display) => display instanceof Probe);
     if (first === undefined || second === undefined) throw new Error("two probes");
@@ -104,36 +111,45 @@ describe("the list", () => {
 
   it("goes on where one display throws, in groups as well", () => {
     const { store } = makeStore();
-    store.load(file(`
+    store.load(
+      file(`
     - Class: rviz/Group
       Enabled: true
       Displays: [{Class: rviz/Probe, Name: Broken, Enabled: true}, {Class: rviz/Probe, Name: Sound, Enabled: true}]
-`));
+`),
+    );
     store.update(0n, 0.1);
     const [, broken, sound] = withMembers(store.displays.value);
-    expect([broken?.level, [...(broken?.statuses.value.values() ?? [])][0]?.text]).toEqual(["error", "It cannot be drawn: no such field"]);
+    expect([broken?.level, [...(broken?.statuses.value.values() ?? [])][0]?.text]).toEqual([
+      "error",
+      "It cannot be drawn: no such field",
+    ]);
     expect((sound as Probe).updates).toBe(1);
   });
 
   it("takes rviz's word for whether a display is on: Enabled, else Value, else off", () => {
     const { store } = makeStore();
-    store.load(file(`
+    store.load(
+      file(`
     - {Class: rviz/Probe, Enabled: true}
     - {Class: rviz/Probe, Value: true}
     - {Class: rviz/Probe}
-`));
+`),
+    );
     expect(store.displays.value.map((display) => display.enabled.value.value)).toEqual([true, true, false]);
   });
 
   it("lists what it cannot show, with the reason, and keeps it in the file", () => {
     const { store } = makeStore();
-    store.load(file(`
+    store.load(
+      file(`
     - Class: moveit_rviz_plugin/MotionPlanning
       Name: MotionPlanning
       Planning Group: arm # ours
     - Class: rviz/Probe
       Name: Probe
-`));
+`),
+    );
     expect(store.unsupported.value[0]).toMatchObject({
       className: "moveit_rviz_plugin/MotionPlanning",
       reason: "a plugin of MoveIt; only rviz's own displays are shown here",
@@ -154,7 +170,12 @@ describe("the list", () => {
   it("counts the edits since it was saved, and nothing that came by itself", () => {
     const { store, undo } = makeStore();
     const { value } = store.backgroundColor;
-    const paint = (): void => store.edit("Change", () => (value.value = [0, 0, 0]), () => (value.value = [48, 48, 48]));
+    const paint = (): void =>
+      store.edit(
+        "Change",
+        () => (value.value = [0, 0, 0]),
+        () => (value.value = [48, 48, 48]),
+      );
     value.value = [1, 2, 3];
     expect(store.changes.value).toBe(0);
     paint();
@@ -183,7 +204,10 @@ describe("the fixed frame", () => {
     const { store } = makeStore();
     store.fixedFrameSetting.value = "/base_link";
     expect(store.fixedFrame.value).toBe("base_link");
-    expect(store.fixedFrameStatus.value).toMatchObject({ level: "error", text: "Fixed Frame [base_link] does not exist" });
+    expect(store.fixedFrameStatus.value).toMatchObject({
+      level: "error",
+      text: "Fixed Frame [base_link] does not exist",
+    });
   });
 
   it("is worked out anew when frames appear", () => {
@@ -197,7 +221,9 @@ describe("the fixed frame", () => {
   });
 
   const tree = (...pairs: readonly (readonly [string, string | null])[]): string =>
-    workOutFixedFrame(pairs.map(([name, parent]) => ({ name, parent, isStatic: false, stamp: 0n, rate: null, publisher: null })));
+    workOutFixedFrame(
+      pairs.map(([name, parent]) => ({ name, parent, isStatic: false, stamp: 0n, rate: null, publisher: null })),
+    );
 
   it("is map below utm, the root where no frame has a name that stands still, and map where there is nothing", () => {
     expect(tree(["utm", null], ["map", "utm"], ["odom", "map"], ["base", "odom"])).toBe("map");
@@ -206,6 +232,8 @@ describe("the fixed frame", () => {
   });
 
   it("is of the largest tree", () => {
-    expect(tree(["world", null], ["camera", "world"], ["odom", null], ["base", "odom"], ["wheel", "base"])).toBe("odom");
+    expect(tree(["world", null], ["camera", "world"], ["odom", null], ["base", "odom"], ["wheel", "base"])).toBe(
+      "odom",
+    );
   });
 });

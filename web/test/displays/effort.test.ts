@@ -19,7 +19,13 @@ function started(effort: readonly number[], properties: object = {}): Effort {
   display.load({ Topic: "joint_states", ...properties });
   display.start();
   const header = { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "" };
-  connection.receive("/joint_states", { header, name: ["turn", "push"], position: [], velocity: [], effort: Float64Array.from(effort) });
+  connection.receive("/joint_states", {
+    header,
+    name: ["turn", "push"],
+    position: [],
+    velocity: [],
+    effort: Float64Array.from(effort),
+  });
   display.update(1n, 0.1);
   return display;
 }
@@ -39,7 +45,11 @@ describe("Effort", () => {
     display.root.updateMatrixWorld(true);
     const box = new Box3();
     for (let k = 0; k < (ring?.segments ?? 0); k++) {
-      box.expandByPoint(new Vector3().fromBufferAttribute(points as never, k).applyMatrix4(ring?.matrixWorld ?? display.root.matrixWorld));
+      box.expandByPoint(
+        new Vector3()
+          .fromBufferAttribute(points as never, k)
+          .applyMatrix4(ring?.matrixWorld ?? display.root.matrixWorld),
+      );
     }
     const size = box.getSize(new Vector3());
     expect(size.y).toBeCloseTo(0);
@@ -53,10 +63,19 @@ describe("Effort", () => {
 
   it("says when there is no robot", () => {
     const display = started([20, 5], { "Robot Description": "nothing" });
-    expect(display.statuses.value.get("URDF")?.text).toBe("Parameter [nothing] does not exist, and was not found by searchParam()");
+    expect(display.statuses.value.get("URDF")?.text).toBe(
+      "Parameter [nothing] does not exist, and was not found by searchParam()",
+    );
   });
 
   it("goes through rviz's rainbow", () => {
-    expect([rainbow(0), rainbow(0.2), rainbow(0.65), rainbow(1.05)]).toEqual([[1, 0, 1], [0, 0, 1], [0.25, 1, 0], [1, 0, 0]].map((color) => color.map((part) => expect.closeTo(part, 5) as unknown)));
+    expect([rainbow(0), rainbow(0.2), rainbow(0.65), rainbow(1.05)]).toEqual(
+      [
+        [1, 0, 1],
+        [0, 0, 1],
+        [0.25, 1, 0],
+        [1, 0, 0],
+      ].map((color) => color.map((part) => expect.closeTo(part, 5) as unknown)),
+    );
   });
 });

@@ -20,7 +20,10 @@ export class FakeFrames implements Partial<FrameTree> {
   }
 
   lookup(target: string, source: string, time: bigint): Transform | NoTransform {
-    return this.poses.get(source)?.(time) ?? new NoTransform(`No transform from [${source}] to [${target}]`, `Nothing publishes ${source}.`);
+    return (
+      this.poses.get(source)?.(time) ??
+      new NoTransform(`No transform from [${source}] to [${target}]`, `Nothing publishes ${source}.`)
+    );
   }
 }
 
@@ -44,10 +47,26 @@ export function fakes(): Fakes {
     camera: signal(new PerspectiveCamera()),
     invalidate: () => void (invalidated.count += 1),
   } as unknown as SceneView;
-  return { context: { connection, names: new GraphNames(), frames: frames as unknown as FrameTree, scene, displays: signal([]), fixedFrame }, connection, frames, fixedFrame, invalidated };
+  return {
+    context: {
+      connection,
+      names: new GraphNames(),
+      frames: frames as unknown as FrameTree,
+      scene,
+      displays: signal([]),
+      fixedFrame,
+    },
+    connection,
+    frames,
+    fixedFrame,
+    invalidated,
+  };
 }
 
-export function header(frame: string, seconds = 1): { seq: number; stamp: { sec: number; nsec: number }; frame_id: string } {
+export function header(
+  frame: string,
+  seconds = 1,
+): { seq: number; stamp: { sec: number; nsec: number }; frame_id: string } {
   return { seq: 0, stamp: { sec: Math.floor(seconds), nsec: Math.round((seconds % 1) * 1e9) }, frame_id: frame };
 }
 

@@ -13,7 +13,11 @@ import { fakes, header, status, type Fakes } from "./fakes";
 
 type Any = HistoryDisplay<Stamped>;
 
-function start(className: string, type: string, yaml: Record<string, never> | object = {}): { display: Any; around: Fakes; send: (message: unknown) => void } {
+function start(
+  className: string,
+  type: string,
+  yaml: Record<string, never> | object = {},
+): { display: Any; around: Fakes; send: (message: unknown) => void } {
   const around = fakes();
   around.frames.set("tilted");
   around.connection.advertise("/t", type);
@@ -61,7 +65,11 @@ describe.each(ALL)("%s", (className, type, message) => {
     expect(selectable.describe()).toHaveProperty("Frame");
     const freed: string[] = [];
     drawn?.traverse((part) => {
-      if (part instanceof Mesh) (part.material as { addEventListener: (name: string, run: () => void) => void }).addEventListener("dispose", () => freed.push(part.uuid));
+      if (part instanceof Mesh)
+        (part.material as { addEventListener: (name: string, run: () => void) => void }).addEventListener(
+          "dispose",
+          () => freed.push(part.uuid),
+        );
     });
     display.topicProperty.value.value = "/other";
     expect(display.root.children).toHaveLength(0);
@@ -99,7 +107,8 @@ describe.each(ALL)("%s", (className, type, message) => {
 /** Put a value where a message has its first number beside the header. */
 function spoil(message: unknown, value: number): unknown {
   if (message instanceof Float64Array) return message;
-  if (Array.isArray(message)) return (message as unknown[]).map((part, index) => (index === 0 ? spoil(part, value) : part));
+  if (Array.isArray(message))
+    return (message as unknown[]).map((part, index) => (index === 0 ? spoil(part, value) : part));
   let isDone = false;
   const entries = Object.entries(message as Record<string, unknown>).map(([key, part]): [string, unknown] => {
     if (isDone || key === "header" || key === "radiation_type" || typeof part === "string") return [key, part];
@@ -148,8 +157,14 @@ describe("sizes are rviz's:", () => {
   });
 
   it.each([
-    [2, 0.1, 4, 2], [5, 0.1, 4, 0], [0.05, 0.1, 4, 0], [NaN, 0.1, 4, 0], [Infinity, 0.1, Infinity, 0],
-    [-Infinity, 1, 1, 1], [Infinity, 1, 1, 0], [NaN, 1, 1, 0],
+    [2, 0.1, 4, 2],
+    [5, 0.1, 4, 0],
+    [0.05, 0.1, 4, 0],
+    [NaN, 0.1, 4, 0],
+    [Infinity, 0.1, Infinity, 0],
+    [-Infinity, 1, 1, 1],
+    [Infinity, 1, 1, 0],
+    [NaN, 1, 1, 0],
   ])("a range of %d between %d and %d is shown %d m long", (range, min_range, max_range, shown) => {
     expect(displayedRange({ range, min_range, max_range } as Range)).toBe(shown);
   });

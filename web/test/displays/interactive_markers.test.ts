@@ -7,7 +7,11 @@ import { describe, expect, it } from "vitest";
 import { FeedbackEvent, InteractionMode, OrientationMode } from "../../src/displays/interactive/control_modes";
 import { closestOnLine, Drag } from "../../src/displays/interactive/drag";
 import { InteractiveMarkers } from "../../src/displays/interactive_markers";
-import type { InteractiveMarker, InteractiveMarkerControl, InteractiveMarkerFeedback } from "../../src/protocol/messages";
+import type {
+  InteractiveMarker,
+  InteractiveMarkerControl,
+  InteractiveMarkerFeedback,
+} from "../../src/protocol/messages";
 import type { PointerTarget, TargetEvent } from "../../src/scene/scene_view";
 import { setup, type Setup } from "./support";
 
@@ -16,15 +20,31 @@ const VIEW = { right: new Vector3(1, 0, 0), up: new Vector3(0, 1, 0), back: new 
 
 function control(mode: number, fields: Partial<InteractiveMarkerControl> = {}): InteractiveMarkerControl {
   return {
-    name: "control", orientation: UNTURNED, orientation_mode: OrientationMode.inherit, interaction_mode: mode, always_visible: true,
-    markers: [], independent_marker_orientation: false, description: "", ...fields,
+    name: "control",
+    orientation: UNTURNED,
+    orientation_mode: OrientationMode.inherit,
+    interaction_mode: mode,
+    always_visible: true,
+    markers: [],
+    independent_marker_orientation: false,
+    description: "",
+    ...fields,
   };
 }
 
-function marker(controls: readonly InteractiveMarkerControl[], fields: Partial<InteractiveMarker> = {}): InteractiveMarker {
+function marker(
+  controls: readonly InteractiveMarkerControl[],
+  fields: Partial<InteractiveMarker> = {},
+): InteractiveMarker {
   return {
-    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "base" }, pose: { position: { x: 0, y: 0, z: 0 }, orientation: UNTURNED },
-    name: "box", description: "A box", scale: 1, menu_entries: [], controls, ...fields,
+    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "base" },
+    pose: { position: { x: 0, y: 0, z: 0 }, orientation: UNTURNED },
+    name: "box",
+    description: "A box",
+    scale: 1,
+    menu_entries: [],
+    controls,
+    ...fields,
   };
 }
 
@@ -43,7 +63,8 @@ function started(): Started {
   display.load({ "Update Topic": "/menu/update" });
   display.start();
   return {
-    ...made, display,
+    ...made,
+    display,
     init: (...markers) => {
       made.connection.receive("/menu/update_full", { server_id: "server", seq_num: 5n, markers });
       display.update(0n, 0.01);
@@ -62,11 +83,28 @@ function started(): Started {
 /** A pointer whose ray looks down at (x, y). */
 function at(root: Object3D, x: number, y: number, fields: Partial<TargetEvent> = {}): TargetEvent {
   const pick = { point: new Vector3(x, y, 0), object: root, index: null };
-  return { x: 0, y: 0, ray: new Ray(new Vector3(x, y, 10), new Vector3(0, 0, -1)), pick, button: 0, shift: false, control: false, ...fields };
+  return {
+    x: 0,
+    y: 0,
+    ray: new Ray(new Vector3(x, y, 10), new Vector3(0, 0, -1)),
+    pick,
+    button: 0,
+    shift: false,
+    control: false,
+    ...fields,
+  };
 }
 
 describe("the servers' protocol", () => {
-  const update = (sequence: bigint, fields: object = {}): object => ({ server_id: "server", seq_num: sequence, type: 1, markers: [], poses: [], erases: [], ...fields });
+  const update = (sequence: bigint, fields: object = {}): object => ({
+    server_id: "server",
+    seq_num: sequence,
+    type: 1,
+    markers: [],
+    poses: [],
+    erases: [],
+    ...fields,
+  });
 
   it("takes the full state, then updates by their numbers", () => {
     const { init, connection, display } = started();
@@ -125,9 +163,21 @@ describe("interactive markers", () => {
     display.update(0n, 0.01);
     handle.up(at(display.root, 3, 2), false);
     const sent = feedback();
-    expect(sent.map((message) => message.event_type)).toEqual([FeedbackEvent.mouseDown, FeedbackEvent.poseUpdate, FeedbackEvent.mouseUp]);
-    expect(connection.published[0]).toMatchObject({ topic: "/menu/feedback", type: "visualization_msgs/InteractiveMarkerFeedback" });
-    expect(sent[1]).toMatchObject({ client_id: "/trundle_page/Markers", marker_name: "box", control_name: "control", header: { frame_id: "base" } });
+    expect(sent.map((message) => message.event_type)).toEqual([
+      FeedbackEvent.mouseDown,
+      FeedbackEvent.poseUpdate,
+      FeedbackEvent.mouseUp,
+    ]);
+    expect(connection.published[0]).toMatchObject({
+      topic: "/menu/feedback",
+      type: "visualization_msgs/InteractiveMarkerFeedback",
+    });
+    expect(sent[1]).toMatchObject({
+      client_id: "/trundle_page/Markers",
+      marker_name: "box",
+      control_name: "control",
+      header: { frame_id: "base" },
+    });
     expect(sent[1]?.pose.position.x).toBeCloseTo(2);
     expect(sent[1]?.pose.position.y).toBeCloseTo(0);
     expect(sent[0]?.mouse_point).toMatchObject({ x: 0, y: 0 });
@@ -135,7 +185,9 @@ describe("interactive markers", () => {
 
   it("answer in the fixed frame when their stamp is not 0", () => {
     const { init, display, feedback, target } = started();
-    init(marker([control(InteractionMode.button)], { header: { seq: 0, stamp: { sec: 1, nsec: 0 }, frame_id: "base" } }));
+    init(
+      marker([control(InteractionMode.button)], { header: { seq: 0, stamp: { sec: 1, nsec: 0 }, frame_id: "base" } }),
+    );
     target().down(at(display.root, 1, 0));
     expect(feedback()[0]?.header.frame_id).toBe("map");
     expect(feedback()[0]?.pose.position.x).toBeCloseTo(1);
@@ -146,7 +198,11 @@ describe("interactive markers", () => {
     init(marker([control(InteractionMode.button)]));
     target().down(at(display.root, 1, 0));
     target().up(at(display.root, 1, 0), false);
-    expect(feedback().map((message) => message.event_type)).toEqual([FeedbackEvent.mouseDown, FeedbackEvent.buttonClick, FeedbackEvent.mouseUp]);
+    expect(feedback().map((message) => message.event_type)).toEqual([
+      FeedbackEvent.mouseDown,
+      FeedbackEvent.buttonClick,
+      FeedbackEvent.mouseUp,
+    ]);
   });
 
   it("stay with the hand while they are held, and go where the server says then", () => {
@@ -155,7 +211,14 @@ describe("interactive markers", () => {
     target().down(at(display.root, 1, 0));
     target().move(at(display.root, 3, 0));
     const pose = { position: { x: 7, y: 0, z: 0 }, orientation: UNTURNED };
-    connection.receive("/menu/update", { server_id: "server", seq_num: 6n, type: 1, markers: [], poses: [{ header: {}, pose, name: "box" }], erases: [] });
+    connection.receive("/menu/update", {
+      server_id: "server",
+      seq_num: 6n,
+      type: 1,
+      markers: [],
+      poses: [{ header: {}, pose, name: "box" }],
+      erases: [],
+    });
     const place = display.root.children[0]?.children[0];
     expect(place?.position.x).toBeCloseTo(2);
     target().up(at(display.root, 3, 0), false);
@@ -173,14 +236,33 @@ describe("interactive markers", () => {
   it("open their menu on a right click, nested, and send what was chosen", () => {
     const { init, display, feedback, target, scene } = started();
     Object.assign(scene, { element: document.createElement("canvas") });
-    const entry = (id: number, parent: number, title: string, type = 0): object => ({ id, parent_id: parent, title, command: "rviz", command_type: type });
-    init(marker([control(InteractionMode.moveAxis)], { menu_entries: [entry(1, 0, "First"), entry(2, 0, "More"), entry(3, 2, "Inner"), entry(4, 0, "Run", 1)] as never }));
+    const entry = (id: number, parent: number, title: string, type = 0): object => ({
+      id,
+      parent_id: parent,
+      title,
+      command: "rviz",
+      command_type: type,
+    });
+    init(
+      marker([control(InteractionMode.moveAxis)], {
+        menu_entries: [entry(1, 0, "First"), entry(2, 0, "More"), entry(3, 2, "Inner"), entry(4, 0, "Run", 1)] as never,
+      }),
+    );
     target().down(at(display.root, 1, 0, { button: 2 }));
     const items = [...document.querySelectorAll<HTMLButtonElement>(".menu button")];
-    expect(items.map((item) => [item.textContent, item.disabled])).toEqual([["First", false], ["More", true], ["Inner", false], ["Run", true]]);
+    expect(items.map((item) => [item.textContent, item.disabled])).toEqual([
+      ["First", false],
+      ["More", true],
+      ["Inner", false],
+      ["Run", true],
+    ]);
     items[2]?.click();
     expect(document.querySelector(".menu")).toBeNull();
-    expect(feedback().at(-1)).toMatchObject({ event_type: FeedbackEvent.menuSelect, menu_entry_id: 3, control_name: "control" });
+    expect(feedback().at(-1)).toMatchObject({
+      event_type: FeedbackEvent.menuSelect,
+      menu_entry_id: 3,
+      control_name: "control",
+    });
   });
 
   it("glow under the pointer", () => {
@@ -189,7 +271,8 @@ describe("interactive markers", () => {
     target().hover(true);
     let glow: unknown = 0;
     display.root.traverse((part) => {
-      if (part instanceof Mesh) glow = (part.material as { uniforms: Record<string, { value: unknown }> }).uniforms["shapeGlow"]?.value;
+      if (part instanceof Mesh)
+        glow = (part.material as { uniforms: Record<string, { value: unknown }> }).uniforms["shapeGlow"]?.value;
     });
     expect(glow).toBe(0.3);
   });
@@ -198,7 +281,13 @@ describe("interactive markers", () => {
 describe("a drag", () => {
   const down = (x: number, y: number): Ray => new Ray(new Vector3(x, y, 10), new Vector3(0, 0, -1));
   const drag = (mode: number, axis: Vector3, grasp = new Vector3(1, 0, 0)): Drag =>
-    new Drag(mode, axis, grasp, new Vector3(), new Quaternion(), { ray: down(grasp.x, grasp.y), x: 0, y: 0, shift: false, control: false });
+    new Drag(mode, axis, grasp, new Vector3(), new Quaternion(), {
+      ray: down(grasp.x, grasp.y),
+      x: 0,
+      y: 0,
+      shift: false,
+      control: false,
+    });
   const to = (made: Drag, x: number, y: number, fields: object = {}): Drag => {
     made.move({ ray: down(x, y), x: 0, y: 0, shift: false, control: false, ...fields }, VIEW);
     return made;

@@ -13,23 +13,47 @@ const UNTURNED = { x: 0, y: 0, z: 0, w: 1 };
 
 function control(changes: Partial<InteractiveMarkerControl>): InteractiveMarkerControl {
   return {
-    name: "c", orientation: UNTURNED, orientation_mode: 0, interaction_mode: 0, always_visible: true, markers: [],
-    independent_marker_orientation: false, description: "Menu", ...changes,
+    name: "c",
+    orientation: UNTURNED,
+    orientation_mode: 0,
+    interaction_mode: 0,
+    always_visible: true,
+    markers: [],
+    independent_marker_orientation: false,
+    description: "Menu",
+    ...changes,
   };
 }
 
 function marker(controls: readonly InteractiveMarkerControl[]): InteractiveMarker {
   return {
-    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "map" }, pose: { position: { x: 1, y: 2, z: 3 }, orientation: UNTURNED },
-    name: "m", description: "", scale: 2, menu_entries: [], controls,
+    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "map" },
+    pose: { position: { x: 1, y: 2, z: 3 }, orientation: UNTURNED },
+    name: "m",
+    description: "",
+    scale: 2,
+    menu_entries: [],
+    controls,
   };
 }
 
 function shape(frame: string): Marker {
   return {
-    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: frame }, ns: "", id: 0, type: 1, action: 0,
-    pose: { position: { x: 0.5, y: 0, z: 0 }, orientation: UNTURNED }, scale: { x: 1, y: 0, z: 1 }, color: { r: 1, g: 1, b: 1, a: 1 },
-    lifetime: { sec: 0, nsec: 0 }, frame_locked: false, points: [], colors: [], text: "", mesh_resource: "", mesh_use_embedded_materials: false,
+    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: frame },
+    ns: "",
+    id: 0,
+    type: 1,
+    action: 0,
+    pose: { position: { x: 0.5, y: 0, z: 0 }, orientation: UNTURNED },
+    scale: { x: 1, y: 0, z: 1 },
+    color: { r: 1, g: 1, b: 1, a: 1 },
+    lifetime: { sec: 0, nsec: 0 },
+    frame_locked: false,
+    points: [],
+    colors: [],
+    text: "",
+    mesh_resource: "",
+    mesh_use_embedded_materials: false,
   };
 }
 
@@ -42,11 +66,25 @@ describe("handles of controls that bring none", () => {
     const ring = handle(InteractionMode.moveRotate);
     expect(ring?.points).toHaveLength(216);
     expect(ring?.color.a).toBe(0.5);
-    expect(ring?.colors.map(({ r, a }) => [r, a]).slice(0, 4)).toEqual([[0.6, 1], [0.6, 1], [1, 0.5], [1, 0.5]]);
+    expect(ring?.colors.map(({ r, a }) => [r, a]).slice(0, 4)).toEqual([
+      [0.6, 1],
+      [0.6, 1],
+      [1, 0.5],
+      [1, 0.5],
+    ]);
   });
 
   it("are a striped ring where it turns, and a plain one where it moves", () => {
-    expect(handle(InteractionMode.rotateAxis)?.colors.map(({ r, a }) => [r, a]).slice(0, 4)).toEqual([[0.6, 1], [0.6, 1], [1, 1], [1, 1]]);
+    expect(
+      handle(InteractionMode.rotateAxis)
+        ?.colors.map(({ r, a }) => [r, a])
+        .slice(0, 4),
+    ).toEqual([
+      [0.6, 1],
+      [0.6, 1],
+      [1, 1],
+      [1, 1],
+    ]);
     expect(handle(InteractionMode.movePlane, 1)?.colors).toEqual([]);
     expect(handle(InteractionMode.movePlane, 1)?.color.a).toBe(1);
   });

@@ -21,9 +21,22 @@ function point(x: number, y: number, z = 0): Point {
 
 function marker(fields: Partial<Marker> = {}): Marker {
   return {
-    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "base" }, ns: "ns", id: 0, type: Type.cube, action: 0, pose: ORIGIN,
-    scale: { x: 1, y: 1, z: 1 }, color: { r: 1, g: 0.5, b: 0, a: 1 }, lifetime: { sec: 0, nsec: 0 }, frame_locked: false,
-    points: [], colors: [], text: "", mesh_resource: "", mesh_use_embedded_materials: false, ...fields,
+    header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "base" },
+    ns: "ns",
+    id: 0,
+    type: Type.cube,
+    action: 0,
+    pose: ORIGIN,
+    scale: { x: 1, y: 1, z: 1 },
+    color: { r: 1, g: 0.5, b: 0, a: 1 },
+    lifetime: { sec: 0, nsec: 0 },
+    frame_locked: false,
+    points: [],
+    colors: [],
+    text: "",
+    mesh_resource: "",
+    mesh_use_embedded_materials: false,
+    ...fields,
   };
 }
 
@@ -41,7 +54,8 @@ function started(properties: Record<string, unknown> = {}): Started {
   display.load({ "Marker Topic": "/markers", ...properties });
   display.start();
   return {
-    ...made, display,
+    ...made,
+    display,
     send: (...markers) => {
       for (const fields of markers) made.connection.receive("/markers", marker(fields));
       display.update(made.connection.time, 0.01);
@@ -72,12 +86,21 @@ describe("solid markers", () => {
     ["a sphere", { type: Type.sphere, scale: { x: 2, y: 2, z: 1 } }, [0, -1, -0.5, 2, 1, 0.5]],
     ["a cylinder", { type: Type.cylinder, scale: { x: 1, y: 1, z: 3 } }, [0.5, -0.5, -1.5, 1.5, 0.5, 1.5]],
     ["an arrow by its scale", { type: Type.arrow, scale: { x: 2, y: 0.1, z: 0.1 } }, [1, -0.1, -0.1, 3, 0.1, 0.1]],
-    ["an arrow between points", { type: Type.arrow, scale: { x: 0.1, y: 0.2, z: 0.3 }, points: [point(0, 0), point(2, 0)] },
-      [1, -0.1, -0.1, 3, 0.1, 0.1]],
-    ["a list of cubes", { type: Type.cubeList, scale: { x: 1, y: 1, z: 1 }, points: [point(0, 0), point(0, 2)] },
-      [0.5, -0.5, -0.5, 1.5, 2.5, 0.5]],
-    ["a list of spheres", { type: Type.sphereList, scale: { x: 1, y: 1, z: 1 }, points: [point(0, 0), point(2, 0)] },
-      [0.5, -0.5, -0.5, 3.5, 0.5, 0.5]],
+    [
+      "an arrow between points",
+      { type: Type.arrow, scale: { x: 0.1, y: 0.2, z: 0.3 }, points: [point(0, 0), point(2, 0)] },
+      [1, -0.1, -0.1, 3, 0.1, 0.1],
+    ],
+    [
+      "a list of cubes",
+      { type: Type.cubeList, scale: { x: 1, y: 1, z: 1 }, points: [point(0, 0), point(0, 2)] },
+      [0.5, -0.5, -0.5, 1.5, 2.5, 0.5],
+    ],
+    [
+      "a list of spheres",
+      { type: Type.sphereList, scale: { x: 1, y: 1, z: 1 }, points: [point(0, 0), point(2, 0)] },
+      [0.5, -0.5, -0.5, 3.5, 0.5, 0.5],
+    ],
   ])("%s has its size at its place", (_, fields, expected) => {
     const { send, boxes } = started();
     send(fields);
@@ -101,7 +124,9 @@ describe("solid markers", () => {
   it("tell which one was picked", () => {
     const { send, display } = started();
     send({ id: 4 }, { id: 5, ns: "other" });
-    const selectable = parts(display.root)[0]?.userData["selectable"] as { describe(index: number): Record<string, unknown> };
+    const selectable = parts(display.root)[0]?.userData["selectable"] as {
+      describe(index: number): Record<string, unknown>;
+    };
     expect(selectable.describe(1)).toMatchObject({ Marker: "other/5", Type: "CUBE", Frame: "base" });
   });
 });
@@ -111,9 +136,15 @@ describe("other markers", () => {
     const { send, display } = started();
     const points = [point(0, 0), point(1, 0), point(1, 1), point(0, 1)];
     const colors = points.map((_, index) => ({ r: index / 3, g: 0, b: 0, a: 1 }));
-    send({ id: 1, type: Type.lineStrip, points, colors, scale: { x: 0.05, y: 0, z: 0 } }, { id: 2, type: Type.lineList, points, scale: { x: 0.1, y: 0, z: 0 } });
+    send(
+      { id: 1, type: Type.lineStrip, points, colors, scale: { x: 0.05, y: 0, z: 0 } },
+      { id: 2, type: Type.lineList, points, scale: { x: 0.1, y: 0, z: 0 } },
+    );
     const lines = parts(display.root).filter((part) => part instanceof BillboardLines);
-    expect(lines.map((line) => [line.segments, line.width])).toEqual([[3, 0.05], [2, 0.1]]);
+    expect(lines.map((line) => [line.segments, line.width])).toEqual([
+      [3, 0.05],
+      [2, 0.1],
+    ]);
     expect(lines[0]?.geometry.getAttribute("endRgba").getX(2)).toBeCloseTo(1);
   });
 
@@ -136,20 +167,32 @@ describe("other markers", () => {
   it("draw triangles, scaled, with a colour per triangle", () => {
     const { send, display, boxes } = started();
     const points = [point(0, 0), point(1, 0), point(0, 1), point(0, 0, 1), point(1, 0, 1), point(0, 1, 1)];
-    const colors = [{ r: 1, g: 0, b: 0, a: 1 }, { r: 0, g: 1, b: 0, a: 1 }];
+    const colors = [
+      { r: 1, g: 0, b: 0, a: 1 },
+      { r: 0, g: 1, b: 0, a: 1 },
+    ];
     send({ type: Type.triangleList, points, colors, scale: { x: 2, y: 2, z: 2 } });
     expect(extent(boxes())).toEqual([1, 0, 0, 3, 2, 2]);
-    const color = parts(display.root).find((part) => !(part instanceof InstancedMesh))?.geometry.getAttribute("vertexRgba");
+    const color = parts(display.root)
+      .find((part) => !(part instanceof InstancedMesh))
+      ?.geometry.getAttribute("vertexRgba");
     expect([color?.getX(2), color?.getX(3), color?.getY(3)]).toEqual([1, 0, 1]);
   });
 
   it("load meshes, and say which is missing", async () => {
     const { send, display, connection } = started();
-    const stl = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid";
+    const stl =
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid";
     connection.assets.set("package://p/there.stl", new TextEncoder().encode(stl).buffer);
-    send({ id: 1, type: Type.mesh, mesh_resource: "package://p/there.stl" }, { id: 2, type: Type.mesh, mesh_resource: "package://p/gone.stl" });
+    send(
+      { id: 1, type: Type.mesh, mesh_resource: "package://p/there.stl" },
+      { id: 2, type: Type.mesh, mesh_resource: "package://p/gone.stl" },
+    );
     await new Promise((resolve) => setTimeout(resolve, 20));
-    expect(display.statuses.value.get("ns/2")).toMatchObject({ level: "error", text: "Could not load mesh resource 'package://p/gone.stl'" });
+    expect(display.statuses.value.get("ns/2")).toMatchObject({
+      level: "error",
+      text: "Could not load mesh resource 'package://p/gone.stl'",
+    });
     expect(parts(display.root).filter((part) => !(part instanceof InstancedMesh))).toHaveLength(1);
   });
 });
@@ -233,17 +276,45 @@ describe("markers", () => {
 
 describe("what is wrong with a marker", () => {
   it.each([
-    [{ pose: { ...ORIGIN, orientation: { x: 0, y: 0, z: 0, w: 0 } } }, "warn", "Uninitialized quaternion, assuming identity."],
-    [{ pose: { ...ORIGIN, orientation: { x: 0, y: 0, z: 0, w: 2 } } }, "warn", "Unnormalized quaternion in marker message."],
+    [
+      { pose: { ...ORIGIN, orientation: { x: 0, y: 0, z: 0, w: 0 } } },
+      "warn",
+      "Uninitialized quaternion, assuming identity.",
+    ],
+    [
+      { pose: { ...ORIGIN, orientation: { x: 0, y: 0, z: 0, w: 2 } } },
+      "warn",
+      "Unnormalized quaternion in marker message.",
+    ],
     [{ scale: { x: 1, y: 0, z: 1 } }, "warn", "Scale contains 0.0 in x, y or z."],
     [{ color: { r: 1, g: 1, b: 1, a: 0 } }, "warn", "Marker is fully transparent (color.a is 0.0)."],
     [{ text: "x" }, "warn", "Non-empty text is ignored."],
-    [{ type: Type.lineStrip, scale: { x: 0.1, y: 0, z: 0 }, points: [point(0, 0)] }, "error", "At least two points are required for a LINE_STRIP marker."],
-    [{ type: Type.lineList, scale: { x: 0.1, y: 0, z: 0 }, points: [] }, "error", "Points should not be empty for specified marker type."],
-    [{ type: Type.triangleList, points: [point(0, 0)] }, "error", "Number of points should be a multiple of 3 for TRIANGLE_LIST marker."],
-    [{ type: Type.text, text: " " }, "warn", "scale.x and scale.y of TEXT_VIEW_FACING are ignored. \nText is empty or only consists of whitespace."],
+    [
+      { type: Type.lineStrip, scale: { x: 0.1, y: 0, z: 0 }, points: [point(0, 0)] },
+      "error",
+      "At least two points are required for a LINE_STRIP marker.",
+    ],
+    [
+      { type: Type.lineList, scale: { x: 0.1, y: 0, z: 0 }, points: [] },
+      "error",
+      "Points should not be empty for specified marker type.",
+    ],
+    [
+      { type: Type.triangleList, points: [point(0, 0)] },
+      "error",
+      "Number of points should be a multiple of 3 for TRIANGLE_LIST marker.",
+    ],
+    [
+      { type: Type.text, text: " " },
+      "warn",
+      "scale.x and scale.y of TEXT_VIEW_FACING are ignored. \nText is empty or only consists of whitespace.",
+    ],
     [{ type: Type.mesh }, "error", "Empty mesh_resource path."],
-    [{ pose: { ...ORIGIN, position: point(NaN, 0) } }, "error", "Contains invalid floating point values (nans or infs)"],
+    [
+      { pose: { ...ORIGIN, position: point(NaN, 0) } },
+      "error",
+      "Contains invalid floating point values (nans or infs)",
+    ],
     [{ type: 42 }, "error", "Unknown marker type: 42"],
   ])("%j", (fields, level, text) => {
     expect(checkMarker(marker(fields))).toEqual({ level, text });
@@ -251,6 +322,8 @@ describe("what is wrong with a marker", () => {
 
   it("is nothing, for one that is right", () => {
     expect(checkMarker(marker())).toBeNull();
-    expect(checkMarker(marker({ type: Type.arrow, points: [point(0, 0), point(1, 0)], scale: { x: 0.1, y: 0.2, z: 0 } }))).toBeNull();
+    expect(
+      checkMarker(marker({ type: Type.arrow, points: [point(0, 0), point(1, 0)], scale: { x: 0.1, y: 0.2, z: 0 } })),
+    ).toBeNull();
   });
 });

@@ -3,12 +3,17 @@ import { expect, it } from "vitest";
 import { loadMesh } from "../../src/displays/meshes/mesh_formats";
 
 /** A triangle that names a file of materials, and what is in that file; undefined: it is missing. */
-async function loadTriangle(library: string, materials?: string): Promise<{ triangles: number; missing: readonly string[] }> {
+async function loadTriangle(
+  library: string,
+  materials?: string,
+): Promise<{ triangles: number; missing: readonly string[] }> {
   const files = new Map([["package://robot/a.obj", `mtllib ${library}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n`]]);
   if (materials !== undefined) files.set(`package://robot/${library}`, materials);
   const fetchAsset = (uri: string): Promise<ArrayBuffer> => {
     const text = files.get(uri);
-    return text === undefined ? Promise.reject(new Error("no such file")) : Promise.resolve(new TextEncoder().encode(text).buffer);
+    return text === undefined
+      ? Promise.reject(new Error("no such file"))
+      : Promise.resolve(new TextEncoder().encode(text).buffer);
   };
   const { object, missing } = await loadMesh("package://robot/a.obj", fetchAsset);
   return { triangles: object.children.length, missing };

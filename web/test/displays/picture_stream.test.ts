@@ -40,7 +40,8 @@ function open(): { connection: FakeConnection; slow: Slow; stream: PictureStream
   connection.advertise("/image", "sensor_msgs/Image");
   const slow = new Slow();
   const stream = new PictureStream(connection, "/image", slow.decode);
-  const send = (seq: number): void => connection.receive("/image", { header: { ...header("cam"), seq }, encoding: "rgb8", width: 1, height: 1 });
+  const send = (seq: number): void =>
+    connection.receive("/image", { header: { ...header("cam"), seq }, encoding: "rgb8", width: 1, height: 1 });
   return { connection, slow, stream, send };
 }
 
@@ -66,7 +67,9 @@ it("says why an image is not shown, and goes on with the next", async () => {
   expect(stream.fault.value).toBeNull();
   connection.advertise("/image", "std_msgs/String");
   send(2);
-  expect(stream.fault.value).toBe("/image is of type std_msgs/String, not sensor_msgs/Image or sensor_msgs/CompressedImage");
+  expect(stream.fault.value).toBe(
+    "/image is of type std_msgs/String, not sensor_msgs/Image or sensor_msgs/CompressedImage",
+  );
 });
 
 it("leaves nothing behind when it is closed", async () => {
@@ -82,7 +85,12 @@ it("leaves nothing behind when it is closed", async () => {
 it("the display subscribes by its transport and says what it lacks", () => {
   const around = fakes();
   const display = displayClass("rviz/Image")?.create(around.context) as ImageDisplay;
-  display.load({ Enabled: true, "Image Topic": "/camera/image_raw", "Transport Hint": "compressed", "Median window": 3 });
+  display.load({
+    Enabled: true,
+    "Image Topic": "/camera/image_raw",
+    "Transport Hint": "compressed",
+    "Median window": 3,
+  });
   display.start();
   expect(around.connection.subscriptions("/camera/image_raw/compressed")).toBe(1);
   expect(status(display, "Image")).toBe("warn: No Image received");

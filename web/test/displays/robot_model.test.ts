@@ -67,7 +67,9 @@ describe("RobotModel", () => {
     const { robot } = started(URDF);
     const [box] = meshes(robot.root.getObjectByName("base"));
     robot.root.updateMatrixWorld(true);
-    expect(new Vector3().setFromMatrixPosition(box?.matrixWorld ?? robot.root.matrixWorld).toArray()).toEqual([1, 0, 0.5]);
+    expect(new Vector3().setFromMatrixPosition(box?.matrixWorld ?? robot.root.matrixWorld).toArray()).toEqual([
+      1, 0, 0.5,
+    ]);
     expect(rgba(box)).toEqual([1, 0.5, 0, 1]);
     expect(robot.statuses.value.get("URDF")?.text).toBe("URDF parsed OK");
   });
@@ -116,9 +118,15 @@ describe("RobotModel", () => {
   it("takes alphas and links that are off from the file, though the robot comes later", () => {
     const { robot, connection } = started(undefined, {
       Alpha: 0.5,
-      Links: { "All Links Enabled": true, base: { Alpha: 0.5, "Show Axes": true, Value: true }, wheel: { Value: false } },
+      Links: {
+        "All Links Enabled": true,
+        base: { Alpha: 0.5, "Show Axes": true, Value: true },
+        wheel: { Value: false },
+      },
     });
-    expect(robot.statuses.value.get("URDF")?.text).toBe("Parameter [robot_description] does not exist, and was not found by searchParam()");
+    expect(robot.statuses.value.get("URDF")?.text).toBe(
+      "Parameter [robot_description] does not exist, and was not found by searchParam()",
+    );
     connection.setParameter("/robot_description", URDF);
     const base = robot.root.getObjectByName("base");
     expect(rgba(meshes(base)[0])).toEqual([1, 0.5, 0, 0.25]);
@@ -156,7 +164,14 @@ describe("RobotModel", () => {
 
 describe("a robot description", () => {
   it("has joints with their limits", () => {
-    expect(readUrdf(URDF).joints[0]).toMatchObject({ name: "axle", type: "continuous", parent: "base", child: "wheel", axis: [0, 1, 0], effort: 20 });
+    expect(readUrdf(URDF).joints[0]).toMatchObject({
+      name: "axle",
+      type: "continuous",
+      parent: "base",
+      child: "wheel",
+      axis: [0, 1, 0],
+      effort: 20,
+    });
   });
 
   it("is refused with a sentence when it is none", () => {

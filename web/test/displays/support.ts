@@ -17,7 +17,12 @@ export class FakeFrames implements FrameTree {
   private readonly poses = new Map<string, Transform>();
   private readonly infos = new Map<string, FrameInfo>();
 
-  set(name: string, parent: string | null, position: readonly [number, number, number] = [0, 0, 0], info: Partial<FrameInfo> = {}): void {
+  set(
+    name: string,
+    parent: string | null,
+    position: readonly [number, number, number] = [0, 0, 0],
+    info: Partial<FrameInfo> = {},
+  ): void {
     this.poses.set(name, { position: new Vector3(...position), orientation: new Quaternion() });
     this.infos.set(name, { name, parent, isStatic: false, stamp: 0n, rate: null, publisher: null, ...info });
     this.frames.value = [...this.infos.keys()].sort();
@@ -40,7 +45,10 @@ export class FakeFrames implements FrameTree {
   lookup(target: string, source: string): Transform | NoTransform {
     const [to, from] = [this.poses.get(target), this.poses.get(source.replace(/^\//, ""))];
     if (to === undefined || from === undefined) {
-      return new NoTransform(`No transform from [${source}] to [${target}]`, `Frames here: ${this.frames.peek().join(", ")}`);
+      return new NoTransform(
+        `No transform from [${source}] to [${target}]`,
+        `Frames here: ${this.frames.peek().join(", ")}`,
+      );
     }
     const inverse = to.orientation.clone().invert();
     return {
@@ -123,6 +131,13 @@ export interface Setup {
 export function setup(fixedFrame = "map"): Setup {
   const [connection, frames, scene] = [new FakeConnection(), new FakeFrames(), new FakeScene()];
   frames.set(fixedFrame, null);
-  const context: DisplayContext = { connection, names: new GraphNames(), frames, scene: scene as unknown as SceneView, displays: signal([]), fixedFrame: signal(fixedFrame) };
+  const context: DisplayContext = {
+    connection,
+    names: new GraphNames(),
+    frames,
+    scene: scene as unknown as SceneView,
+    displays: signal([]),
+    fixedFrame: signal(fixedFrame),
+  };
   return { connection, frames, scene, context };
 }

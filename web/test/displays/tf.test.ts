@@ -76,7 +76,10 @@ describe("TF", () => {
       return (target: string, source: string) => lookup(target, source === "alone" ? "nowhere" : source);
     })();
     tf.update(1n, 1);
-    expect(tf.statuses.value.get("alone")).toMatchObject({ level: "warn", text: "No transform from [alone] to frame [map]" });
+    expect(tf.statuses.value.get("alone")).toMatchObject({
+      level: "warn",
+      text: "No transform from [alone] to frame [map]",
+    });
   });
 
   it("forgets a frame that nobody publishes any more after the timeout", () => {
@@ -97,13 +100,21 @@ describe("TF", () => {
     const { tf, frames } = started();
     frames.set("base", "map", [1, 0, 0]);
     tf.update(1n, 1);
-    const selectable = tf.root.children[0]?.userData["selectable"] as { describe(index: number): Record<string, unknown> };
+    const selectable = tf.root.children[0]?.userData["selectable"] as {
+      describe(index: number): Record<string, unknown>;
+    };
     expect(selectable.describe(1)).toMatchObject({ Frame: "base", Parent: "map" });
   });
 
   it("nests the tree by parents", () => {
     const tree = new TreeProperty("Tree");
-    tree.draw(new Map([["base", "odom"], ["odom", "map"], ["map", null]]));
+    tree.draw(
+      new Map([
+        ["base", "odom"],
+        ["odom", "map"],
+        ["map", null],
+      ]),
+    );
     expect(tree.children.map((child) => child.name)).toEqual(["map"]);
     expect(tree.children[0]?.children[0]?.children[0]?.name).toBe("base");
   });

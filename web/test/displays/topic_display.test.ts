@@ -11,7 +11,12 @@ import { displayClass } from "../../src/displays/registry";
 import type { LaserScan } from "../../src/protocol/messages";
 import { fakes, header, status, type Fakes } from "./fakes";
 
-function start(className: string, topic: string, type: string, around = fakes()): { display: CloudDisplay<LaserScan>; around: Fakes } {
+function start(
+  className: string,
+  topic: string,
+  type: string,
+  around = fakes(),
+): { display: CloudDisplay<LaserScan>; around: Fakes } {
   const display = displayClass(className)?.create(around.context) as CloudDisplay<LaserScan>;
   around.connection.advertise(topic, type);
   display.topicProperty.value.value = topic;
@@ -23,8 +28,17 @@ const SCAN = "sensor_msgs/LaserScan";
 
 function scan(changes: Partial<LaserScan> = {}): LaserScan {
   return {
-    header: header("laser"), angle_min: 0, angle_max: 1, angle_increment: Math.PI / 2, time_increment: 0, scan_time: 0,
-    range_min: 0.1, range_max: 10, ranges: new Float32Array([1, 2, 3]), intensities: new Float32Array(), ...changes,
+    header: header("laser"),
+    angle_min: 0,
+    angle_max: 1,
+    angle_increment: Math.PI / 2,
+    time_increment: 0,
+    scan_time: 0,
+    range_min: 0.1,
+    range_max: 10,
+    ranges: new Float32Array([1, 2, 3]),
+    intensities: new Float32Array(),
+    ...changes,
   };
 }
 
@@ -32,7 +46,11 @@ it("says that nothing came, and why", () => {
   const around = fakes();
   const display = displayClass("rviz/LaserScan")?.create(around.context) as CloudDisplay<LaserScan>;
   display.start();
-  expect(display.statuses.value.get("Topic")).toEqual({ level: "warn", text: "No messages received", advice: "Choose a topic." });
+  expect(display.statuses.value.get("Topic")).toEqual({
+    level: "warn",
+    text: "No messages received",
+    advice: "Choose a topic.",
+  });
   display.topicProperty.value.value = "/scan";
   expect(display.statuses.value.get("Topic")?.advice).toBe("Nothing publishes /scan.");
   around.connection.advertise("/scan", SCAN);
@@ -134,7 +152,14 @@ it("shows the latest cloud, or those of the decay time", () => {
 
 it("a scan's points are those within its range, in the fixed frame", () => {
   const at = { position: new Vector3(1, 0, 0.5), orientation: new Quaternion() };
-  const cloud = project(scan({ ranges: new Float32Array([1, 0.05, 10, NaN, Infinity, 2]), intensities: new Float32Array([7, 8, 9, 1, 2, 3]) }), at, at);
+  const cloud = project(
+    scan({
+      ranges: new Float32Array([1, 0.05, 10, NaN, Infinity, 2]),
+      intensities: new Float32Array([7, 8, 9, 1, 2, 3]),
+    }),
+    at,
+    at,
+  );
   expect(cloud.count).toBe(2);
   const found = [...cloud.floats].map((value) => Math.round(value * 1e4) / 1e4);
   expect(found).toEqual([2, 0, 0.5, 7, 1, 2, 0.5, 3]);
@@ -142,7 +167,10 @@ it("a scan's points are those within its range, in the fixed frame", () => {
 
 it("a scan's rays are placed where the sensor was when each was measured", () => {
   const start = { position: new Vector3(0, 0, 0), orientation: new Quaternion() };
-  const end = { position: new Vector3(0, 1, 0), orientation: new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2) };
+  const end = {
+    position: new Vector3(0, 1, 0),
+    orientation: new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2),
+  };
   const cloud = project(scan({ angle_increment: 0, ranges: new Float32Array([1, 1, 1]) }), start, end);
   const half = Math.SQRT1_2;
   [1, 0, 0, half, 0.5 + half, 0, 0, 2, 0].forEach((value, index) => expect(cloud.floats[index]).toBeCloseTo(value, 5));
@@ -169,15 +197,36 @@ it("Temperature colours by its own channel and hides what rviz hides", () => {
   const { cloudProperties } = display;
   expect([cloudProperties.minIntensity.value.value, cloudProperties.maxIntensity.value.value]).toEqual([0, 100]);
   const shown = cloudProperties.all.filter(({ options }) => options.visible?.value ?? true).map(({ name }) => name);
-  expect(shown).toEqual(["Selectable", "Style", "Size (m)", "Alpha", "Decay Time", "Use rainbow", "Min Intensity", "Max Intensity"]);
+  expect(shown).toEqual([
+    "Selectable",
+    "Style",
+    "Size (m)",
+    "Alpha",
+    "Decay Time",
+    "Use rainbow",
+    "Min Intensity",
+    "Max Intensity",
+  ]);
 });
 
 it("saves and loads as rviz writes it", () => {
   const around = fakes();
   const display = displayClass("rviz_default_plugins/PointCloud2")?.create(around.context) as CloudDisplay<LaserScan>;
-  const file = { Alpha: 0.5, "Autocompute Intensity Bounds": false, "Autocompute Value Bounds": { "Max Value": 3, "Min Value": -1, Value: false },
-    Axis: "X", "Channel Name": "ring", "Color Transformer": "AxisColor", "Decay Time": 2, "Position Transformer": "XYZ",
-    "Size (Pixels)": 5, "Size (m)": 0.05, Style: "Boxes", Topic: "/points", "Use rainbow": false };
+  const file = {
+    Alpha: 0.5,
+    "Autocompute Intensity Bounds": false,
+    "Autocompute Value Bounds": { "Max Value": 3, "Min Value": -1, Value: false },
+    Axis: "X",
+    "Channel Name": "ring",
+    "Color Transformer": "AxisColor",
+    "Decay Time": 2,
+    "Position Transformer": "XYZ",
+    "Size (Pixels)": 5,
+    "Size (m)": 0.05,
+    Style: "Boxes",
+    Topic: "/points",
+    "Use rainbow": false,
+  };
   expect(display.load(file)).toEqual([]);
   expect(display.save()).toMatchObject(file);
 });

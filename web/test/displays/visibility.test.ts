@@ -11,7 +11,12 @@ import { fakes } from "./fakes";
 
 const DISPLAYS = [
   { Class: "rviz/Grid", Name: "Grid", Enabled: true },
-  { Class: "rviz/Group", Name: "Parts", Enabled: true, Displays: [{ Class: "rviz/Axes", Name: "Axes", Enabled: true }] },
+  {
+    Class: "rviz/Group",
+    Name: "Parts",
+    Enabled: true,
+    Displays: [{ Class: "rviz/Axes", Name: "Axes", Enabled: true }],
+  },
 ];
 
 function list(): Group {

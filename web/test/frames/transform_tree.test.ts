@@ -146,8 +146,13 @@ describe("what is wrong", () => {
       "No transform from [laser] to [map]: nothing publishes laser. There is no frame here: nothing publishes transforms",
     );
     const many = new TransformTree();
-    many.add([...Array(20).keys()].map((i) => stamped("a", `b${String(i).padStart(2, "0")}`, 1n)), true);
-    expect(x(many.lookup("a", "c", 0n))).toContain("Frames here: a, b00, b01, b02, b03, b04, b05, b06, b07, b08, b09, b10 and 9 more");
+    many.add(
+      [...Array(20).keys()].map((i) => stamped("a", `b${String(i).padStart(2, "0")}`, 1n)),
+      true,
+    );
+    expect(x(many.lookup("a", "c", 0n))).toContain(
+      "Frames here: a, b00, b01, b02, b03, b04, b05, b06, b07, b08, b09, b10 and 9 more",
+    );
   });
 
   test("a loop is refused", () => {
@@ -180,7 +185,10 @@ describe("what is wrong", () => {
 
   test("memory is bounded, in frames and in transforms of one", () => {
     const tree = new TransformTree();
-    tree.add([...Array(10_050).keys()].map((i) => stamped("map", `a${String(i)}`, 1n)), false);
+    tree.add(
+      [...Array(10_050).keys()].map((i) => stamped("map", `a${String(i)}`, 1n)),
+      false,
+    );
     expect(tree.frames.value).toHaveLength(10_000);
 
     const fast = new TransformTree();

@@ -37,7 +37,8 @@ const POSES: Readonly<Record<string, Transform>> = {
 const frames = {
   frames: signal([]),
   describe: () => [],
-  lookup: (_target: string, source: string): Transform => POSES[source] ?? { position: new Vector3(), orientation: new Quaternion() },
+  lookup: (_target: string, source: string): Transform =>
+    POSES[source] ?? { position: new Vector3(), orientation: new Quaternion() },
 };
 
 /** What camera displays show over their pictures. */
@@ -70,13 +71,26 @@ interface Sent {
   readonly message: string;
 }
 
-function show(className: string, yaml: YamlMapping, sent: readonly Sent[], from: readonly [number, number, number], to: readonly [number, number, number]): Promise<string> {
+function show(
+  className: string,
+  yaml: YamlMapping,
+  sent: readonly Sent[],
+  from: readonly [number, number, number],
+  to: readonly [number, number, number],
+): Promise<string> {
   display?.stop();
   axes.visible = className === "rviz/Camera";
   camera.position.set(...from);
   camera.lookAt(...to);
   connection = new FakeConnection();
-  const context: DisplayContext = { connection, names: new GraphNames(), frames: frames, scene, displays: signal([]), fixedFrame: signal("map") };
+  const context: DisplayContext = {
+    connection,
+    names: new GraphNames(),
+    frames: frames,
+    scene,
+    displays: signal([]),
+    fixedFrame: signal("map"),
+  };
   display = displayClass(className)?.create(context) ?? null;
   if (display === null) throw new Error(`no ${className}`);
   for (const { topic, type } of sent) connection.advertise(topic, type);
@@ -84,7 +98,14 @@ function show(className: string, yaml: YamlMapping, sent: readonly Sent[], from:
   display.start();
   for (const { topic, message } of sent) connection.receive(topic, makeMessage(message));
   scene.invalidate();
-  return frame().then(frame).then(() => [...faults, ...[...(display?.statuses.value ?? [])].map(([name, { level, text }]) => `${name}: ${level}: ${text}`)].join("\n"));
+  return frame()
+    .then(frame)
+    .then(() =>
+      [
+        ...faults,
+        ...[...(display?.statuses.value ?? [])].map(([name, { level, text }]) => `${name}: ${level}: ${text}`),
+      ].join("\n"),
+    );
 }
 
 function frame(): Promise<void> {
@@ -92,7 +113,12 @@ function frame(): Promise<void> {
 }
 
 /** Milliseconds from a message's arrival until its points are handed to WebGL, and to the end of the next frame. */
-async function measure(className: string, yaml: YamlMapping, sent: Sent, times: number): Promise<{ update: number[]; frame: number[] }> {
+async function measure(
+  className: string,
+  yaml: YamlMapping,
+  sent: Sent,
+  times: number,
+): Promise<{ update: number[]; frame: number[] }> {
   await show(className, yaml, [sent], [-3, -3, 3], [0, 0, 0]);
   const update: number[] = [];
   const wholeFrame: number[] = [];

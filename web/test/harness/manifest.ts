@@ -7,19 +7,52 @@ let body = 0;
 function link(name: string, mass: number, ...sensors: SensorInfo[]): LinkInfo {
   body += 1;
   return {
-    name, mass, body, sensors, inertia: [0.0428, 0.0453, 0.08, 0, 0, 0], inertial_pose: [0, 0, 0, 0, 0, 0], friction: [1, 1], source: "rp2w/model.sdf:8",
+    name,
+    mass,
+    body,
+    sensors,
+    inertia: [0.0428, 0.0453, 0.08, 0, 0, 0],
+    inertial_pose: [0, 0, 0, 0, 0, 0],
+    friction: [1, 1],
+    source: "rp2w/model.sdf:8",
   };
 }
 
-function joint(name: string, type: string, index: number | null, limit: number | null, parent: string, child: string): JointInfo {
-  return { name, type, parent, child, lower: limit === null ? null : -limit, upper: limit, pose: [0, 0, 0, 0, 0, 0], axes: [[0, 0, 1]], index, source: "rp2w/model.sdf:80" };
+function joint(
+  name: string,
+  type: string,
+  index: number | null,
+  limit: number | null,
+  parent: string,
+  child: string,
+): JointInfo {
+  return {
+    name,
+    type,
+    parent,
+    child,
+    lower: limit === null ? null : -limit,
+    upper: limit,
+    pose: [0, 0, 0, 0, 0, 0],
+    axes: [[0, 0, 1]],
+    index,
+    source: "rp2w/model.sdf:80",
+  };
 }
 
 function model(name: string, links: LinkInfo[], isStatic: boolean, extra: Partial<ModelInfo> = {}): ModelInfo {
   return { name, static: isStatic, held: false, source: null, links, joints: [], plugins: [], models: [], ...extra };
 }
 
-const camera = (name: string): SensorInfo => ({ name, type: "camera", rate: 30, series: [], topic: `/${name}/image_raw`, source: "rp2w/model.sdf:50", plugins: [] });
+const camera = (name: string): SensorInfo => ({
+  name,
+  type: "camera",
+  rate: 30,
+  series: [],
+  topic: `/${name}/image_raw`,
+  source: "rp2w/model.sdf:50",
+  plugins: [],
+});
 
 const robot = model(
   "rp2w",
@@ -55,14 +88,44 @@ export const MANIFEST: Manifest = {
   scene: { ambient: [0.4, 0.4, 0.4], background: [0.7, 0.7, 0.7], sky: false, shadows: true, grid: true, fog: null },
   physics: { gravity: [0, 0, -9.8], wind: [0, 0, 0], step: 0.001 },
   robot: 1,
-  models: [robot, model("living_room", [link("walls", 0), link("sofa", 0)], true), model("ball", [link("link", 0.3)], false), model("ground_plane", [link("link", 0)], true)],
+  models: [
+    robot,
+    model("living_room", [link("walls", 0), link("sofa", 0)], true),
+    model("ball", [link("link", 0.3)], false),
+    model("ground_plane", [link("link", 0)], true),
+  ],
   plugins: [],
   lights: [
-    { name: "sun", type: "directional", body: null, pose: [0, 0, 5, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 1, 1], intensity: 1 },
-    { name: "lamp", type: "point", body: null, pose: [1, 0, 2, 0, 0, 0], direction: [0, 0, -1], diffuse: [1, 0.9, 0.8], intensity: 1 },
+    {
+      name: "sun",
+      type: "directional",
+      body: null,
+      pose: [0, 0, 5, 0, 0, 0],
+      direction: [0, 0, -1],
+      diffuse: [1, 1, 1],
+      intensity: 1,
+    },
+    {
+      name: "lamp",
+      type: "point",
+      body: null,
+      pose: [1, 0, 2, 0, 0, 0],
+      direction: [0, 0, -1],
+      diffuse: [1, 0.9, 0.8],
+      intensity: 1,
+    },
   ],
   cameras: ["netbook_webcam", "my_sensor"].map((name) => ({
-    name, topic: `/${name}/image_raw`, body: 2, pose: [0, 0, 0, 0, 0, 0], horizontal_fov: 1, near: 0.1, far: 8, width: 320, height: 240, rate: 30,
+    name,
+    topic: `/${name}/image_raw`,
+    body: 2,
+    pose: [0, 0, 0, 0, 0, 0],
+    horizontal_fov: 1,
+    near: 0.1,
+    far: 8,
+    width: 320,
+    height: 240,
+    rate: 30,
   })),
   frames: [],
 };

@@ -40,13 +40,26 @@ async function open(
   for (const [name, position] of Object.entries(frames)) tree.set(name, "map", position);
   store?.load("Visualization Manager:\n  Displays: []\n");
   const tools = { save: () => [], load: () => [] };
-  store = new DisplayStore({ connection, names: new GraphNames(), frames: tree, scene, undo: new FakeUndo(), views, tools });
+  store = new DisplayStore({
+    connection,
+    names: new GraphNames(),
+    frames: tree,
+    scene,
+    undo: new FakeUndo(),
+    views,
+    tools,
+  });
   const faults = store.load(file);
   scene.background.value = `rgb(${store.backgroundColor.value.value.join(",")})`;
   for (const { topic, message } of messages) connection.receive(topic, message);
   scene.invalidate();
   for (let frame = 0; frame < 4; frame++) await new Promise((resolve) => requestAnimationFrame(resolve));
-  return [...faults, ...store.displays.value.flatMap((display) => [...display.statuses.value].map(([name, { level, text }]) => `${name}: ${level}: ${text}`))];
+  return [
+    ...faults,
+    ...store.displays.value.flatMap((display) =>
+      [...display.statuses.value].map(([name, { level, text }]) => `${name}: ${level}: ${text}`),
+    ),
+  ];
 }
 
 Object.assign(window, { openRviz: open, scene });

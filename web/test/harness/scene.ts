@@ -1,7 +1,20 @@
 import "../../src/theme/tokens.css";
 import "../../src/scene/conventions";
 
-import { AxesHelper, Box3, BoxGeometry, BufferGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, MeshLambertMaterial, Points, PointsMaterial, Vector3 } from "three";
+import {
+  AxesHelper,
+  Box3,
+  BoxGeometry,
+  BufferGeometry,
+  Line,
+  LineBasicMaterial,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  Points,
+  PointsMaterial,
+  Vector3,
+} from "three";
 
 import { signal } from "@preact/signals";
 
@@ -19,7 +32,17 @@ const scene = new ThreeScene(host);
 const views = new ViewList(scene, () => null);
 const connection = new FakeConnection();
 const selection = signal<Selection | null>(null);
-const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered: signal(null), editor: null, looksOnly: false });
+const tools = new ToolList({
+  connection,
+  names: new GraphNames(),
+  scene,
+  views,
+  fixedFrame: signal("map"),
+  selection,
+  hovered: signal(null),
+  editor: null,
+  looksOnly: false,
+});
 const input = new SceneInput(scene, views, (event) => tools.pointer(event));
 scene.grid.value = true;
 
@@ -27,9 +50,15 @@ const flat = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ color: "
 flat.position.set(0, 0, 0.5);
 const lit = new Mesh(new BoxGeometry(1, 1, 1), new MeshLambertMaterial({ color: "#c08040" }));
 lit.position.set(2, 1, 0.5);
-const line = new Line(new BufferGeometry().setFromPoints([new Vector3(-2, -2, 0.2), new Vector3(2, -2, 0.2)]), new LineBasicMaterial({ color: "#00ff00" }));
+const line = new Line(
+  new BufferGeometry().setFromPoints([new Vector3(-2, -2, 0.2), new Vector3(2, -2, 0.2)]),
+  new LineBasicMaterial({ color: "#00ff00" }),
+);
 const cloud = Array.from({ length: 200 }, (_, i) => new Vector3(Math.cos(i / 10), Math.sin(i / 10), 1 + i / 100));
-const points = new Points(new BufferGeometry().setFromPoints(cloud), new PointsMaterial({ color: "#ff6b4a", size: 4, sizeAttenuation: false }));
+const points = new Points(
+  new BufferGeometry().setFromPoints(cloud),
+  new PointsMaterial({ color: "#ff6b4a", size: 4, sizeAttenuation: false }),
+);
 flat.name = "Marker";
 flat.userData["selectable"] = { describe: () => ({ Namespace: "boxes" }) };
 scene.displays.add(flat, lit, line, points);

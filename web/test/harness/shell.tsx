@@ -19,10 +19,21 @@ function showGraph(page: FakePage): void {
   displays.show("rviz/Map", [98, 106, 110], "/map").status("ok", "OK");
   displays.show("rviz/Path", [47, 208, 127], "/plan").status("ok", "OK");
   displays.show("rviz/PointCloud2", [199, 155, 255], "/points").status("warn", "No messages received");
-  displays.show("rviz/PoseArray", [242, 177, 52], "/cloud").status("error", "No transform from [amcl] to [map]", "Nothing publishes amcl. Frames here: base_link, map, odom");
+  displays
+    .show("rviz/PoseArray", [242, 177, 52], "/cloud")
+    .status("error", "No transform from [amcl] to [map]", "Nothing publishes amcl. Frames here: base_link, map, odom");
   displays.show("rviz/MarkerArray", null, "/markers").enabled.value.value = false;
-  displays.unsupported.value = [{ className: "moveit_rviz_plugin/MotionPlanning", name: "MotionPlanning", reason: "MoveIt's plug-ins are not available here." }];
-  const offer = (name: string, type: string, className: string) => ({ topic: { name, type, encoding: "ros1" }, className });
+  displays.unsupported.value = [
+    {
+      className: "moveit_rviz_plugin/MotionPlanning",
+      name: "MotionPlanning",
+      reason: "MoveIt's plug-ins are not available here.",
+    },
+  ];
+  const offer = (name: string, type: string, className: string) => ({
+    topic: { name, type, encoding: "ros1" },
+    className,
+  });
   displays.offers.value = [
     offer("/move_base/local_costmap", "nav_msgs/OccupancyGrid", "rviz/Map"),
     offer("/odom", "nav_msgs/Odometry", "rviz/Odometry"),
@@ -31,7 +42,12 @@ function showGraph(page: FakePage): void {
   ];
   page.connection.advertise("/scan", "sensor_msgs/LaserScan");
   for (let index = 0; index < 20; index += 1) page.connection.receive("/scan", {});
-  page.connection.graph.value = { types: new Map(), publishers: new Map([["/scan", ["/laser", "/amcl"]]]), subscribers: new Map(), services: new Map() };
+  page.connection.graph.value = {
+    types: new Map(),
+    publishers: new Map([["/scan", ["/laser", "/amcl"]]]),
+    subscribers: new Map(),
+    services: new Map(),
+  };
   page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
   page.connection.time = 221_060_000_000n;
 }
@@ -39,13 +55,18 @@ function showGraph(page: FakePage): void {
 function showSimulation(page: FakePage): void {
   page.world.manifest.value = MANIFEST;
   page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
-  page.world.joints.value = [0.42, -0.21, 5.17, 4.59, 4.07].map((value) => ({ position: value, velocity: value, effort: 0 }));
+  page.world.joints.value = [0.42, -0.21, 5.17, 4.59, 4.07].map((value) => ({
+    position: value,
+    velocity: value,
+    effort: 0,
+  }));
   page.selection.value = { kind: "link", model: "rp2w", link: "chassis" };
   page.world.hidden.value = new Set(["ground_plane"]);
   const factor = Number(state.get("rtf") ?? "1");
   const paused = state.get("run") === "0";
   page.world.state.value = { time_ns: 12.48e9, paused, real_time_factor: factor, speed: 1, recording: { since_ns: 0 } };
-  if (state.get("notices") !== null) page.connection.notices.value = [{ level: "warning", text: "38 meshes are missing" }];
+  if (state.get("notices") !== null)
+    page.connection.notices.value = [{ level: "warning", text: "38 meshes are missing" }];
 }
 
 const graph = state.get("view") === "rviz";
@@ -58,7 +79,9 @@ document.documentElement.dataset["theme"] = page.theme.value;
 page.scene.element.style.background = page.theme.value === "light" ? "#b9bdc0" : "#2a2d31";
 const host = document.createElement("div");
 host.append(page.scene.element);
-const panels = ["Plots", "Topics", "Log", "Graph", "Timeline", "Parameters", "Services"].map((title) => panel(title.toLowerCase(), title));
+const panels = ["Plots", "Topics", "Log", "Graph", "Timeline", "Parameters", "Services"].map((title) =>
+  panel(title.toLowerCase(), title),
+);
 const root = document.getElementById("app");
 if (root !== null) mount(root, { page, panels: Promise.resolve(panels), commands: page.commands, sceneHost: host });
 Object.assign(window, { page });

@@ -11,6 +11,10 @@ export default defineConfig({
   build: {
     target: "es2022",
     minify: false,
-    rolldownOptions: { input: readdirSync(root).filter((name) => name.endsWith(".html")).map((name) => root + name) },
+    rolldownOptions: {
+      input: readdirSync(root)
+        .filter((name) => name.endsWith(".html"))
+        .map((name) => root + name),
+    },
   },
 });

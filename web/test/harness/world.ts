@@ -28,5 +28,6 @@ Object.assign(window, {
   world,
   views,
   outlined,
-  show: (manifest: unknown) => connection.receiveRaw("trundle/world", new DataView(new TextEncoder().encode(JSON.stringify(manifest)).buffer)),
+  show: (manifest: unknown) =>
+    connection.receiveRaw("trundle/world", new DataView(new TextEncoder().encode(JSON.stringify(manifest)).buffer)),
 });

@@ -13,7 +13,9 @@ describe("driving", () => {
     return { drive, connection };
   };
   const press = (key: string, target: EventTarget = document.body, type = "keydown"): boolean =>
-    target.dispatchEvent(new KeyboardEvent(type, { key, code: `Key${key.toUpperCase()}`, bubbles: true, cancelable: true }));
+    target.dispatchEvent(
+      new KeyboardEvent(type, { key, code: `Key${key.toUpperCase()}`, bubbles: true, cancelable: true }),
+    );
 
   beforeEach(() => {
     localStorage.clear();

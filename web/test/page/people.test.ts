@@ -9,7 +9,10 @@ const LINK: Selection = { kind: "link", model: "cart", link: "base" };
 
 function tell(connection: FakeConnection, you: number, ...numbers: number[]): void {
   const people = numbers.map((number) => ({ number, view_only: false, selection: null }));
-  connection.receiveRaw("trundle/people", new DataView(new TextEncoder().encode(JSON.stringify({ you, people })).buffer));
+  connection.receiveRaw(
+    "trundle/people",
+    new DataView(new TextEncoder().encode(JSON.stringify({ you, people })).buffer),
+  );
 }
 
 test("the others are shown what is selected once they are there, and whenever it changes", () => {

@@ -29,7 +29,10 @@ describe("the world's tree", () => {
 
   it("names nested models in full", () => {
     const [robot] = MANIFEST.models;
-    const nested = { ...MANIFEST, models: [{ ...MANIFEST.models[2], name: "outer", models: robot === undefined ? [] : [robot] }] } as typeof MANIFEST;
+    const nested = {
+      ...MANIFEST,
+      models: [{ ...MANIFEST.models[2], name: "outer", models: robot === undefined ? [] : [robot] }],
+    } as typeof MANIFEST;
     const keys = seenNodes(worldNode(nested), () => true, "chassis").map(({ node }) => node.key);
     expect(keys).toContain(keyOf({ kind: "link", model: "outer::rp2w", link: "chassis" }));
   });

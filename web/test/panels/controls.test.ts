@@ -28,7 +28,11 @@ describe("publishing", () => {
     expect(connection.published.length).toBe(6);
     publication.form.value?.set("data", "500");
     vi.advanceTimersByTime(200);
-    expect([connection.published.length, publication.isRunning.value, publication.fault.value]).toEqual([6, false, "data must be a whole number from -128 to 127"]);
+    expect([connection.published.length, publication.isRunning.value, publication.fault.value]).toEqual([
+      6,
+      false,
+      "data must be a whole number from -128 to 127",
+    ]);
   });
 
   test("a type that nobody knows is said", async () => {
@@ -45,7 +49,10 @@ describe("joints", () => {
     const state = new JointsState(page);
     const [gui, robot] = state.groups();
     expect(gui?.sliders.map(({ name, position }) => [name, position])).toEqual([["arm", 0.5]]);
-    expect(robot?.sliders.map(({ name, hasLimits }) => [name, hasLimits]).slice(0, 2)).toEqual([["body_camera_base", true], ["camera_base_camera", true]]);
+    expect(robot?.sliders.map(({ name, hasLimits }) => [name, hasLimits]).slice(0, 2)).toEqual([
+      ["body_camera_base", true],
+      ["camera_base_camera", true],
+    ]);
     gui?.sliders[0]?.set(1);
     robot?.sliders[1]?.set(-0.25);
     expect(page.connection.requests).toEqual([
@@ -56,13 +63,21 @@ describe("joints", () => {
   });
 
   test("all to zero stays within the limits", () => {
-    const page = fakePage({ sliders: [{ name: "a", lower: 1, upper: 2, position: 2 }, { name: "b", lower: -1, upper: 1, position: 1 }] });
+    const page = fakePage({
+      sliders: [
+        { name: "a", lower: 1, upper: 2, position: 2 },
+        { name: "b", lower: -1, upper: 1, position: 1 },
+      ],
+    });
     new JointsState(page).allToZero();
     expect(page.connection.requests.map(({ fields }) => fields["position"])).toEqual([1, 0]);
   });
 
   test("angles are shown in radians or degrees, lengths in metres", () => {
-    expect([shownUnit(false, false), shownUnit(true, true)]).toEqual([[1, "rad"], [1, "m"]]);
+    expect([shownUnit(false, false), shownUnit(true, true)]).toEqual([
+      [1, "rad"],
+      [1, "m"],
+    ]);
     expect(shownUnit(false, true)[0] * Math.PI).toBeCloseTo(180);
   });
 });
@@ -100,8 +115,17 @@ describe("joystick", () => {
 describe("dynamic_reconfigure", () => {
   const CONFIG = { bools: [], ints: [], strs: [], doubles: [{ name: "rate", value: 10 }], groups: [] };
   const DESCRIPTION = {
-    groups: [{ name: "Default", id: 0, parent: 0, parameters: [{ name: "rate", type: "double", level: 0, description: "", edit_method: "" }] }],
-    min: CONFIG, max: CONFIG, dflt: CONFIG,
+    groups: [
+      {
+        name: "Default",
+        id: 0,
+        parent: 0,
+        parameters: [{ name: "rate", type: "double", level: 0, description: "", edit_method: "" }],
+      },
+    ],
+    min: CONFIG,
+    max: CONFIG,
+    dflt: CONFIG,
   };
 
   test("a change is set, shown as answered, and taken back", async () => {
@@ -129,7 +153,13 @@ describe("the timeline", () => {
     const page = fakePage();
     const state = new TimelineState(page);
     expect(state.span()).toMatchObject({ start: 0, known: 12.48, isSeekable: false });
-    page.world.state.value = { time_ns: 2e9, paused: true, real_time_factor: null, speed: 1, timeline: { start_ns: 1e9, end_ns: 5e9 } };
+    page.world.state.value = {
+      time_ns: 2e9,
+      paused: true,
+      real_time_factor: null,
+      speed: 1,
+      timeline: { start_ns: 1e9, end_ns: 5e9 },
+    };
     expect(state.span()).toEqual({ start: 1, end: 5, known: 5, isSeekable: true });
     state.seek(3.25);
     expect(page.connection.requests).toEqual([{ name: "seek", fields: { time_ns: 3.25e9 } }]);
@@ -152,7 +182,10 @@ describe("the timeline", () => {
       page.connection.receive("/scan", {});
       vi.advanceTimersByTime(200);
     }
-    expect(state.topics.all[0]?.bands.map((band) => band.map((time) => Number(time.toFixed(2))))).toEqual([[1, 1.55], [4, 4.05]]);
+    expect(state.topics.all[0]?.bands.map((band) => band.map((time) => Number(time.toFixed(2))))).toEqual([
+      [1, 1.55],
+      [4, 4.05],
+    ]);
   });
 
   test("lanes have no holes where a recording is short and its parts are shorter than the looks", () => {
@@ -160,7 +193,13 @@ describe("the timeline", () => {
     page.connection.advertise("/scan", "sensor_msgs/LaserScan");
     const state = new TimelineState(page);
     for (let tenths = 0; tenths <= 50; tenths += 2) {
-      page.world.state.value = { time_ns: tenths * 1e8, paused: false, real_time_factor: 1, speed: 1, timeline: { start_ns: 0, end_ns: 10e9 } };
+      page.world.state.value = {
+        time_ns: tenths * 1e8,
+        paused: false,
+        real_time_factor: 1,
+        speed: 1,
+        timeline: { start_ns: 0, end_ns: 10e9 },
+      };
       page.connection.receive("/scan", {});
       vi.advanceTimersByTime(200);
     }

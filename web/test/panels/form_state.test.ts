@@ -22,9 +22,15 @@ float64[2] yz
 test("a form has a row per field, with the value of an empty message", () => {
   const form = new FormState(TYPE);
   expect(form.rows.map((row) => [row.path, row.depth, row.isHeading, row.initial])).toEqual([
-    ["header", 0, true, ""], ["header.seq", 1, false, "0"], ["header.stamp", 1, false, "0"], ["header.frame_id", 1, false, ""],
-    ["point", 0, true, ""], ["point.x", 1, false, "0"], ["point.yz", 1, false, "[0, 0]"],
-    ["latched", 0, false, "false"], ["data", 0, false, "[]"],
+    ["header", 0, true, ""],
+    ["header.seq", 1, false, "0"],
+    ["header.stamp", 1, false, "0"],
+    ["header.frame_id", 1, false, ""],
+    ["point", 0, true, ""],
+    ["point.x", 1, false, "0"],
+    ["point.yz", 1, false, "[0, 0]"],
+    ["latched", 0, false, "false"],
+    ["data", 0, false, "[]"],
   ]);
 });
 
@@ -57,23 +63,50 @@ test("a wrong field is named", () => {
 test("YAML fills the form", () => {
   const form = new FormState(TYPE);
   expect(form.load("{point: {x: 1.5, yz: [2, 3]}, header: {stamp: 2.5}, data: [7, 8]}")).toBeNull();
-  const text = (path: string): string => form.rows.filter((row) => row.path === path).map((row) => form.text(row)).join();
-  expect([text("point.x"), text("point.yz"), text("header.stamp"), text("data")]).toEqual(["1.5", "[2, 3]", "2.5", "[7, 8]"]);
+  const text = (path: string): string =>
+    form.rows
+      .filter((row) => row.path === path)
+      .map((row) => form.text(row))
+      .join();
+  expect([text("point.x"), text("point.yz"), text("header.stamp"), text("data")]).toEqual([
+    "1.5",
+    "[2, 3]",
+    "2.5",
+    "[7, 8]",
+  ]);
   expect(form.load("{width: 1}")).toBe("The message has no field width; fields here: header, point, latched, data");
 });
 
 test("numbers that can be plotted", () => {
-  expect(numericPaths(TYPE)).toEqual([".header.seq", ".point.x", ".point.yz[0]", ".point.yz[1]", ".latched", ".data[0]"]);
+  expect(numericPaths(TYPE)).toEqual([
+    ".header.seq",
+    ".point.x",
+    ".point.yz[0]",
+    ".point.yz[1]",
+    ".latched",
+    ".data[0]",
+  ]);
 });
 
 test("a type of more values than a form can hold is refused with a sentence", () => {
-  const nested = Array.from({ length: 30 }, (_, level) => `===\nMSG: a/L${level}\na/L${level + 1} one\na/L${level + 1} other\n`).join("");
-  for (const text of ["float64[1000000000] values", `a/L0 first\n${nested}===\nMSG: a/L30\nbool end\n`, "a/A first\nbool end\n===\nMSG: a/A\na/A same\n"]) {
-    expect(() => new FormState(MessageType.parse(text))).toThrow("It holds more than 100,000 values, too many for a form.");
+  const nested = Array.from(
+    { length: 30 },
+    (_, level) => `===\nMSG: a/L${level}\na/L${level + 1} one\na/L${level + 1} other\n`,
+  ).join("");
+  for (const text of [
+    "float64[1000000000] values",
+    `a/L0 first\n${nested}===\nMSG: a/L30\nbool end\n`,
+    "a/A first\nbool end\n===\nMSG: a/A\na/A same\n",
+  ]) {
+    expect(() => new FormState(MessageType.parse(text))).toThrow(
+      "It holds more than 100,000 values, too many for a form.",
+    );
   }
   expect(new FormState(MessageType.parse("float64[36] covariance")).rows).toHaveLength(1);
 });
 
 test("numbers are looked for in a type without end", () => {
-  expect(numericPaths(MessageType.parse("a/A[] same\n===\nMSG: a/A\nstring name\na/A[] one\na/A[] other\n"))).toEqual([]);
+  expect(numericPaths(MessageType.parse("a/A[] same\n===\nMSG: a/A\nstring name\na/A[] one\na/A[] other\n"))).toEqual(
+    [],
+  );
 });

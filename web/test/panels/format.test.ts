@@ -4,20 +4,28 @@ import { age, bytes, exact, significant, timeText } from "../../src/panels/messa
 import { unitOf } from "../../src/panels/messages/units";
 
 test("numbers have a true minus sign, and zero none", () => {
-  expect([significant(-0.000123456), significant(123456), significant(0)]).toEqual([
-    "−0.0001235", "123456", "0",
-  ]);
+  expect([significant(-0.000123456), significant(123456), significant(0)]).toEqual(["−0.0001235", "123456", "0"]);
   expect(significant(6.02e23)).toBe("6.020e+23");
 });
 
 test("echo writes a float32 as short as it can, a float64 whole", () => {
   expect([exact(Math.fround(0.1)), exact(0.1), exact(1 / 3), exact(123456792), exact(-5n), exact(Infinity)]).toEqual([
-    "0.1", "0.1", "0.3333333333333333", "123456792", "−5", "inf",
+    "0.1",
+    "0.1",
+    "0.3333333333333333",
+    "123456792",
+    "−5",
+    "inf",
   ]);
 });
 
 test("sizes and ages", () => {
-  expect([bytes(960), bytes(29_400), bytes(13_800_000), bytes(999_960)]).toEqual(["960 B", "29.4 kB", "13.8 MB", "1.0 MB"]);
+  expect([bytes(960), bytes(29_400), bytes(13_800_000), bytes(999_960)]).toEqual([
+    "960 B",
+    "29.4 kB",
+    "13.8 MB",
+    "1.0 MB",
+  ]);
   expect([age(0.036), age(61), age(7300)]).toEqual(["0.04 s", "1 min", "2 h"]);
 });
 

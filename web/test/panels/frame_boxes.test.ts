@@ -6,27 +6,51 @@ import { layered } from "../../src/panels/graph/layered_layout";
 
 const NOW = 100_000_000_000n;
 const frame = (name: string, parent: string | null, changes: Partial<FrameInfo> = {}): FrameInfo => ({
-  name, parent, isStatic: false, stamp: NOW, rate: 10, publisher: null, ...changes,
+  name,
+  parent,
+  isStatic: false,
+  stamp: NOW,
+  rate: 10,
+  publisher: null,
+  ...changes,
 });
 const captions = (frames: readonly FrameInfo[], fixed = "map"): Record<string, string> =>
-  Object.fromEntries(frameBoxes(frames, fixed, NOW)[0].map((box) => [box.name, `${box.kind.slice(6)}|${box.caption ?? ""}`]));
+  Object.fromEntries(
+    frameBoxes(frames, fixed, NOW)[0].map((box) => [box.name, `${box.kind.slice(6)}|${box.caption ?? ""}`]),
+  );
 
 test("frames say their rate and age, and what is wrong", () => {
   const frames = [
-    frame("odom", "map"), frame("laser", "odom", { isStatic: true, stamp: 0n, rate: null }),
-    frame("arm", "odom", { stamp: NOW - 14_000_000_000n }), frame("tag", "camera"),
+    frame("odom", "map"),
+    frame("laser", "odom", { isStatic: true, stamp: 0n, rate: null }),
+    frame("arm", "odom", { stamp: NOW - 14_000_000_000n }),
+    frame("tag", "camera"),
   ];
-  expect(captions(frames)).toEqual({ map: "|root", odom: "|10.0 Hz · 0.00 s", laser: "|static", arm: "warn|14.00 s old", tag: "warn|not connected", camera: "warn|not connected" });
+  expect(captions(frames)).toEqual({
+    map: "|root",
+    odom: "|10.0 Hz · 0.00 s",
+    laser: "|static",
+    arm: "warn|14.00 s old",
+    tag: "warn|not connected",
+    camera: "warn|not connected",
+  });
 });
 
 test("a loop of parents is an error", () => {
-  expect(captions([frame("a", "b"), frame("b", "a")], "a")).toEqual({ a: "error|loop of parents", b: "error|loop of parents" });
+  expect(captions([frame("a", "b"), frame("b", "a")], "a")).toEqual({
+    a: "error|loop of parents",
+    b: "error|loop of parents",
+  });
 });
 
 test("names that are properties of every object are names", () => {
   const names = ["__proto__", "constructor", "toString", "odom"];
   const boxes = names.map((id) => ({ id, width: 80, height: 26 }));
-  const { boxes: placed, paths } = layered(boxes, names.map((to) => ({ from: "odom", to })), "LR");
+  const { boxes: placed, paths } = layered(
+    boxes,
+    names.map((to) => ({ from: "odom", to })),
+    "LR",
+  );
   expect([...placed.keys()]).toEqual(names);
   expect(paths.every((path) => path.startsWith("M"))).toBe(true);
   expect(Object.keys(Object.prototype)).toEqual([]);
@@ -34,7 +58,16 @@ test("names that are properties of every object are names", () => {
 
 test("layers follow the arrows, without overlaps, loops too", () => {
   const boxes = ["a", "b", "c"].map((id) => ({ id, width: 80, height: 26 }));
-  const { boxes: placed, paths } = layered(boxes, [{ from: "a", to: "b" }, { from: "b", to: "c" }, { from: "c", to: "a" }, { from: "a", to: "a" }], "LR");
+  const { boxes: placed, paths } = layered(
+    boxes,
+    [
+      { from: "a", to: "b" },
+      { from: "b", to: "c" },
+      { from: "c", to: "a" },
+      { from: "a", to: "a" },
+    ],
+    "LR",
+  );
   const x = (id: string): number => placed.get(id)?.[0] ?? NaN;
   expect(x("b") - x("a")).toBeGreaterThan(80);
   expect(x("c") - x("b")).toBeGreaterThan(80);

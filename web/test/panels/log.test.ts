@@ -4,7 +4,13 @@ import { entryOf, filtered, LEVELS, type LogFilter } from "../../src/panels/log/
 
 const message = (level: number, name: string, msg: string) => ({
   header: { seq: 0, stamp: { sec: 3, nsec: 110_000_000 }, frame_id: "" },
-  level, name, msg, file: "drive.cpp", function: "main", line: 42, topics: [],
+  level,
+  name,
+  msg,
+  file: "drive.cpp",
+  function: "main",
+  line: 42,
+  topics: [],
 });
 const entries = [
   entryOf(1, message(1, "/drive", "tick")),
@@ -15,7 +21,14 @@ const all: LogFilter = { levels: new Set(LEVELS), node: "", text: "" };
 const ids = (filter: Partial<LogFilter>): number[] => filtered(entries, { ...all, ...filter }).map((entry) => entry.id);
 
 test("an entry has time, level and source", () => {
-  expect(entries[1]).toMatchObject({ time: 3.11, level: "Warn", node: "/drive", file: "drive.cpp", line: 42, function: "main" });
+  expect(entries[1]).toMatchObject({
+    time: 3.11,
+    level: "Warn",
+    node: "/drive",
+    file: "drive.cpp",
+    line: 42,
+    function: "main",
+  });
   expect(entries[2]?.level).toBe("Fatal");
 });
 

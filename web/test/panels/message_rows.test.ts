@@ -25,14 +25,27 @@ test("long arrays are summarised, and open by the hundred", () => {
   const message = { ranges: Float32Array.from({ length: 250 }, (_, index) => index / 2) };
   const closed = messageRows("sensor_msgs/LaserScan", message, () => false);
   expect(closed.map((row) => row.text)).toEqual(["[0, 0.5, 1, 1.5, …] 250 elements"]);
-  const open = messageRows("sensor_msgs/LaserScan", message, (key) => key === ".ranges" || key.startsWith(".ranges[200"));
-  expect(open.map((row) => row.name).slice(0, 5)).toEqual(["ranges", "[0 … 99]", "[100 … 199]", "[200 … 249]", "[200]"]);
+  const open = messageRows(
+    "sensor_msgs/LaserScan",
+    message,
+    (key) => key === ".ranges" || key.startsWith(".ranges[200"),
+  );
+  expect(open.map((row) => row.name).slice(0, 5)).toEqual([
+    "ranges",
+    "[0 … 99]",
+    "[100 … 199]",
+    "[200 … 249]",
+    "[200]",
+  ]);
   expect(open.at(-1)).toMatchObject({ key: ".ranges[249]", text: "124.5", unit: "m" });
   expect(valueText(new Uint8Array(921_600))).toBe("921600 bytes");
 });
 
 test("elements that the message names go by their names", () => {
   const rows = messageRows("sensor_msgs/JointState", { name: ["left", "right"], position: [1, 2], effort: [] }, all);
-  expect(rows.filter((row) => row.key.startsWith(".position[")).map((row) => [row.key, row.name])).toEqual([[".position[0]", "left"], [".position[1]", "right"]]);
+  expect(rows.filter((row) => row.key.startsWith(".position[")).map((row) => [row.key, row.name])).toEqual([
+    [".position[0]", "left"],
+    [".position[1]", "right"],
+  ]);
   expect(rows.at(-1)).toMatchObject({ name: "effort", text: "[]", open: undefined });
 });

@@ -2,8 +2,13 @@ import { expect, test } from "vitest";
 
 import { parameterFromText, parameterRows, parameterText } from "../../src/panels/parameters/parameter_tree";
 
-const parameters = new Map<string, string | number>([["/robot", "r2"], ["/base/rate", 10], ["/base/pid/p", 1.5]]);
-const names = (closed: string[], text = ""): string[] => parameterRows(parameters, new Set(closed), text).map((row) => `${"  ".repeat(row.depth)}${row.label}`);
+const parameters = new Map<string, string | number>([
+  ["/robot", "r2"],
+  ["/base/rate", 10],
+  ["/base/pid/p", 1.5],
+]);
+const names = (closed: string[], text = ""): string[] =>
+  parameterRows(parameters, new Set(closed), text).map((row) => `${"  ".repeat(row.depth)}${row.label}`);
 
 test("a tree of namespaces, closed and filtered", () => {
   expect(names([])).toEqual(["base", "  pid", "    p", "  rate", "robot"]);

@@ -7,7 +7,9 @@ import { PlotsState } from "../../src/panels/plots/plots_state";
 import { fakePage } from "../fake_page";
 import { MANIFEST } from "../harness/manifest";
 
-const at = (sec: number): { header: { stamp: { sec: number; nsec: number } } } => ({ header: { stamp: { sec, nsec: 0 } } });
+const at = (sec: number): { header: { stamp: { sec: number; nsec: number } } } => ({
+  header: { stamp: { sec, nsec: 0 } },
+});
 
 describe("the legend", () => {
   test.each([
@@ -67,8 +69,14 @@ describe("a curve", () => {
 describe("a curve of the simulation", () => {
   const PATH = "rp2w::chassis.pose.x";
   /** Rows of a time and a value. */
-  const message = (first: number, rows: readonly (readonly [number, number])[], faults: Record<string, string> = {}): DataView => {
-    const head = new TextEncoder().encode(JSON.stringify({ names: rows.length > 0 ? [PATH] : [], units: ["m"], faults }));
+  const message = (
+    first: number,
+    rows: readonly (readonly [number, number])[],
+    faults: Record<string, string> = {},
+  ): DataView => {
+    const head = new TextEncoder().encode(
+      JSON.stringify({ names: rows.length > 0 ? [PATH] : [], units: ["m"], faults }),
+    );
     const view = new DataView(new ArrayBuffer(12 + head.length + 16 * rows.length));
     view.setBigUint64(0, BigInt(first), true);
     view.setUint32(8, head.length, true);
@@ -81,9 +89,24 @@ describe("a curve of the simulation", () => {
     const page = fakePage();
     const curve = new Curve(page, PATH);
     expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [PATH] } });
-    page.connection.receiveRaw("trundle/series", message(4, [[1, 10], [2, 20]]));
-    page.connection.receiveRaw("trundle/series", message(5, [[2, 20], [3, 30]]));
-    expect(curve.points.between(-Infinity, Infinity).map((part) => [...part])).toEqual([[1, 2, 3], [10, 20, 30]]);
+    page.connection.receiveRaw(
+      "trundle/series",
+      message(4, [
+        [1, 10],
+        [2, 20],
+      ]),
+    );
+    page.connection.receiveRaw(
+      "trundle/series",
+      message(5, [
+        [2, 20],
+        [3, 30],
+      ]),
+    );
+    expect(curve.points.between(-Infinity, Infinity).map((part) => [...part])).toEqual([
+      [1, 2, 3],
+      [10, 20, 30],
+    ]);
     expect([curve.unit.value, curve.fault.value]).toEqual(["m", ""]);
     curve.close();
     expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [] } });
@@ -92,9 +115,19 @@ describe("a curve of the simulation", () => {
   test("goes on from an earlier moment without what came after it", () => {
     const page = fakePage();
     const curve = new Curve(page, PATH);
-    page.connection.receiveRaw("trundle/series", message(0, [[1, 10], [2, 20], [3, 30]]));
+    page.connection.receiveRaw(
+      "trundle/series",
+      message(0, [
+        [1, 10],
+        [2, 20],
+        [3, 30],
+      ]),
+    );
     page.connection.receiveRaw("trundle/series", message(3, [[1.5, 15]]));
-    expect(curve.points.between(-Infinity, Infinity).map((part) => [...part])).toEqual([[1, 1.5], [10, 15]]);
+    expect(curve.points.between(-Infinity, Infinity).map((part) => [...part])).toEqual([
+      [1, 1.5],
+      [10, 15],
+    ]);
   });
 
   test("says why there are no values", () => {

@@ -4,18 +4,33 @@ import { parseLiteral } from "../../src/panels/reconfigure/python_literal";
 import { configValues, describedGroups, hasSlider, setRequest } from "../../src/panels/reconfigure/reconfigure_config";
 
 test("python's literals", () => {
-  expect(parseLiteral(`{'a': [1, -2.5, True], u"b": None, 'c': ('it\\'s',)}`)).toEqual({ a: [1, -2.5, true], b: null, c: ["it's"] });
-  for (const bad of ["{'a': }", "[1", "'open", "__import__('os')", "1 2", "constructor", "[".repeat(100_000)]) expect(parseLiteral(bad)).toBeUndefined();
+  expect(parseLiteral(`{'a': [1, -2.5, True], u"b": None, 'c': ('it\\'s',)}`)).toEqual({
+    a: [1, -2.5, true],
+    b: null,
+    c: ["it's"],
+  });
+  for (const bad of ["{'a': }", "[1", "'open", "__import__('os')", "1 2", "constructor", "[".repeat(100_000)])
+    expect(parseLiteral(bad)).toBeUndefined();
 });
 
 const EDIT = `{'enum_description': 'Size', 'enum': [{'srcline': 9, 'description': 'A small one', 'value': 0, 'type': 'int', 'name': 'Small'}]}`;
-const config = (doubles: readonly { name: string; value: number }[], ints: readonly { name: string; value: number }[] = []) => ({
-  bools: [{ name: "on", value: true }], ints, strs: [], doubles, groups: [],
+const config = (
+  doubles: readonly { name: string; value: number }[],
+  ints: readonly { name: string; value: number }[] = [],
+) => ({
+  bools: [{ name: "on", value: true }],
+  ints,
+  strs: [],
+  doubles,
+  groups: [],
 });
 const description = {
   groups: [
     {
-      name: "Default", type: "", parent: 0, id: 0,
+      name: "Default",
+      type: "",
+      parent: 0,
+      id: 0,
       parameters: [
         { name: "rate", type: "double", level: 0, description: "Rate [Hz]", edit_method: "" },
         { name: "size", type: "int", level: 0, description: "", edit_method: EDIT },
@@ -40,6 +55,8 @@ test("a description becomes groups of options with limits and choices", () => {
 test("one option is set by a config of that alone", () => {
   const [rate] = describedGroups(description)[0]?.options ?? [];
   const request = rate && setRequest(rate, 20);
-  expect(request).toEqual({ config: { bools: [], ints: [], strs: [], doubles: [{ name: "rate", value: 20 }], groups: [] } });
+  expect(request).toEqual({
+    config: { bools: [], ints: [], strs: [], doubles: [{ name: "rate", value: 20 }], groups: [] },
+  });
   expect(configValues(request?.["config"])).toEqual(new Map([["rate", 20]]));
 });

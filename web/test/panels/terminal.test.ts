@@ -68,7 +68,7 @@ test.each([
   ["device attributes", "\u001b[c\u001b[0c\u001b[>c"],
   ["cursor and status", "\u001b[5n\u001b[6n\u001b[?6n"],
   ["modes", "\u001b[4$p\u001b[?25$p"],
-  ["status strings", "\u001bP$qm\u001b\\\u001bP$q\"p\u001b\\"],
+  ["status strings", '\u001bP$qm\u001b\\\u001bP$q"p\u001b\\'],
   ["colours", "\u001b]4;1;?\u0007\u001b]10;?\u0007\u001b]11;?\u0007\u001b]12;?\u0007"],
   ["the window", "\u001b[14t\u001b[16t\u001b[18t\u001b[21t"],
   ["focus", "\u001b[?1004h"],
@@ -86,7 +86,12 @@ test("titles and links of a program stay out of the page", async () => {
   silence(terminal);
   const titles: string[] = [];
   terminal.onTitleChange((title) => titles.push(title));
-  await new Promise<void>((resolve) => terminal.write("\u001b]0;evil\u0007\u001b]2;evil\u0007\u001b]8;;javascript:alert(1)\u0007text\u001b]8;;\u0007", resolve));
+  await new Promise<void>((resolve) =>
+    terminal.write(
+      "\u001b]0;evil\u0007\u001b]2;evil\u0007\u001b]8;;javascript:alert(1)\u0007text\u001b]8;;\u0007",
+      resolve,
+    ),
+  );
   expect(titles).toEqual([]);
   expect(terminal.buffer.active.getLine(0)?.translateToString(true)).toBe("text");
 });

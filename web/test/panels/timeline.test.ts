@@ -11,14 +11,30 @@ import { FakeConnection } from "../fake_connection";
 const BAG: BagLanes = {
   start_ns: 100e9,
   bucket_ns: 0.5e9,
-  topics: { "/tf": { count: 7, bands: [[0, 3], [10, 10]] }, "/scan": { count: 1, bands: [[2, 2]] } },
+  topics: {
+    "/tf": {
+      count: 7,
+      bands: [
+        [0, 3],
+        [10, 10],
+      ],
+    },
+    "/scan": { count: 1, bands: [[2, 2]] },
+  },
 };
 
 describe("lanes of a bag", () => {
   it("are by topic, in seconds; a stretch ends with its last bucket", () => {
     expect(stretchesOf(BAG)).toEqual([
       { topic: "/scan", count: 1, bands: [[101, 101.5]] },
-      { topic: "/tf", count: 7, bands: [[100, 102], [105, 105.5]] },
+      {
+        topic: "/tf",
+        count: 7,
+        bands: [
+          [100, 102],
+          [105, 105.5],
+        ],
+      },
     ]);
   });
 
@@ -58,13 +74,32 @@ describe("topics of a run", () => {
 describe("intervals", () => {
   it("go on while they are noted", () => {
     const intervals = new Intervals();
-    for (const [isOn, time] of [[false, 1], [true, 2], [true, 3], [false, 4], [false, 5], [true, 6]] as const) intervals.note(isOn, time);
-    expect(intervals.bands).toEqual([[2, 4], [6, 6]]);
+    for (const [isOn, time] of [
+      [false, 1],
+      [true, 2],
+      [true, 3],
+      [false, 4],
+      [false, 5],
+      [true, 6],
+    ] as const)
+      intervals.note(isOn, time);
+    expect(intervals.bands).toEqual([
+      [2, 4],
+      [6, 6],
+    ]);
   });
 
   it("after a time are forgotten when it begins again there", () => {
     const intervals = new Intervals();
-    for (const [isOn, time] of [[true, 1], [true, 4], [false, 5], [true, 7], [true, 8], [false, 3]] as const) intervals.note(isOn, time);
+    for (const [isOn, time] of [
+      [true, 1],
+      [true, 4],
+      [false, 5],
+      [true, 7],
+      [true, 8],
+      [false, 3],
+    ] as const)
+      intervals.note(isOn, time);
     expect(intervals.bands).toEqual([[1, 3]]);
   });
 });
@@ -78,10 +113,18 @@ function contacts(...pairs: readonly (readonly [number, number])[]): DataView {
 }
 
 describe("contacts", () => {
-  const models = new Map([[0, "floor"], [1, "cart"], [2, "cart"], [3, "crate"]]);
+  const models = new Map([
+    [0, "floor"],
+    [1, "cart"],
+    [2, "cart"],
+    [3, "crate"],
+  ]);
 
   it("are of pairs of models, in either order, and not within one", () => {
-    expect([...touchingPairs(contacts([1, 0], [0, 2], [3, 2], [1, 2], [-1, 3]), 3, models)]).toEqual(["cart · floor", "cart · crate"]);
+    expect([...touchingPairs(contacts([1, 0], [0, 2], [3, 2], [1, 2], [-1, 3]), 3, models)]).toEqual([
+      "cart · floor",
+      "cart · crate",
+    ]);
     expect(touchingPairs(contacts([1, 0]), 4, models).size).toBe(0);
     expect(touchingPairs(new DataView(contacts([1, 0], [3, 2]).buffer, 0, 100), 3, models).size).toBe(1);
   });
@@ -89,7 +132,13 @@ describe("contacts", () => {
   it("are kept with when they were, once for each moment", () => {
     const lanes = new ContactTimes();
     const floor = new Set(["cart · floor"]);
-    for (const [touching, time, known] of [[floor, 1, 1], [new Set([...floor, "cart · crate"]), 2, 1], [floor, 3, 2], [new Set(["a · b"]), 1.5, 3]] as const) lanes.note(touching, time, known);
+    for (const [touching, time, known] of [
+      [floor, 1, 1],
+      [new Set([...floor, "cart · crate"]), 2, 1],
+      [floor, 3, 2],
+      [new Set(["a · b"]), 1.5, 3],
+    ] as const)
+      lanes.note(touching, time, known);
     expect(lanes.all).toEqual([
       { pair: "cart · crate", bands: [[2, 3]] },
       { pair: "cart · floor", bands: [[1, 3]] },

@@ -61,7 +61,14 @@ describe("typed values", () => {
     ["on", "true", true],
     ["timeout", "1.5", { sec: 1, nsec: 500_000_000 }],
     ["timeout", "now", { sec: 12, nsec: 500_000_000 }],
-    ["points", "[{x: 1}, [4, 5, 6]]", [{ x: 1, y: 0, z: 0 }, { x: 4, y: 5, z: 6 }]],
+    [
+      "points",
+      "[{x: 1}, [4, 5, 6]]",
+      [
+        { x: 1, y: 0, z: 0 },
+        { x: 4, y: 5, z: 6 },
+      ],
+    ],
   ])("%s: %s", (name, text, expected) => expect(value(name, text)).toEqual(expected));
 
   test.each([

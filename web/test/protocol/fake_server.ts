@@ -51,7 +51,10 @@ export class FakeSocket implements Socket {
   }
 
   ops(op: string): Record<string, unknown>[] {
-    return this.sent.filter((frame) => !(frame instanceof ArrayBuffer) && frame["op"] === op) as Record<string, unknown>[];
+    return this.sent.filter((frame) => !(frame instanceof ArrayBuffer) && frame["op"] === op) as Record<
+      string,
+      unknown
+    >[];
   }
 
   #receive(data: string | ArrayBuffer): void {

@@ -26,7 +26,8 @@ function collect(topic: string, options: { every?: boolean } = {}) {
     ...options,
     onError: (text) => errors.push(text),
   });
-  const until = (count: number) => vi.waitFor(() => expect(received.length + errors.length).toBeGreaterThanOrEqual(count));
+  const until = (count: number) =>
+    vi.waitFor(() => expect(received.length + errors.length).toBeGreaterThanOrEqual(count));
   return { received, errors, subscription, until };
 }
 

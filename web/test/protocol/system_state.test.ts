@@ -24,21 +24,35 @@ test("parameters come while they are watched", () => {
     "subscribeParameterUpdates",
     "getParameters",
   ]);
-  server.socket.text({ op: "parameterValues", parameters: [{ name: "/a", value: [1] }, { name: "/b", value: "x" }] });
+  server.socket.text({
+    op: "parameterValues",
+    parameters: [
+      { name: "/a", value: [1] },
+      { name: "/b", value: "x" },
+    ],
+  });
   server.socket.text({ op: "parameterValues", parameters: [{ name: "/b" }] });
   expect(server.connection.parameters.value).toEqual(new Map([["/a", [1]]]));
   stop();
   expect(server.socket.ops("unsubscribeParameterUpdates")).toHaveLength(1);
 
   server.connection.setParameter("/a", undefined);
-  expect(server.socket.ops("setParameters")[0]).toEqual({ op: "setParameters", parameters: [{ name: "/a" }], id: "set" });
+  expect(server.socket.ops("setParameters")[0]).toEqual({
+    op: "setParameters",
+    parameters: [{ name: "/a" }],
+    id: "set",
+  });
 });
 
 test("floats stay floats, also where they are whole", () => {
   greeted();
   server.socket.text({
     op: "parameterValues",
-    parameters: [{ name: "/a", value: 1, type: "float64" }, { name: "/b", value: [1], type: "float64_array" }, { name: "/c", value: 1 }],
+    parameters: [
+      { name: "/a", value: 1, type: "float64" },
+      { name: "/b", value: [1], type: "float64_array" },
+      { name: "/c", value: 1 },
+    ],
   });
   expect(server.connection.floatParameters.value).toEqual(new Set(["/a", "/b"]));
   server.connection.setParameter("/a", 2);
@@ -66,14 +80,24 @@ test("the graph comes while it is watched, again after a loss", () => {
   server.connection.graph.subscribe(() => undefined);
   greeted();
   expect(server.socket.ops("subscribeConnectionGraph")).toHaveLength(1);
-  const update = { publishedTopics: [], subscribedTopics: [], advertisedServices: [], removedTopics: [], removedServices: [] };
+  const update = {
+    publishedTopics: [],
+    subscribedTopics: [],
+    advertisedServices: [],
+    removedTopics: [],
+    removedServices: [],
+  };
   server.socket.text({
     op: "connectionGraphUpdate",
     ...update,
     publishedTopics: [{ name: "/a", publisherIds: ["/n"] }],
     advertisedServices: [{ name: "/s", providerIds: ["/n"] }],
   });
-  server.socket.text({ op: "connectionGraphUpdate", ...update, subscribedTopics: [{ name: "/a", subscriberIds: ["/m"], type: "std_msgs/String" }] });
+  server.socket.text({
+    op: "connectionGraphUpdate",
+    ...update,
+    subscribedTopics: [{ name: "/a", subscriberIds: ["/m"], type: "std_msgs/String" }],
+  });
   expect(server.connection.graph.value).toEqual({
     types: new Map([["/a", "std_msgs/String"]]),
     publishers: new Map([["/a", ["/n"]]]),

@@ -55,7 +55,9 @@ function lost(before: Yaml, after: Yaml | undefined, path = ""): string[] {
     if (!Array.isArray(after)) return [path];
     return before.flatMap((value: Yaml, index) => lost(value, after[index] as Yaml | undefined, `${path}/${index}`));
   }
-  return before === after || (before === null && after === "") ? [] : [`${path}: ${JSON.stringify(before)} → ${JSON.stringify(after)}`];
+  return before === after || (before === null && after === "")
+    ? []
+    : [`${path}: ${JSON.stringify(before)} → ${JSON.stringify(after)}`];
 }
 
 describe.skipIf(FILES.length === 0)("the corpus' .rviz files (skipped where ../shared/corpus is absent)", () => {
@@ -81,16 +83,41 @@ describe.skipIf(FILES.length === 0)("the corpus' .rviz files (skipped where ../s
     const shown = found.flatMap((file) => file.shown);
     const refused = found.flatMap((file) => file.refused);
     expect(refused.filter((name) => name.startsWith("rviz/"))).toEqual([]);
-    const unknown = new Set(shown.flatMap((display) => Object.keys(display.unknown).map((key) => `${display.className}: ${key}`)));
+    const unknown = new Set(
+      shown.flatMap((display) => Object.keys(display.unknown).map((key) => `${display.className}: ${key}`)),
+    );
     expect([...unknown].sort()).toEqual(["rviz/Odometry: Color", "rviz/Odometry: Length"]); // of rviz in ROS Hydro; Noetic's knows neither
     expect([shown.length, refused.length]).toEqual([SHOWN, OTHERS]);
   });
 
   it("name displays of rviz' own, all of which are shown", () => {
-    const names = new Set(FILES.flatMap((name) => readFileSync(join(CORPUS, name), "utf8").match(/(?<=Class: )rviz\/\w+/g) ?? []));
-    const others = new Set(["Displays", "Selection", "Tool Properties", "Views", "Time", "Help", "Tool", "Interact", "MoveCamera",
-      "Select", "FocusCamera", "Measure", "SetInitialPose", "SetGoal", "PublishPoint", "Orbit", "XYOrbit", "TopDownOrtho",
-      "ThirdPersonFollower", "FPS"].map((short) => `rviz/${short}`));
+    const names = new Set(
+      FILES.flatMap((name) => readFileSync(join(CORPUS, name), "utf8").match(/(?<=Class: )rviz\/\w+/g) ?? []),
+    );
+    const others = new Set(
+      [
+        "Displays",
+        "Selection",
+        "Tool Properties",
+        "Views",
+        "Time",
+        "Help",
+        "Tool",
+        "Interact",
+        "MoveCamera",
+        "Select",
+        "FocusCamera",
+        "Measure",
+        "SetInitialPose",
+        "SetGoal",
+        "PublishPoint",
+        "Orbit",
+        "XYOrbit",
+        "TopDownOrtho",
+        "ThirdPersonFollower",
+        "FPS",
+      ].map((short) => `rviz/${short}`),
+    );
     expect([...names].filter((name) => !others.has(name) && displayClass(name) === undefined)).toEqual([]);
   });
 });

@@ -35,7 +35,12 @@ test("a label covers no other's anchor", () => {
   for (const shown of placed(requests)) {
     const { box } = shown;
     const other = requests.find((each) => each !== shown);
-    const isInside = other !== undefined && other.x >= box.x && other.x <= box.x + box.width && other.y >= box.y && other.y <= box.y + BAND;
+    const isInside =
+      other !== undefined &&
+      other.x >= box.x &&
+      other.x <= box.x + box.width &&
+      other.y >= box.y &&
+      other.y <= box.y + BAND;
     expect(isInside).toBe(false);
   }
 });

@@ -91,7 +91,10 @@ describe("a picture beside the canvas", () => {
     picture.fit(30, 20);
     expect(context.sizes.length).toBe(before);
     picture.fit(60, 20);
-    expect(context.sizes.slice(before)).toEqual([[60, 20], [60, 20]]);
+    expect(context.sizes.slice(before)).toEqual([
+      [60, 20],
+      [60, 20],
+    ]);
   });
 
   it("is created again in its size when a lost context is restored", () => {

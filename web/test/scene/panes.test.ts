@@ -19,10 +19,22 @@ test("one pane is the whole scene", () => {
 
 test("the free part is halved, and each panel covers the panes beside it", () => {
   const [right, left, bottom, corner] = panePlaces("four", SIZE, INSETS, 40);
-  expect(left).toEqual({ area: { left: 0, top: 0, width: 600, height: 210 }, insets: { left: 300, right: 0, top: 50, bottom: 0 } });
-  expect(right).toEqual({ area: { left: 600, top: 0, width: 400, height: 210 }, insets: { left: 0, right: 100, top: 50, bottom: 0 } });
-  expect(bottom).toEqual({ area: { left: 0, top: 210, width: 600, height: 390 }, insets: { left: 300, right: 0, top: 0, bottom: 190 } });
-  expect(corner).toEqual({ area: { left: 600, top: 210, width: 400, height: 390 }, insets: { left: 0, right: 100, top: 0, bottom: 190 } });
+  expect(left).toEqual({
+    area: { left: 0, top: 0, width: 600, height: 210 },
+    insets: { left: 300, right: 0, top: 50, bottom: 0 },
+  });
+  expect(right).toEqual({
+    area: { left: 600, top: 0, width: 400, height: 210 },
+    insets: { left: 0, right: 100, top: 50, bottom: 0 },
+  });
+  expect(bottom).toEqual({
+    area: { left: 0, top: 210, width: 600, height: 390 },
+    insets: { left: 300, right: 0, top: 0, bottom: 190 },
+  });
+  expect(corner).toEqual({
+    area: { left: 600, top: 210, width: 400, height: 390 },
+    insets: { left: 0, right: 100, top: 0, bottom: 190 },
+  });
 });
 
 test("a pane that is pressed is the active one, and has the pointer until the button goes up", () => {

@@ -1,8 +1,19 @@
 import "../../src/scene/conventions";
 
 import {
-  BoxGeometry, BufferGeometry, Float32BufferAttribute, Group, InstancedMesh, Line, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, Points,
-  SphereGeometry, Vector3,
+  BoxGeometry,
+  BufferGeometry,
+  Float32BufferAttribute,
+  Group,
+  InstancedMesh,
+  Line,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Points,
+  SphereGeometry,
+  Vector3,
 } from "three";
 import { expect, test } from "vitest";
 
@@ -91,7 +102,12 @@ test("the ground is met where the ray crosses z = 0; not above the horizon", () 
 
 test("the camera's axis meets the middle of the free area", () => {
   const camera = cameraAt(5, 0, 0);
-  centreOn(freeArea(SIZE.width, SIZE.height, { left: 200, right: 0, top: 40, bottom: 100 }), camera, SIZE.width, SIZE.height);
+  centreOn(
+    freeArea(SIZE.width, SIZE.height, { left: 200, right: 0, top: 40, bottom: 100 }),
+    camera,
+    SIZE.width,
+    SIZE.height,
+  );
   camera.updateProjectionMatrix();
 
   const seen = toPicture(new Vector3(), camera, SIZE);

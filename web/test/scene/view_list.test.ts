@@ -16,7 +16,12 @@ function setUp(isReduced = false) {
   let drawn = 0;
   window.matchMedia = () => ({ matches: isReduced }) as MediaQueryList;
   const insets = signal<Insets>({ left: 0, right: 0, top: 0, bottom: 0 });
-  const panes = new ScenePanes(document.createElement("div"), new LabelSet(() => undefined), signal({ width: 800, height: 600 }), insets);
+  const panes = new ScenePanes(
+    document.createElement("div"),
+    new LabelSet(() => undefined),
+    signal({ width: 800, height: 600 }),
+    insets,
+  );
   const scene: ViewScene = {
     panes,
     onTick: (tick) => {
@@ -63,7 +68,8 @@ test("the camera follows a body, stops where it is, and costs no picture while n
 
 test("framing takes some time, and none where reduced motion is asked for", () => {
   const box = new Box3(new Vector3(9, 9, 0), new Vector3(11, 11, 2));
-  const looksAt = ({ views }: ReturnType<typeof setUp>): Vector3 => views.current.value.focus(views.active.value.target);
+  const looksAt = ({ views }: ReturnType<typeof setUp>): Vector3 =>
+    views.current.value.focus(views.active.value.target);
   const smooth = setUp();
   smooth.views.frame(box);
   smooth.wait(0.1);
@@ -79,7 +85,9 @@ test("framing takes some time, and none where reduced motion is asked for", () =
 
 test("another class shows the same place; a side that it cannot show brings Orbit back", () => {
   const { pane, views, wait } = setUp(true);
-  views.load({ Current: { Class: "rviz/Orbit", Distance: 4, "Focal Point": { X: 3, Y: 2, Z: 0 }, Yaw: 1, Pitch: 0.6 } });
+  views.load({
+    Current: { Class: "rviz/Orbit", Distance: 4, "Focal Point": { X: 3, Y: 2, Z: 0 }, Yaw: 1, Pitch: 0.6 },
+  });
   wait(0.1);
   const place = pane.camera.value.position.clone();
   views.use("rviz/FPS");
@@ -123,12 +131,32 @@ test("views of a file: saved ones, those of old files and of ROS 2; unknown ones
 
 test("further panes look at the same place from top, front and right; what is asked is done by the active one", () => {
   const { panes, pane, views, wait } = setUp(true);
-  views.load({ Current: { Class: "rviz/Orbit", Distance: 4, "Focal Point": { X: 3, Y: 2, Z: 1 }, Yaw: 1, Pitch: 0.6, "Target Frame": "map" } });
+  views.load({
+    Current: {
+      Class: "rviz/Orbit",
+      Distance: 4,
+      "Focal Point": { X: 3, Y: 2, Z: 1 },
+      Yaw: 1,
+      Pitch: 0.6,
+      "Target Frame": "map",
+    },
+  });
   panes.layout.value = "four";
   wait(0.1);
-  const eyes = views.panes.value.slice(1).map(({ pane: { camera } }) => camera.value.position.clone().sub(new Vector3(3, 2, 1)).normalize());
-  expect(eyes.map(({ x, y, z }) => [x, y, z].map((part) => Math.round(part) + 0))).toEqual([[0, 0, 1], [1, 0, 0], [0, -1, 0]]);
-  expect(views.panes.value.slice(1).every(({ pane: { camera } }) => camera.value instanceof OrthographicCamera)).toBe(true);
+  const eyes = views.panes.value.slice(1).map(({ pane: { camera } }) =>
+    camera.value.position
+      .clone()
+      .sub(new Vector3(3, 2, 1))
+      .normalize(),
+  );
+  expect(eyes.map(({ x, y, z }) => [x, y, z].map((part) => Math.round(part) + 0))).toEqual([
+    [0, 0, 1],
+    [1, 0, 0],
+    [0, -1, 0],
+  ]);
+  expect(views.panes.value.slice(1).every(({ pane: { camera } }) => camera.value instanceof OrthographicCamera)).toBe(
+    true,
+  );
 
   const front = views.panes.value[2];
   if (front !== undefined) views.activate(front);
@@ -138,7 +166,12 @@ test("further panes look at the same place from top, front and right; what is as
   expect(views.panes.value).toEqual([front]); // the active one stays
   expect(views.current.value.className).toBe("rviz/FPS");
   panes.layout.value = "four";
-  expect(views.panes.value.map(({ view }) => view.value.className)).toEqual(["rviz/Orbit", "rviz/Orbit", "rviz/FPS", "rviz/Orbit"]);
+  expect(views.panes.value.map(({ view }) => view.value.className)).toEqual([
+    "rviz/Orbit",
+    "rviz/Orbit",
+    "rviz/FPS",
+    "rviz/Orbit",
+  ]);
   views.stepPane(1);
   views.stepPane(1);
   expect(panes.active.value).toBe(pane);
@@ -157,7 +190,9 @@ test("a file keeps every pane's view, and rviz the active one's", () => {
   const { views } = setUp();
   expect(views.load(file)).toEqual([]);
   expect(views.layout.value).toBe("beside");
-  expect(views.panes.value.map((pane) => pane.current.value.save())).toEqual(from.panes.value.map((pane) => pane.current.value.save()));
+  expect(views.panes.value.map((pane) => pane.current.value.save())).toEqual(
+    from.panes.value.map((pane) => pane.current.value.save()),
+  );
   expect(views.active.value).toBe(views.panes.value[1]);
   expect(views.save()).toEqual(file);
   views.layout.value = "one";
@@ -169,12 +204,22 @@ test("a page of one pane shows a file's active view, and leaves its panes to the
   const { views } = setUp();
   views.onFileLayout = () => undefined;
   const current = { Class: "rviz/Orbit", Distance: 4 };
-  views.load({ Current: current, "Trundle Panes": { Layout: "four", Active: 1, Panes: [{ Class: "rviz/FPS" }, current] } });
+  views.load({
+    Current: current,
+    "Trundle Panes": { Layout: "four", Active: 1, Panes: [{ Class: "rviz/FPS" }, current] },
+  });
   expect(views.current.value.save()).toMatchObject(current);
   expect(views.save()).not.toHaveProperty("Trundle Panes");
 });
 
-test.each([null, 3, {}, { Layout: "six", Panes: [] }, { Layout: "four", Panes: 1 }, { Layout: "beside", Active: 1e9, Panes: [1, { Class: "x" }] }])("panes that are none do no harm: %j", (panes) => {
+test.each([
+  null,
+  3,
+  {},
+  { Layout: "six", Panes: [] },
+  { Layout: "four", Panes: 1 },
+  { Layout: "beside", Active: 1e9, Panes: [1, { Class: "x" }] },
+])("panes that are none do no harm: %j", (panes) => {
   const { views } = setUp();
   views.load({ Current: { Class: "rviz/Orbit", Distance: 4 }, "Trundle Panes": panes });
   expect(views.panes.value.length).toBeGreaterThan(0);

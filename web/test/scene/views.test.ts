@@ -47,12 +47,15 @@ test("Orbit stands where rviz's formula says, and looks at the focal point", () 
   expect(seen(view, new Vector3(1, 2, 3)).x).toBeCloseTo(400);
 });
 
-test.each([new Orbit(), new XYOrbit(), new TopDownOrtho()])("panning carries what lies at the focal point along with the pointer", (view) => {
-  view.pan(30, -20, PICTURE);
-  const after = seen(view, new Vector3());
-  expect(after.x - 400).toBeCloseTo(30, -1);
-  expect(after.y - 300).toBeCloseTo(-20, -1);
-});
+test.each([new Orbit(), new XYOrbit(), new TopDownOrtho()])(
+  "panning carries what lies at the focal point along with the pointer",
+  (view) => {
+    view.pan(30, -20, PICTURE);
+    const after = seen(view, new Vector3());
+    expect(after.x - 400).toBeCloseTo(30, -1);
+    expect(after.y - 300).toBeCloseTo(-20, -1);
+  },
+);
 
 test("XYOrbit keeps its focal point on the ground", () => {
   const view = new XYOrbit();
@@ -62,18 +65,21 @@ test("XYOrbit keeps its focal point on the ground", () => {
   expect(view.focalPoint.value.value[2]).toBe(0);
 });
 
-test.each([new Orbit(), new Fps(), new TopDownOrtho()])("a framed sphere fills most of the free part and stays inside it", (view) => {
-  const centre = new Vector3(3, -2, 1);
-  const motion = new CameraMotion(view.frame(centre, 2, ORIGIN, PICTURE));
-  while (!motion.advance(0.05));
-  const middle = seen(view, centre);
-  expect(middle.x).toBeCloseTo(400);
-  expect(middle.y).toBeCloseTo(300);
-  const up = new Vector3(0, 1, 0).applyQuaternion(placed(view).quaternion);
-  const top = seen(view, centre.clone().addScaledVector(up, 2));
-  expect(300 - top.y).toBeGreaterThan(220);
-  expect(300 - top.y).toBeLessThanOrEqual(300);
-});
+test.each([new Orbit(), new Fps(), new TopDownOrtho()])(
+  "a framed sphere fills most of the free part and stays inside it",
+  (view) => {
+    const centre = new Vector3(3, -2, 1);
+    const motion = new CameraMotion(view.frame(centre, 2, ORIGIN, PICTURE));
+    while (!motion.advance(0.05));
+    const middle = seen(view, centre);
+    expect(middle.x).toBeCloseTo(400);
+    expect(middle.y).toBeCloseTo(300);
+    const up = new Vector3(0, 1, 0).applyQuaternion(placed(view).quaternion);
+    const top = seen(view, centre.clone().addScaledVector(up, 2));
+    expect(300 - top.y).toBeGreaterThan(220);
+    expect(300 - top.y).toBeLessThanOrEqual(300);
+  },
+);
 
 test("in the top view x is to the right and y is up", () => {
   const view = new Orbit();
@@ -136,7 +142,16 @@ test("a followed pose arrives, and a jump is taken at once", () => {
 });
 
 test("a simulated camera's view is one again when it is loaded, and when it is copied", () => {
-  const camera = { name: "eye", topic: "/eye", body: 3, pose: [0.1, 0, 0.2, 0, 0.3, 0], width: 640, height: 360, horizontal_fov: 1.2, near: 0.05 } as unknown as CameraInfo;
+  const camera = {
+    name: "eye",
+    topic: "/eye",
+    body: 3,
+    pose: [0.1, 0, 0.2, 0, 0.3, 0],
+    width: 640,
+    height: 360,
+    horizontal_fov: 1.2,
+    near: 0.05,
+  } as unknown as CameraInfo;
   const view = SensorCamera.of(camera, "robot::head");
   const file = view.save();
   expect(file["Class"]).toBe("rviz/FrameAligned");

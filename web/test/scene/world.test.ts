@@ -80,7 +80,9 @@ test("joints are read in order", () => {
   expect(readJoints(new DataView(view.buffer, 0, 16 + 47), 4)).toBeNull();
 });
 
-function lineMessage(lines: readonly { readonly id: string; readonly kind: number; readonly points: readonly number[] }[]): DataView {
+function lineMessage(
+  lines: readonly { readonly id: string; readonly kind: number; readonly points: readonly number[] }[],
+): DataView {
   const bytes: number[] = [];
   const u32 = (value: number): void => void bytes.push(...new Uint8Array(new Uint32Array([value]).buffer));
   bytes.push(0, 0, 0, 0, 0, 0, 0, 0);
@@ -124,13 +126,19 @@ function at(x: number, yaw = 0): Transform {
   return { position: new Vector3(x, 0, 0), orientation: new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), yaw) };
 }
 
-const MANIFEST = { generation: 1, robot: 0, frames: [{ frame: "base_link", parent: "odom", body: 0 }] } as unknown as Manifest;
+const MANIFEST = {
+  generation: 1,
+  robot: 0,
+  frames: [{ frame: "base_link", parent: "odom", body: 0 }],
+} as unknown as Manifest;
 
 /** The robot drives at 1 m/s from x = 10; odom began there, and tf is 0.1 s late. */
 function drivingRobot(poses: BodyPoses, time: bigint): FrameTree {
   poses.apply(poseMessage(time, 1, [[0, 10 + Number(time) * 1e-9, 0, 0, 0, 0, 0, 1]]), 1);
   const lookup = (target: string, source: string, asked: bigint): Transform | NoTransform =>
-    target === "odom" && source === "base_link" && asked <= time - 100_000_000n ? at(Number(asked) * 1e-9) : new NoTransform("", "");
+    target === "odom" && source === "base_link" && asked <= time - 100_000_000n
+      ? at(Number(asked) * 1e-9)
+      : new NoTransform("", "");
   return { lookup } as unknown as FrameTree;
 }
 
@@ -138,7 +146,9 @@ test("the world stands still in odom while the robot drives and tf is late", () 
   const poses = new BodyPoses();
   const world = new Group();
   let now = 0n;
-  const frames: FrameTree = { lookup: (...asked: [string, string, bigint]) => drivingRobot(poses, now).lookup(...asked) } as unknown as FrameTree;
+  const frames: FrameTree = {
+    lookup: (...asked: [string, string, bigint]) => drivingRobot(poses, now).lookup(...asked),
+  } as unknown as FrameTree;
   const placement = new WorldPlacement(world, poses, frames);
   const moved: boolean[] = [];
   for (let i = 0; i <= 20; i += 1) {

@@ -42,7 +42,9 @@ describe("axes", () => {
     const geometry = axesGeometry(1, 0.1);
     const [position, color] = [geometry.getAttribute("position"), geometry.getAttribute("vertexRgba")];
     for (let vertex = 0; vertex < position.count; vertex++) {
-      const along = [position.getX(vertex), position.getY(vertex), position.getZ(vertex)].findIndex((part) => part > 0.9);
+      const along = [position.getX(vertex), position.getY(vertex), position.getZ(vertex)].findIndex(
+        (part) => part > 0.9,
+      );
       if (along >= 0) expect([color.getX(vertex), color.getY(vertex), color.getZ(vertex)][along]).toBe(1);
     }
   });
@@ -118,10 +120,14 @@ describe("covariances", () => {
     const matrix = [2, 0.5, 0.1, 0.5, 1, -0.3, 0.1, -0.3, 0.7];
     const { values, rotation } = principalAxes(matrix);
     const columns = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) =>
-      axis.applyQuaternion(rotation).toArray());
+      axis.applyQuaternion(rotation).toArray(),
+    );
     for (let row = 0; row < 3; row++) {
       for (let column = 0; column < 3; column++) {
-        const sum = columns.reduce((all, axis, k) => all + (values[k] ?? 0) * (axis[row] ?? 0) * (axis[column] ?? 0), 0);
+        const sum = columns.reduce(
+          (all, axis, k) => all + (values[k] ?? 0) * (axis[row] ?? 0) * (axis[column] ?? 0),
+          0,
+        );
         expect(sum).toBeCloseTo(matrix[3 * row + column] ?? NaN, 9);
       }
     }
@@ -145,7 +151,15 @@ describe("covariances", () => {
 
   it("of a pose in space spread the disc on x along z with the pitch's deviation", () => {
     const covariance = new Float64Array(36);
-    for (const [at, value] of [[0, 1], [7, 1], [14, 1], [21, 0.01], [28, 0.09], [35, 0.04]] as const) covariance[at] = value;
+    for (const [at, value] of [
+      [0, 1],
+      [7, 1],
+      [14, 1],
+      [21, 0.01],
+      [28, 0.09],
+      [35, 0.04],
+    ] as const)
+      covariance[at] = value;
     const visual = new CovarianceVisual(new CovarianceProperty());
     visual.setCovariance(covariance, new Quaternion());
     const roll = visual.children[1]?.children[0];

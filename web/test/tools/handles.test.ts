@@ -17,7 +17,11 @@ it("snaps only what has moved to the grid", () => {
   expect(to.position.toArray().map((part) => Number(part.toFixed(6)))).toEqual([0.4, 0.777, 0.2]);
 });
 
-it.each([[0.3, 0.25], [-0.3, -0.25], [0.1, 0]])("turns by steps from where it began: %f", (by, snapped) => {
+it.each([
+  [0.3, 0.25],
+  [-0.3, -0.25],
+  [0.1, 0],
+])("turns by steps from where it began: %f", (by, snapped) => {
   const to = at(0, 0, 0, 1 + by);
   snapToAngle(to, at(0, 0, 0, 1), 0.25);
   expect(to.orientation.angleTo(at(0, 0, 0, 1 + snapped).orientation)).toBeLessThan(1e-6);

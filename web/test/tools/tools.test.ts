@@ -44,7 +44,17 @@ function setUp(looksOnly = false) {
   const selection = signal<Selection | null>(null);
   const hovered = signal<Selection | null>(null);
   const views = { focus: (point: Vector3) => void focused.push(point) };
-  const tools = new ToolList({ connection, names: new GraphNames(), scene, views, fixedFrame: signal("map"), selection, hovered, editor: null, looksOnly });
+  const tools = new ToolList({
+    connection,
+    names: new GraphNames(),
+    scene,
+    views,
+    fixedFrame: signal("map"),
+    selection,
+    hovered,
+    editor: null,
+    looksOnly,
+  });
   const point = (kind: PointerInput["kind"], x: number, y: number, button = 0): boolean =>
     tools.pointer({ x, y, button, shift: false, control: false, kind });
   const drag = (...places: readonly (readonly [number, number])[]): void => {
@@ -76,7 +86,10 @@ test("2D Pose Estimate publishes place and yaw in the fixed frame, with its devi
   expect(sent?.topic).toBe("/initialpose");
   expect(sent?.type).toBe("geometry_msgs/PoseWithCovarianceStamped");
   expect(sent?.message["header"]).toEqual({ seq: 0, stamp: { sec: 12, nsec: 34 }, frame_id: "map" });
-  const pose = sent?.message["pose"] as unknown as { pose: { position: object; orientation: { z: number; w: number } }; covariance: Float64Array };
+  const pose = sent?.message["pose"] as unknown as {
+    pose: { position: object; orientation: { z: number; w: number } };
+    covariance: Float64Array;
+  };
   expect(pose.pose.position).toEqual({ x: 1, y: 2, z: 0 });
   expect(pose.pose.orientation.z).toBeCloseTo(Math.SQRT1_2);
   expect(pose.pose.orientation.w).toBeCloseTo(Math.SQRT1_2);
@@ -140,7 +153,10 @@ test("Select selects what a display drew, with its fields; a box, everything in 
   drag([90, 60], [40, 80], [30, 100]);
 
   expect(boxes).toEqual([{ left: 30, top: 60, right: 90, bottom: 100 }]);
-  expect(selection.value).toMatchObject({ title: "2 selected", fields: { "LaserScan 1": { Intensity: 7 }, "Marker 2": { Namespace: "a" } } });
+  expect(selection.value).toMatchObject({
+    title: "2 selected",
+    fields: { "LaserScan 1": { Intensity: 7 }, "Marker 2": { Namespace: "a" } },
+  });
   drag([500, 500]);
   expect(selection.value).toBeNull();
 });
@@ -194,7 +210,12 @@ test("Interact leaves objects that have handlers alone for a person who only loo
   const { point, picks, ticks } = setUp(true);
   const heard: string[] = [];
   const note = (what: string) => () => void heard.push(what);
-  const target: PointerTarget = { hover: note("hover"), down: () => heard.push("down") > 0, move: note("move"), up: note("up") };
+  const target: PointerTarget = {
+    hover: note("hover"),
+    down: () => heard.push("down") > 0,
+    move: note("move"),
+    up: note("up"),
+  };
   const marker = new Group();
   marker.userData["pointerTarget"] = target;
   picks.set("1 1", pickOf(marker));
@@ -233,6 +254,11 @@ test("the tools of a file are loaded, ROS 2's too, and unknown ones are kept and
     plugin,
   ]);
   expect(saved.slice(3).map((tool) => tool["Class"])).toEqual([
-    "rviz/Interact", "rviz/MoveCamera", "rviz/Select", "rviz/FocusCamera", "rviz/Measure", "rviz/PublishPoint",
+    "rviz/Interact",
+    "rviz/MoveCamera",
+    "rviz/Select",
+    "rviz/FocusCamera",
+    "rviz/Measure",
+    "rviz/PublishPoint",
   ]);
 });

@@ -33,7 +33,13 @@ export function CameraTiles({ shell }: { readonly shell: Shell }): JSX.Element |
       )}
       <div class="tiles" role="group" aria-label="Cameras">
         {cameras.map((camera) => (
-          <Tile key={tileKey(camera)} shell={shell} camera={camera} isLarge={false} onPress={() => toggle(tileKey(camera))} />
+          <Tile
+            key={tileKey(camera)}
+            shell={shell}
+            camera={camera}
+            isLarge={false}
+            onPress={() => toggle(tileKey(camera))}
+          />
         ))}
       </div>
     </>
@@ -58,13 +64,18 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
   const isPointedAt = useSignal(false);
   const wasDrawn = useSignal(false);
   const { display } = camera;
-  const topic = display === undefined ? streamedTopic(camera.topic, connection.topics.value, location.hostname) : camera.topic;
+  const topic =
+    display === undefined ? streamedTopic(camera.topic, connection.topics.value, location.hostname) : camera.topic;
   const isLive = camera.rate === null || isLarge || isPointedAt.value || drive.command.value !== null;
   const rest = !isLive ? REST : scene.isSlow ? SLOW_REST : 0;
   const stream = useStream(shell, isSeen && display === undefined ? topic : null, rest);
   const source = display ?? stream;
   const fault = display === undefined ? (stream?.fault.value ?? null) : displayFault(display);
-  const hertz = !wasDrawn.value ? null : rest === 0 || display !== undefined ? connection.statistics(topic).rate : camera.rate;
+  const hertz = !wasDrawn.value
+    ? null
+    : rest === 0 || display !== undefined
+      ? connection.statistics(topic).rate
+      : camera.rate;
   return (
     <figure
       ref={tile}
@@ -72,7 +83,12 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
       onPointerEnter={() => (isPointedAt.value = true)}
       onPointerLeave={() => (isPointedAt.value = false)}
     >
-      <button type="button" class="shot" aria-label={`${isLarge ? "Make smaller" : "Enlarge"} ${camera.name}`} onClick={onPress}>
+      <button
+        type="button"
+        class="shot"
+        aria-label={`${isLarge ? "Make smaller" : "Enlarge"} ${camera.name}`}
+        onClick={onPress}
+      >
         {source !== null && <Canvas source={source} name={camera.name} onDrawn={() => (wasDrawn.value = true)} />}
       </button>
       {fault !== null && <span class="said fault">{fault}</span>}
@@ -81,18 +97,32 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
         <span class="n">{camera.name}</span>
         <span class="r">{hertz === null || hertz < 0.5 ? "" : `${fixed(hertz, 0)} Hz`}</span>
         <VideoButton shell={shell} topic={topic} name={camera.name} />
-        <Button icon={isLarge ? "close" : "enlarge"} label={`${isLarge ? "Make smaller" : "Enlarge"} ${camera.name}`} onClick={onPress} />
+        <Button
+          icon={isLarge ? "close" : "enlarge"}
+          label={`${isLarge ? "Make smaller" : "Enlarge"} ${camera.name}`}
+          onClick={onPress}
+        />
       </figcaption>
     </figure>
   );
 }
 
 /** Records the camera's own pictures, in the time of their stamps. */
-function VideoButton({ shell, topic, name }: { readonly shell: Shell; readonly topic: string; readonly name: string }): JSX.Element {
+function VideoButton({
+  shell,
+  topic,
+  name,
+}: {
+  readonly shell: Shell;
+  readonly topic: string;
+  readonly name: string;
+}): JSX.Element {
   const { videos } = shell;
   const isRecorded = videos.has(topic);
   const label = isRecorded ? `Stop and save the video of ${name}` : `Record a video of ${name}`;
-  return <Button icon="record" class="rec" label={label} on={isRecorded} onClick={() => videos.toggleCamera(topic, name)} />;
+  return (
+    <Button icon="record" class="rec" label={label} on={isRecorded} onClick={() => videos.toggleCamera(topic, name)} />
+  );
 }
 
 /** The worst of what a display says about its picture. */

@@ -16,7 +16,11 @@ export interface CameraTopic {
   readonly display?: PictureDisplay;
 }
 
-export function cameraTopics(session: Pick<Session, "images">, manifest: Manifest | null, displays: readonly Display[] = []): readonly CameraTopic[] {
+export function cameraTopics(
+  session: Pick<Session, "images">,
+  manifest: Manifest | null,
+  displays: readonly Display[] = [],
+): readonly CameraTopic[] {
   const enabled = withMembers(displays, isEnabled).filter((display) => display instanceof PictureDisplay);
   const shown = enabled.flatMap((display): CameraTopic[] => {
     const { topic } = display;
@@ -25,7 +29,9 @@ export function cameraTopics(session: Pick<Session, "images">, manifest: Manifes
   const taken = new Set(shown.filter(({ display }) => display?.className === "rviz/Image").map(({ topic }) => topic));
   const cameras = (manifest?.cameras ?? []).map(({ name, topic, rate }) => ({ name, topic, rate }));
   const known = new Set([...taken, ...cameras.map((camera) => camera.topic)]);
-  const asked = session.images.filter((topic) => !known.has(topic)).map((topic) => ({ name: topic.replace(/^\//, ""), topic, rate: null }));
+  const asked = session.images
+    .filter((topic) => !known.has(topic))
+    .map((topic) => ({ name: topic.replace(/^\//, ""), topic, rate: null }));
   return [...asked, ...cameras.filter(({ topic }) => !taken.has(topic)), ...shown];
 }
 

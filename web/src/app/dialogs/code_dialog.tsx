@@ -18,7 +18,10 @@ export function CodeDialog({ shell, code }: { readonly shell: Shell; readonly co
   return (
     <Dialog title={`Run the code of ${code.title}?`} class="save" onClose={close}>
       <div class="form">
-        <p>Its plugins are programs. They would run where the simulation runs, with the rights of the person who started it:</p>
+        <p>
+          Its plugins are programs. They would run where the simulation runs, with the rights of the person who started
+          it:
+        </p>
         {code.files.map((file) => (
           <code key={file} class="sm">
             {file}

@@ -14,7 +14,8 @@ export interface DialogProps {
 
 export function Dialog({ title, class: extra = "", onClose, children }: DialogProps): JSX.Element {
   const dialog = useRef<HTMLDialogElement>(null);
-  useLayoutEffect(() => { // at once: what is typed next belongs to the dialog
+  useLayoutEffect(() => {
+    // at once: what is typed next belongs to the dialog
     const before = document.activeElement;
     dialog.current?.showModal();
     return () => {

@@ -59,14 +59,21 @@ export function Help({ shell }: { readonly shell: Shell }): JSX.Element {
       </div>
       <div class="foot">
         <span class="sm t2">
-          Trundle {page.session.version}. Foxglove and Lichtblick connect to <span class="src">{page.session.foxglove}</span>
+          Trundle {page.session.version}. Foxglove and Lichtblick connect to{" "}
+          <span class="src">{page.session.foxglove}</span>
         </span>
       </div>
     </Dialog>
   );
 }
 
-function Group({ title, entries }: { readonly title: string; readonly entries: readonly (readonly [string, string])[] }): JSX.Element {
+function Group({
+  title,
+  entries,
+}: {
+  readonly title: string;
+  readonly entries: readonly (readonly [string, string])[];
+}): JSX.Element {
   return (
     <section>
       <h3>{title}</h3>

@@ -22,7 +22,10 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
     close();
     command.run();
   };
-  useEffect(() => list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }), [at.value, text.value]);
+  useEffect(
+    () => list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }),
+    [at.value, text.value],
+  );
   const keyDown = (event: KeyboardEvent): void => {
     const step = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
     if (event.key === "Enter") run(found.value[at.value]);
@@ -51,7 +54,14 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
       </label>
       <div ref={list} id="palette-list" class="scroll" role="listbox" aria-label="Commands">
         {found.value.map((command, index) => (
-          <div key={command.id} id={`palette-${index}`} role="option" class="command" aria-selected={index === at.value} onClick={() => run(command)}>
+          <div
+            key={command.id}
+            id={`palette-${index}`}
+            role="option"
+            class="command"
+            aria-selected={index === at.value}
+            onClick={() => run(command)}
+          >
             <span>{command.title}</span>
             <span class="r">{command.group}</span>
             {command.keys !== undefined && <kbd>{command.keys.replace("Escape", "Esc")}</kbd>}
@@ -65,10 +75,21 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
 
 /** Commands that can run and whose title has all the words; those that begin with the text first. */
 export function search(commands: readonly Command[], text: string): readonly Command[] {
-  const words = text.toLowerCase().split(/\s+/).filter((word) => word !== "");
+  const words = text
+    .toLowerCase()
+    .split(/\s+/)
+    .filter((word) => word !== "");
   const titles = new Set<string>();
   return commands
-    .filter((command) => (command.enabled?.() ?? true) && words.every((word) => `${command.title} ${command.group}`.toLowerCase().includes(word)))
+    .filter(
+      (command) =>
+        (command.enabled?.() ?? true) &&
+        words.every((word) => `${command.title} ${command.group}`.toLowerCase().includes(word)),
+    )
     .filter(({ title }) => !titles.has(title) && titles.add(title))
-    .sort((a, b) => Number(!a.title.toLowerCase().startsWith(text.toLowerCase())) - Number(!b.title.toLowerCase().startsWith(text.toLowerCase())));
+    .sort(
+      (a, b) =>
+        Number(!a.title.toLowerCase().startsWith(text.toLowerCase())) -
+        Number(!b.title.toLowerCase().startsWith(text.toLowerCase())),
+    );
 }

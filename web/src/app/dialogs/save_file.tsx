@@ -23,7 +23,16 @@ export interface SaveFileProps {
   readonly download?: () => Promise<void> | void;
 }
 
-export function SaveFile({ shell, title, what, offered, ending = "", note, save, download }: SaveFileProps): JSX.Element {
+export function SaveFile({
+  shell,
+  title,
+  what,
+  offered,
+  ending = "",
+  note,
+  save,
+  download,
+}: SaveFileProps): JSX.Element {
   const name = useSignal(offered ?? "");
   const exists = useSignal<string | null>(null);
   const fault = useSignal("");
@@ -52,7 +61,9 @@ export function SaveFile({ shell, title, what, offered, ending = "", note, save,
         }}
       >
         {offered === null ? (
-          <p>The folder where Trundle was started cannot be written.{download !== undefined && " It can be downloaded."}</p>
+          <p>
+            The folder where Trundle was started cannot be written.{download !== undefined && " It can be downloaded."}
+          </p>
         ) : (
           <label>
             {what}, below the folder where Trundle was started
@@ -64,7 +75,12 @@ export function SaveFile({ shell, title, what, offered, ending = "", note, save,
                 spellcheck={false}
                 autocomplete="off"
                 autoFocus
-                onFocus={({ currentTarget: { value }, currentTarget }) => currentTarget.setSelectionRange(value.lastIndexOf("/") + 1, value.includes(".") ? value.lastIndexOf(".") : value.length)}
+                onFocus={({ currentTarget: { value }, currentTarget }) =>
+                  currentTarget.setSelectionRange(
+                    value.lastIndexOf("/") + 1,
+                    value.includes(".") ? value.lastIndexOf(".") : value.length,
+                  )
+                }
                 onInput={(event) => {
                   name.value = event.currentTarget.value;
                   exists.value = null;
@@ -74,11 +90,20 @@ export function SaveFile({ shell, title, what, offered, ending = "", note, save,
             </span>
           </label>
         )}
-        {said !== "" && <p class="fault" role="alert">{said}</p>}
+        {said !== "" && (
+          <p class="fault" role="alert">
+            {said}
+          </p>
+        )}
         <p class="sm t2">{note}</p>
         <div class="foot">
           {download !== undefined && (
-            <Button icon="download" tone={offered === null ? "primary" : "line"} disabled={isBusy.value} onClick={() => void run(async () => (await download(), {}))}>
+            <Button
+              icon="download"
+              tone={offered === null ? "primary" : "line"}
+              disabled={isBusy.value}
+              onClick={() => void run(async () => (await download(), {}))}
+            >
               Download
             </Button>
           )}

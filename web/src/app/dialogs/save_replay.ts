@@ -7,7 +7,10 @@ export async function saveReplay({ page, notices }: Shell, format: "html" | "glb
   try {
     const view = JSON.stringify(page.views.current.peek().save());
     const { html = "", glb = "" } = await page.connection.request("replay", { view, format });
-    const content = format === "html" ? new Blob([html], { type: "text/html" }) : new Blob([bytesOf(glb)], { type: "model/gltf-binary" });
+    const content =
+      format === "html"
+        ? new Blob([html], { type: "text/html" })
+        : new Blob([bytesOf(glb)], { type: "model/gltf-binary" });
     saveFile(`${page.session.title}.${format}`, content);
   } catch (error) {
     notices.report("Replay", error instanceof Error ? error.message : String(error));

@@ -24,13 +24,22 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const fault = useSignal("");
   const close = (): void => void (shell.dialog.value = null);
   const ask: Request = (name, fields) =>
-    connection.request(name, fields).then(close, (error: unknown) => void (fault.value = error instanceof Error ? error.message : String(error)));
+    connection
+      .request(name, fields)
+      .then(close, (error: unknown) => void (fault.value = error instanceof Error ? error.message : String(error)));
   return (
     <Dialog title="Steps and times" class="save" onClose={close}>
       <div class="form">
         <label class="row act">
           <span class="t2">Time</span>
-          <NumberField label="Time" value={time.value} unit="s" min={0} max={MOST_S} onCommit={(value) => (time.value = value)} />
+          <NumberField
+            label="Time"
+            value={time.value}
+            unit="s"
+            min={0}
+            max={MOST_S}
+            onCommit={(value) => (time.value = value)}
+          />
           <Button tone="line" disabled={state === null} onClick={() => void ask(...requestTo(time.value, state))}>
             Go
           </Button>
@@ -38,7 +47,14 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
         {session.kind === "simulation" && (
           <label class="row act">
             <span class="t2">Steps</span>
-            <NumberField label="Steps" value={steps.value} integer min={1} max={MOST_STEPS} onCommit={(value) => (steps.value = value)} />
+            <NumberField
+              label="Steps"
+              value={steps.value}
+              integer
+              min={1}
+              max={MOST_STEPS}
+              onCommit={(value) => (steps.value = value)}
+            />
             <Button tone="line" onClick={() => void ask("step", { count: steps.value })}>
               Take
             </Button>
@@ -46,7 +62,10 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
         )}
         {state?.timeline !== undefined && (
           <p class="t2">
-            {fixed(state.timeline.start_ns / NS, 2)} s to {fixed(state.timeline.end_ns / NS, 2)} s {session.kind === "simulation" ? "are kept; a later time is simulated, and then time stands still." : "were recorded."}
+            {fixed(state.timeline.start_ns / NS, 2)} s to {fixed(state.timeline.end_ns / NS, 2)} s{" "}
+            {session.kind === "simulation"
+              ? "are kept; a later time is simulated, and then time stands still."
+              : "were recorded."}
           </p>
         )}
       </div>
@@ -60,7 +79,10 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
 }
 
 /** The request that goes to a time [s]. */
-export function requestTo(seconds: number, state: WorldState | null): ["seek" | "run_to", { readonly time_ns: number }] {
+export function requestTo(
+  seconds: number,
+  state: WorldState | null,
+): ["seek" | "run_to", { readonly time_ns: number }] {
   const time_ns = Math.round(seconds * NS);
   const end = state?.timeline?.end_ns ?? state?.time_ns ?? 0;
   return [state?.timeline !== undefined && time_ns <= end ? "seek" : "run_to", { time_ns }];

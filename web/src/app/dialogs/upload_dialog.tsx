@@ -26,7 +26,10 @@ export function UploadDialog({ shell }: { readonly shell: Shell }): JSX.Element 
             {upload.fault.value}
           </span>
         )}
-        <p class="t2 sm">A model is a folder with model.config, or one .sdf or .urdf file, and their meshes. It can be inserted until Trundle ends; a world that is saved with it gets a copy.</p>
+        <p class="t2 sm">
+          A model is a folder with model.config, or one .sdf or .urdf file, and their meshes. It can be inserted until
+          Trundle ends; a world that is saved with it gets a copy.
+        </p>
       </div>
     </Dialog>
   );

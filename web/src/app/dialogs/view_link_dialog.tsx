@@ -19,11 +19,17 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const copied = useSignal(false);
   const { session, views } = shell.page;
   const looks = useSignal(session.view_only);
-  const link = useMemo(() => linkTo(views, location.href, (looks.value ? null : session.token) ?? session.view_token), [views, session, looks.value]);
+  const link = useMemo(
+    () => linkTo(views, location.href, (looks.value ? null : session.token) ?? session.view_token),
+    [views, session, looks.value],
+  );
   const copy = (): void => {
     field.current?.select();
     if (!window.isSecureContext) return; // Ctrl C copies what is selected
-    void navigator.clipboard.writeText(link).then(() => (copied.value = true), () => undefined);
+    void navigator.clipboard.writeText(link).then(
+      () => (copied.value = true),
+      () => undefined,
+    );
   };
   return (
     <Dialog title="Link to this view" class="save" onClose={() => (shell.dialog.value = null)}>
@@ -40,7 +46,14 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
         )}
         <p class="t2">{looks.value ? TEXTS.look : TEXTS.control}</p>
         <label class="field">
-          <input ref={field} aria-label="Link" readOnly value={link} autoFocus onFocus={(event) => event.currentTarget.select()} />
+          <input
+            ref={field}
+            aria-label="Link"
+            readOnly
+            value={link}
+            autoFocus
+            onFocus={(event) => event.currentTarget.select()}
+          />
         </label>
       </div>
       <div class="foot">

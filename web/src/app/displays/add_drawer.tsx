@@ -27,12 +27,22 @@ export function AddDrawer({ shell, onClose }: { readonly shell: Shell; readonly 
         <Button icon="close" label="Close this list" small onClick={onClose} />
       </div>
       <div class="scroll">
-        {tab.value === "topic" && offers.length === 0 && <p class="empty">Every topic that a display could show is shown.</p>}
+        {tab.value === "topic" && offers.length === 0 && (
+          <p class="empty">Every topic that a display could show is shown.</p>
+        )}
         {tab.value === "topic"
           ? offers.map(({ topic, className }) => (
-              <Entry key={topic.name} name={topic.name} detail={short(className)} action="Show" onClick={() => show(className, topic.name)} />
+              <Entry
+                key={topic.name}
+                name={topic.name}
+                detail={short(className)}
+                action="Show"
+                onClick={() => show(className, topic.name)}
+              />
             ))
-          : displays.classes.map((name) => <Entry key={name} name={short(name)} detail="" action="Add" onClick={() => show(name)} />)}
+          : displays.classes.map((name) => (
+              <Entry key={name} name={short(name)} detail="" action="Add" onClick={() => show(name)} />
+            ))}
       </div>
     </section>
   );

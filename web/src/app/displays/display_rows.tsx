@@ -37,7 +37,8 @@ export function displayRows(display: Display, depth: number, rows: DisplayRowsOf
   const open = rows.isOpen(key);
   const faults = faultsOf(display).filter(([, status]) => open || !isSilence(status) || status.advice !== undefined);
   const below = open ? propertyRows(display.properties, key, depth + 1, rows) : [];
-  const members = open && display instanceof Group ? display.displays.flatMap((member) => displayRows(member, depth + 1, rows)) : [];
+  const members =
+    open && display instanceof Group ? display.displays.flatMap((member) => displayRows(member, depth + 1, rows)) : [];
   return [
     {
       key,
@@ -87,11 +88,17 @@ export function splitFault(text: string): readonly [string, string] {
 
 function DisplayRow({ display, rows }: { readonly display: Display; readonly rows: DisplayRowsOf }): JSX.Element {
   const { page } = rows;
-  const colour = display.properties.find((property) => property instanceof ColorProperty && property.options.visible?.value !== false);
+  const colour = display.properties.find(
+    (property) => property instanceof ColorProperty && property.options.visible?.value !== false,
+  );
   const isGroup = display instanceof Group;
   const rename = (name: string): void => {
     const before = display.name.peek();
-    page.displays.edit("Rename", () => (display.name.value = name), () => (display.name.value = before));
+    page.displays.edit(
+      "Rename",
+      () => (display.name.value = name),
+      () => (display.name.value = before),
+    );
     rows.onRenamed();
   };
   return (

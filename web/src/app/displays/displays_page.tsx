@@ -31,9 +31,18 @@ export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element 
   const toggle = (key: string, open: boolean): void => {
     shell.openDisplays.value = new Map(shell.openDisplays.peek()).set(key, open);
   };
-  const rows: DisplayRowsOf = { page, isOpen, onToggle: toggle, selected, renaming: renaming.value, onRenamed: () => (renaming.value = null) };
+  const rows: DisplayRowsOf = {
+    page,
+    isOpen,
+    onToggle: toggle,
+    selected,
+    renaming: renaming.value,
+    onRenamed: () => (renaming.value = null),
+  };
   const byKey = new Map(withMembers(displays.displays.value).map((display) => [displayKey(display), display]));
-  const unsupported = displays.unsupported.value.flatMap(({ name, className, reason }, index) => unsupportedRows(index, name || className, reason));
+  const unsupported = displays.unsupported.value.flatMap(({ name, className, reason }, index) =>
+    unsupportedRows(index, name || className, reason),
+  );
   const keyDown = (key: string, event: KeyboardEvent): void => {
     const display = byKey.get(key);
     if (display === undefined) focusEditor(key, event);
@@ -44,7 +53,11 @@ export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element 
       <div class="scroll displays">
         <Tree
           label="Displays"
-          rows={[...globalRows(rows), ...displays.displays.value.flatMap((display) => displayRows(display, 0, rows)), ...unsupported]}
+          rows={[
+            ...globalRows(rows),
+            ...displays.displays.value.flatMap((display) => displayRows(display, 0, rows)),
+            ...unsupported,
+          ]}
           onToggle={toggle}
           onSelect={(key) => (shell.display.value = byKey.get(key) ?? shell.display.peek())}
           onActivate={(key) => {
@@ -61,7 +74,11 @@ export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element 
           Add
         </Button>
         <span class="sp" />
-        <Button small disabled={selected === null} onClick={() => selected !== null && (shell.display.value = displays.duplicate(selected))}>
+        <Button
+          small
+          disabled={selected === null}
+          onClick={() => selected !== null && (shell.display.value = displays.duplicate(selected))}
+        >
           Duplicate
         </Button>
         <Button small disabled={selected === null} onClick={() => (renaming.value = selected)}>
@@ -93,10 +110,7 @@ function unsupportedRows(index: number, name: string, reason: string): TreeRow[]
       <span class="r">not supported</span>
     </>
   );
-  return [
-    { key, depth: 0, content },
-    faultRow(`${key}/why`, 1, { level: "warn", text: reason }),
-  ];
+  return [{ key, depth: 0, content }, faultRow(`${key}/why`, 1, { level: "warn", text: reason })];
 }
 
 function remove(shell: Shell, display: Display): void {
@@ -130,5 +144,7 @@ function focusEditor(key: string, event: KeyboardEvent): void {
 }
 
 function focusInside(key: string): void {
-  document.querySelector<HTMLElement>(`[data-key="${CSS.escape(key)}"] :is(input:not([type="color"]), select)`)?.focus();
+  document
+    .querySelector<HTMLElement>(`[data-key="${CSS.escape(key)}"] :is(input:not([type="color"]), select)`)
+    ?.focus();
 }

@@ -24,9 +24,19 @@ export function globalRows(rows: RowsOf): TreeRow[] {
   );
   return [
     { key: "options", depth: 0, open: options, content: <span class="n">Global Options</span> },
-    ...(options ? [fixedFrameRow(rows.page), ...propertyRows([displays.backgroundColor, displays.frameRate], "options", 1, rows)] : []),
+    ...(options
+      ? [fixedFrameRow(rows.page), ...propertyRows([displays.backgroundColor, displays.frameRate], "options", 1, rows)]
+      : []),
     { key: "status", depth: 0, open, content: statusRow },
-    ...(open ? [propertyLine("status/frame", "Fixed Frame", <span class="wrap">{status.level === "ok" ? "OK" : status.text}</span>)] : []),
+    ...(open
+      ? [
+          propertyLine(
+            "status/frame",
+            "Fixed Frame",
+            <span class="wrap">{status.level === "ok" ? "OK" : status.text}</span>,
+          ),
+        ]
+      : []),
   ];
 }
 
@@ -34,10 +44,21 @@ function fixedFrameRow(page: Page): TreeRow {
   const { fixedFrameSetting: setting, fixedFrame } = page.displays;
   const set = (frame: string): void => {
     const before = setting.peek();
-    page.displays.edit("Change of Fixed Frame", () => (setting.value = frame), () => (setting.value = before));
+    page.displays.edit(
+      "Change of Fixed Frame",
+      () => (setting.value = frame),
+      () => (setting.value = before),
+    );
   };
   const choices = () => page.frames.frames.peek().map((value) => ({ value }));
-  const editor = <Combo label="Fixed Frame" value={setting.value === "" ? fixedFrame.value : setting.value} choices={choices} onCommit={set} />;
+  const editor = (
+    <Combo
+      label="Fixed Frame"
+      value={setting.value === "" ? fixedFrame.value : setting.value}
+      choices={choices}
+      onCommit={set}
+    />
+  );
   return propertyLine("options/frame", "Fixed Frame", editor);
 }
 

@@ -2,7 +2,21 @@
 
 import type { JSX } from "preact";
 
-import { BoolProperty, ColorProperty, EnumProperty, FIXED_FRAME, FrameProperty, IntProperty, NumberProperty, StringProperty, TopicProperty, VectorProperty, type Property, type Triple, type Yaml } from "../../rviz/properties";
+import {
+  BoolProperty,
+  ColorProperty,
+  EnumProperty,
+  FIXED_FRAME,
+  FrameProperty,
+  IntProperty,
+  NumberProperty,
+  StringProperty,
+  TopicProperty,
+  VectorProperty,
+  type Property,
+  type Triple,
+  type Yaml,
+} from "../../rviz/properties";
 import { Checkbox } from "../../theme/checkbox";
 import { Combo, type Choice } from "../../theme/combo";
 import { parseNumber, plain } from "../../theme/format";
@@ -37,7 +51,8 @@ export function PropertyEditor({ page, property }: EditorProps): JSX.Element | n
   if (property instanceof ColorProperty) return <ColorEditor property={property} onCommit={set} />;
   if (property instanceof VectorProperty) return <VectorEditor property={property} onCommit={set} />;
   if (property instanceof TopicProperty || property instanceof FrameProperty) {
-    const choices = (): readonly Choice[] => (property instanceof TopicProperty ? topicChoices(page, property.types) : frameChoices(page));
+    const choices = (): readonly Choice[] =>
+      property instanceof TopicProperty ? topicChoices(page, property.types) : frameChoices(page);
     return <Combo label={property.name} value={property.value.value} choices={choices} onCommit={set} />;
   }
   if (property instanceof StringProperty) {
@@ -70,7 +85,8 @@ function NumberEditor({ property, onCommit }: KindProps<NumberProperty>): JSX.El
 
 function EnumEditor({ property, onCommit }: KindProps<EnumProperty>): JSX.Element {
   const choices = property.choices.value;
-  if (!property.isOpen) return <Select label={property.name} value={property.value.value} choices={choices} onChange={onCommit} />;
+  if (!property.isOpen)
+    return <Select label={property.name} value={property.value.value} choices={choices} onChange={onCommit} />;
   const listed = (): readonly Choice[] => property.choices.peek().map((value) => ({ value }));
   return <Combo label={property.name} value={property.value.value} choices={listed} onCommit={onCommit} />;
 }
@@ -116,7 +132,10 @@ function VectorEditor({ property, onCommit }: KindProps<VectorProperty>): JSX.El
 
 /** Three numbers of a text with `;` or spaces between. */
 export function vectorOf(text: string): Triple | null {
-  const parts = text.split(/[;\s]+/).filter((part) => part !== "").map(parseNumber);
+  const parts = text
+    .split(/[;\s]+/)
+    .filter((part) => part !== "")
+    .map(parseNumber);
   const [x, y, z] = parts;
   return parts.length === 3 && x != null && y != null && z != null ? [x, y, z] : null;
 }
@@ -150,6 +169,7 @@ function frameChoices(page: Page): readonly Choice[] {
 
 function shown(value: unknown): string {
   if (typeof value === "number") return plain(value);
-  if (Array.isArray(value)) return value.map((part) => (typeof part === "number" ? plain(part) : String(part))).join("; ");
+  if (Array.isArray(value))
+    return value.map((part) => (typeof part === "number" ? plain(part) : String(part))).join("; ");
   return typeof value === "string" ? value : JSON.stringify(value ?? "");
 }

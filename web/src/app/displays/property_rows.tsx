@@ -13,7 +13,12 @@ export interface RowsOf {
 }
 
 /** Rows of properties that are visible now, and of those below open ones. */
-export function propertyRows(properties: readonly Property<unknown>[], parent: string, depth: number, rows: RowsOf): TreeRow[] {
+export function propertyRows(
+  properties: readonly Property<unknown>[],
+  parent: string,
+  depth: number,
+  rows: RowsOf,
+): TreeRow[] {
   return properties.flatMap((property, index) => {
     if (property.options.visible?.value === false) return [];
     const key = `${parent}/${index}.${property.name}`;
@@ -24,7 +29,13 @@ export function propertyRows(properties: readonly Property<unknown>[], parent: s
   });
 }
 
-function propertyRow(property: Property<unknown>, key: string, depth: number, open: boolean | undefined, rows: RowsOf): TreeRow {
+function propertyRow(
+  property: Property<unknown>,
+  key: string,
+  depth: number,
+  open: boolean | undefined,
+  rows: RowsOf,
+): TreeRow {
   return {
     key,
     depth,
@@ -32,7 +43,11 @@ function propertyRow(property: Property<unknown>, key: string, depth: number, op
     class: "prop",
     content: (
       <>
-        <span class="k" data-tip={property.options.description} onClick={() => open !== undefined && rows.onToggle(key, !open)}>
+        <span
+          class="k"
+          data-tip={property.options.description}
+          onClick={() => open !== undefined && rows.onToggle(key, !open)}
+        >
           {open !== undefined && <Icon name="right" class={open ? "tw o" : "tw"} />}
           {property.name}
         </span>

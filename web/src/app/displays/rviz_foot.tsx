@@ -55,8 +55,14 @@ export function save(shell: Shell): void {
   const text = displays.save();
   const { rviz } = shell.page.session;
   const saved = shell.ownFile.peek() ?? (rviz?.saved === true ? rviz : null);
-  const done = saved === null ? connection.request("save_rviz", { text }) : connection.request("save_rviz_as", { file: saved.name, text, replace: true });
-  done.then(() => displays.markSaved(), (error: unknown) => shell.notices.report("Save", sentence(error)));
+  const done =
+    saved === null
+      ? connection.request("save_rviz", { text })
+      : connection.request("save_rviz_as", { file: saved.name, text, replace: true });
+  done.then(
+    () => displays.markSaved(),
+    (error: unknown) => shell.notices.report("Save", sentence(error)),
+  );
 }
 
 /** Hand the text to the browser. */

@@ -33,7 +33,13 @@ export function DriveView({ shell }: { readonly shell: Shell }): JSX.Element | n
       <DriveDisc drive={drive} />
       <div class="driven">
         <Limit name="v" full="Greatest speed" value={command?.linear ?? 0} limit={drive.linearLimit} unit="m/s" />
-        <Limit name="w" full="Greatest turning speed" value={command?.angular ?? 0} limit={drive.angularLimit} unit="rad/s" />
+        <Limit
+          name="w"
+          full="Greatest turning speed"
+          value={command?.angular ?? 0}
+          limit={drive.angularLimit}
+          unit="rad/s"
+        />
         <Keys drive={drive} />
         {command === null ? <Topic drive={drive} topic={topic} /> : <span class="cap">Let go to stop</span>}
       </div>
@@ -83,7 +89,9 @@ function Keys({ drive }: { readonly drive: Drive }): JSX.Element {
   const command = drive.command.value;
   const isDown = (key: string): boolean => {
     const held = WASD[key];
-    return command !== null && held !== undefined && (held.linear * command.linear > 0 || held.angular * command.angular > 0);
+    return (
+      command !== null && held !== undefined && (held.linear * command.linear > 0 || held.angular * command.angular > 0)
+    );
   };
   return (
     <div class="keys" aria-hidden="true">
@@ -96,7 +104,15 @@ function Keys({ drive }: { readonly drive: Drive }): JSX.Element {
   );
 }
 
-function Reading({ class: name, value, unit }: { readonly class: string; readonly value: number; readonly unit: string }): JSX.Element {
+function Reading({
+  class: name,
+  value,
+  unit,
+}: {
+  readonly class: string;
+  readonly value: number;
+  readonly unit: string;
+}): JSX.Element {
   return (
     <span class={name}>
       <b>{fixed(value, 2)}</b>

@@ -61,7 +61,13 @@ export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
       <Verdict draft={draft} />
       {edits && (
         <div class="foot">
-          <Button icon="plus" class="add" tone="line" on={isAdding.value} onClick={() => (isAdding.value = !isAdding.value)}>
+          <Button
+            icon="plus"
+            class="add"
+            tone="line"
+            on={isAdding.value}
+            onClick={() => (isAdding.value = !isAdding.value)}
+          >
             Add
           </Button>
           <span class="sp" />
@@ -80,7 +86,9 @@ function Verdict({ draft }: { readonly draft: Draft }): JSX.Element {
   const findings = draft.parts.flatMap((part) => part.findings);
   const errors = findings.filter(({ severity }) => severity === "error").length;
   const warnings = findings.length - errors;
-  const said = [errors > 0 ? count(errors, "error") : "", warnings > 0 ? count(warnings, "warning") : ""].filter((text) => text !== "");
+  const said = [errors > 0 ? count(errors, "error") : "", warnings > 0 ? count(warnings, "warning") : ""].filter(
+    (text) => text !== "",
+  );
   return (
     <p class="verdict sm t2" role="status" aria-label="Check">
       <StatusShape level={errors > 0 ? "error" : warnings > 0 ? "warn" : "ok"} label="" />
@@ -99,12 +107,15 @@ function selectionOf({ part }: DraftPart): Selection {
 
 function rows(draft: Draft, shut: ReadonlySet<string>, selected: string | null): readonly TreeRow[] {
   const shown = draft.parts.filter(({ part }) => {
-    for (let end = part.length - 2; end >= 0; end -= 2) if (shut.has(keyOf(part.slice(0, end))) !== isShutAtFirst(part.slice(0, end))) return false;
+    for (let end = part.length - 2; end >= 0; end -= 2)
+      if (shut.has(keyOf(part.slice(0, end))) !== isShutAtFirst(part.slice(0, end))) return false;
     return true;
   });
   return shown.map((part) => {
     const key = keyOf(part.part);
-    const hasMore = draft.parts.some((each) => each.part.length > part.part.length && keyOf(each.part.slice(0, part.part.length)) === key);
+    const hasMore = draft.parts.some(
+      (each) => each.part.length > part.part.length && keyOf(each.part.slice(0, part.part.length)) === key,
+    );
     return {
       key,
       depth: part.part.length / 2,
@@ -129,5 +140,7 @@ function isShutAtFirst(part: PartPath): boolean {
 
 function Worst({ part }: { readonly part: DraftPart }): JSX.Element | null {
   const [first] = [...part.findings].sort((a, b) => a.severity.localeCompare(b.severity));
-  return first === undefined ? null : <StatusShape level={first.severity === "error" ? "error" : "warn"} label={first.text} />;
+  return first === undefined ? null : (
+    <StatusShape level={first.severity === "error" ? "error" : "warn"} label={first.text} />
+  );
 }

@@ -15,7 +15,9 @@ export function editorCommands(shell: Shell): readonly Command[] {
   };
   const model = (): string | null => {
     const selection = page.selection.peek();
-    return selection?.kind === "model" || selection?.kind === "link" || selection?.kind === "joint" ? selection.model : null;
+    return selection?.kind === "model" || selection?.kind === "link" || selection?.kind === "joint"
+      ? selection.model
+      : null;
   };
   const command = (id: string, title: string, enabled: () => boolean, run: () => void, keys?: string): Command => ({
     id,
@@ -26,12 +28,34 @@ export function editorCommands(shell: Shell): readonly Command[] {
     run,
   });
   return [
-    command("new_model", "New model…", () => !isOpen(), () => void editor.begin(null)),
-    command("edit_model", "Edit the selected model…", () => !isOpen() && model() !== null, () => void editor.begin(model())),
+    command(
+      "new_model",
+      "New model…",
+      () => !isOpen(),
+      () => void editor.begin(null),
+    ),
+    command(
+      "edit_model",
+      "Edit the selected model…",
+      () => !isOpen() && model() !== null,
+      () => void editor.begin(model()),
+    ),
     command("save_model", "Save the model that is edited…", isOpen, () => (shell.dialog.value = "save_model")),
     command("finish_model", "Put the model that is edited into the world", isOpen, () => void editor.finish()),
     command("leave_model", "Leave the model editor", isOpen, () => editor.leave()),
-    command("copy_part", "Copy the selected part", () => part() !== null, () => void editor.copy(part() ?? []), "Shift C"),
-    command("delete_part", "Delete the selected part", () => part() !== null, () => void editor.remove(part() ?? []), "Delete"),
+    command(
+      "copy_part",
+      "Copy the selected part",
+      () => part() !== null,
+      () => void editor.copy(part() ?? []),
+      "Shift C",
+    ),
+    command(
+      "delete_part",
+      "Delete the selected part",
+      () => part() !== null,
+      () => void editor.remove(part() ?? []),
+      "Delete",
+    ),
   ];
 }

@@ -157,14 +157,27 @@ function ColourRow({ field, onSet }: RowProps): JSX.Element {
           value={hex([red, green, blue])}
           onChange={(event) => onSet([...rgb(event.currentTarget.value), alpha])}
         />
-        <NumberCell label={`${field.label} alpha`} value={alpha} placeholder="1" least={0} most={1} onSet={(value) => onSet([red, green, blue, value ?? 1])} />
+        <NumberCell
+          label={`${field.label} alpha`}
+          value={alpha}
+          placeholder="1"
+          least={0}
+          most={1}
+          onSet={(value) => onSet([red, green, blue, value ?? 1])}
+        />
       </span>
     </div>
   );
 }
 
 function hex(parts: readonly number[]): string {
-  return `#${parts.map((part) => Math.round(255 * part).toString(16).padStart(2, "0")).join("")}`;
+  return `#${parts
+    .map((part) =>
+      Math.round(255 * part)
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 }
 
 function rgb(text: string): readonly number[] {
@@ -176,7 +189,11 @@ function FlagRow({ field, onSet }: RowProps): JSX.Element {
     <label class="fr">
       <span class="k">{field.label}</span>
       <span class="cells">
-        <Checkbox label={field.label} checked={(field.value ?? field.default) === true} onChange={(on) => onSet(String(on))} />
+        <Checkbox
+          label={field.label}
+          checked={(field.value ?? field.default) === true}
+          onChange={(on) => onSet(String(on))}
+        />
       </span>
     </label>
   );

@@ -34,7 +34,12 @@ export class ModelEditor {
       computed(() => {
         const draft = this.draft.value;
         if (draft === null) return null;
-        return { undoTitle: draft.undo, redoTitle: draft.redo, undo: () => void this.ask("Undo", "draft_undo"), redo: () => void this.ask("Redo", "draft_redo") };
+        return {
+          undoTitle: draft.undo,
+          redoTitle: draft.redo,
+          undo: () => void this.ask("Undo", "draft_undo"),
+          redo: () => void this.ask("Redo", "draft_redo"),
+        };
       }),
     );
   }
@@ -83,7 +88,12 @@ export class ModelEditor {
     if (answer?.name !== undefined) this.page.selection.value = { kind: "model", model: answer.name };
     if (answer?.code === undefined) return;
     const text = `Plugins of this model are programs, which would run on the machine that simulates: ${answer.code.join(", ")}`;
-    this.question.value = { title: "Run the model's code?", text, action: "Run it", run: () => void this.finish(answer.consent) };
+    this.question.value = {
+      title: "Run the model's code?",
+      text,
+      action: "Run it",
+      run: () => void this.finish(answer.consent),
+    };
   }
 
   leave(): void {
@@ -93,7 +103,13 @@ export class ModelEditor {
       });
     };
     if (this.draft.peek()?.undo == null) throwAway();
-    else this.question.value = { title: "Leave the editor?", text: "What was changed is thrown away, but for what was saved.", action: "Throw it away", run: throwAway };
+    else
+      this.question.value = {
+        title: "Leave the editor?",
+        text: "What was changed is thrown away, but for what was saved.",
+        action: "Throw it away",
+        run: throwAway,
+      };
   }
 
   async ask(title: string, request: string, fields: Fields = {}): Promise<RequestAnswer | null> {

@@ -41,7 +41,9 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
     void shell.editor.ask("Add", "draft_offers").then((answer) => (offers.value = answer ?? {}));
   }, [shell]);
   const wanted = search.value.trim().toLowerCase();
-  const found = offersOf(tab.value, offers.value).filter(({ name, detail }) => `${name} ${detail}`.toLowerCase().includes(wanted));
+  const found = offersOf(tab.value, offers.value).filter(({ name, detail }) =>
+    `${name} ${detail}`.toLowerCase().includes(wanted),
+  );
   return (
     <section class="drawer" aria-label="Add to the model">
       <div class="tabs">
@@ -53,7 +55,12 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
       {found.length + wanted.length > 20 && (
         <label class="field find small">
           <Icon name="find" />
-          <input type="search" placeholder="Search" aria-label="Search what can be added" onInput={(event) => (search.value = event.currentTarget.value)} />
+          <input
+            type="search"
+            placeholder="Search"
+            aria-label="Search what can be added"
+            onInput={(event) => (search.value = event.currentTarget.value)}
+          />
         </label>
       )}
       <div class="scroll">
@@ -63,7 +70,12 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
               {name}
             </span>
             <span class="r" />
-            <button type="button" class="b" aria-label={`Add ${name}`} onClick={() => void shell.editor.add(kind, type)}>
+            <button
+              type="button"
+              class="b"
+              aria-label={`Add ${name}`}
+              onClick={() => void shell.editor.add(kind, type)}
+            >
               Add
             </button>
           </div>
@@ -74,11 +86,19 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
 }
 
 function offersOf(tab: string, offers: RequestAnswer): readonly Offer[] {
-  const of = (kind: string, types: readonly string[]): Offer[] => types.map((type) => ({ kind, type, name: type, detail: "" }));
+  const of = (kind: string, types: readonly string[]): Offer[] =>
+    types.map((type) => ({ kind, type, name: type, detail: "" }));
   switch (tab) {
     case "link": {
-      const onLink = SHAPE_PARTS.flatMap((kind) => SHAPES.map((type) => ({ kind, type, name: `${kind}: ${type}`, detail: "on the selected link" })));
-      const meshes = (offers.meshes ?? []).map((type) => ({ kind: "link", type, name: type.split("/").at(-1) ?? type, detail: type }));
+      const onLink = SHAPE_PARTS.flatMap((kind) =>
+        SHAPES.map((type) => ({ kind, type, name: `${kind}: ${type}`, detail: "on the selected link" })),
+      );
+      const meshes = (offers.meshes ?? []).map((type) => ({
+        kind: "link",
+        type,
+        name: type.split("/").at(-1) ?? type,
+        detail: type,
+      }));
       return [...of("link", SHAPES), ...onLink, ...meshes];
     }
     case "joint":
@@ -86,21 +106,43 @@ function offersOf(tab: string, offers: RequestAnswer): readonly Offer[] {
     case "sensor":
       return of("sensor", offers.sensors ?? []);
     default:
-      return (offers.plugins ?? []).map(({ filename, about }) => ({ kind: "plugin", type: filename, name: filename, detail: about }));
+      return (offers.plugins ?? []).map(({ filename, about }) => ({
+        kind: "plugin",
+        type: filename,
+        name: filename,
+        detail: about,
+      }));
   }
 }
 
 /** Where the next part goes. */
-function Target({ shell, draft, tab }: { readonly shell: Shell; readonly draft: Draft; readonly tab: string }): JSX.Element | null {
+function Target({
+  shell,
+  draft,
+  tab,
+}: {
+  readonly shell: Shell;
+  readonly draft: Draft;
+  readonly tab: string;
+}): JSX.Element | null {
   const selection = shell.page.selection.value;
   const path = selection?.kind === "part" ? selection.part : [];
   const link = linkAround(path);
   const links = draft.parts.filter((part) => part.tag === "link");
   const sensor = findPart(draft, path)?.tag === "sensor" ? path.at(-1) : undefined;
   const said = {
-    joint: links.length < 2 ? "A joint joins two links: add them first." : `Its child is ${link?.at(-1) ?? "the last link"}; parent and child can be changed.`,
-    sensor: links.length === 0 ? "A sensor sits on a link: add one first." : `On ${link?.at(-1) ?? links[0]?.name ?? ""}, with the plugin that publishes it.`,
-    plugin: sensor === undefined ? "On the model; plugins of sensors on the sensor that is selected." : `On ${sensor}, if it is a sensor's.`,
+    joint:
+      links.length < 2
+        ? "A joint joins two links: add them first."
+        : `Its child is ${link?.at(-1) ?? "the last link"}; parent and child can be changed.`,
+    sensor:
+      links.length === 0
+        ? "A sensor sits on a link: add one first."
+        : `On ${link?.at(-1) ?? links[0]?.name ?? ""}, with the plugin that publishes it.`,
+    plugin:
+      sensor === undefined
+        ? "On the model; plugins of sensors on the sensor that is selected."
+        : `On ${sensor}, if it is a sensor's.`,
   }[tab];
   return said === undefined ? null : <p class="sm t2 target">{said}</p>;
 }

@@ -49,7 +49,13 @@ function Title({ shell, part }: { readonly shell: Shell; readonly part: DraftPar
       {part.part.length > 0 && (
         <span class="acts">
           <Button icon="plus" label="Copy this part" keys="Shift C" small onClick={() => void editor.copy(part.part)} />
-          <Button icon="close" label="Delete this part" keys="Delete" small onClick={() => void editor.remove(part.part)} />
+          <Button
+            icon="close"
+            label="Delete this part"
+            keys="Delete"
+            small
+            onClick={() => void editor.remove(part.part)}
+          />
         </span>
       )}
       <span class="sm t2">

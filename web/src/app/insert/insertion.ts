@@ -66,7 +66,8 @@ export class Insertion {
         : ["insert", { model: thing.name, position, is_shape: thing.kind === "shape", consent }];
     try {
       const { code, name, ...answer } = await this.shell.page.connection.request(request, fields);
-      if (code !== undefined) this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, answer.consent) };
+      if (code !== undefined)
+        this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, answer.consent) };
       else if (name !== undefined) this.record(thing, name);
     } catch (error) {
       this.report(`Insert ${thing.title}`, error);
@@ -77,7 +78,9 @@ export class Insertion {
     const isLight = thing.kind === "light";
     const title = `Insert ${name}`;
     const ask = (request: string) => (): void =>
-      isLight ? this.shell.request(title, `${request}_light`, { light: name }) : this.shell.request(title, request, { model: name });
+      isLight
+        ? this.shell.request(title, `${request}_light`, { light: name })
+        : this.shell.request(title, request, { model: name });
     this.shell.page.undo.record(title, ask("restore"), ask("delete"));
     selectOnceThere(this.shell, isLight ? { kind: "light", light: name } : { kind: "model", model: name });
   }
@@ -91,7 +94,10 @@ export class Insertion {
 export function selectOnceThere({ page }: Shell, selection: Extract<Selection, { kind: "model" | "light" }>): void {
   const stop = effect(() => {
     const lights = page.world.manifest.value?.lights ?? [];
-    const isThere = selection.kind === "model" ? findModel(page, selection.model) !== null : lights.some(({ name }) => name === selection.light);
+    const isThere =
+      selection.kind === "model"
+        ? findModel(page, selection.model) !== null
+        : lights.some(({ name }) => name === selection.light);
     if (!isThere) return;
     page.selection.value = selection;
     queueMicrotask(() => stop());
@@ -112,7 +118,9 @@ export function insertionCommands(shell: Shell): readonly Command[] {
   });
   return [
     { id: "upload_model", title: "Upload a model", group: "Simulation", run: () => shell.insertion.upload.open() },
-    command("insert.place", "Put what is being inserted into the middle of the view", "Enter", () => insert.placeInMiddle()),
+    command("insert.place", "Put what is being inserted into the middle of the view", "Enter", () =>
+      insert.placeInMiddle(),
+    ),
     command("insert.leave", "Insert nothing", "Escape", () => shell.page.tools.use("rviz/Interact")),
   ];
 }

@@ -15,7 +15,9 @@ export function chooseModel(what: "file" | "folder", take: (files: readonly Mode
   const input = Object.assign(document.createElement("input"), { type: "file" });
   if (what === "folder") input.webkitdirectory = true;
   else input.accept = ".zip,.sdf,.urdf";
-  input.addEventListener("change", () => take([...(input.files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }))));
+  input.addEventListener("change", () =>
+    take([...(input.files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }))),
+  );
   input.click();
 }
 
@@ -32,7 +34,11 @@ async function filesBelow(entries: readonly FileSystemEntry[]): Promise<readonly
   for (let entry = waiting.pop(); entry !== undefined && found.length <= MOST_FILES; entry = waiting.pop()) {
     const { fullPath: path } = entry;
     if (entry.isDirectory) waiting.push(...(await entriesOf(entry as FileSystemDirectoryEntry)));
-    else found.push({ path: path.replace(/^\//, ""), file: await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject)) });
+    else
+      found.push({
+        path: path.replace(/^\//, ""),
+        file: await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject)),
+      });
   }
   return found;
 }
@@ -42,7 +48,9 @@ async function entriesOf(folder: FileSystemDirectoryEntry): Promise<readonly Fil
   const reader = folder.createReader();
   const all: FileSystemEntry[] = [];
   for (;;) {
-    const some = await new Promise<readonly FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+    const some = await new Promise<readonly FileSystemEntry[]>((resolve, reject) =>
+      reader.readEntries(resolve, reject),
+    );
     if (some.length === 0 || all.length > MOST_FILES) return all;
     all.push(...some);
   }
@@ -57,13 +65,20 @@ export function titleOf(files: readonly ModelFile[]): string {
 export type Progress = (sent: number, total: number) => void;
 
 /** Send a model to the server; returns the names of the models in it, or throws a sentence. */
-export async function sendModel(files: readonly ModelFile[], signal: AbortSignal, progress: Progress): Promise<readonly string[]> {
+export async function sendModel(
+  files: readonly ModelFile[],
+  signal: AbortSignal,
+  progress: Progress,
+): Promise<readonly string[]> {
   if (files.length === 0) throw new Error("there is no file in it");
   if (files.length > MOST_FILES) throw new Error(`it has more than ${MOST_FILES} files`);
-  if (files.reduce((sum, { file }) => sum + file.size, 0) > MOST_BYTES) throw new Error(`it is too large: a model has at most ${MOST_BYTES / 2 ** 20} MiB`);
+  if (files.reduce((sum, { file }) => sum + file.size, 0) > MOST_BYTES)
+    throw new Error(`it is too large: a model has at most ${MOST_BYTES / 2 ** 20} MiB`);
   const form = new FormData();
   for (const { path, file } of files) form.append(path, file);
-  const { models } = JSON.parse(await post(`models${location.search}`, form, signal, progress)) as { readonly models: readonly string[] };
+  const { models } = JSON.parse(await post(`models${location.search}`, form, signal, progress)) as {
+    readonly models: readonly string[];
+  };
   return models;
 }
 
@@ -72,7 +87,8 @@ function post(url: string, form: FormData, signal: AbortSignal, progress: Progre
   const request = new XMLHttpRequest();
   return new Promise((resolve, reject) => {
     request.upload.onprogress = ({ loaded, total }) => progress(loaded, total);
-    request.onload = () => (request.status === 200 ? resolve(request.responseText) : reject(new Error(request.responseText.trim())));
+    request.onload = () =>
+      request.status === 200 ? resolve(request.responseText) : reject(new Error(request.responseText.trim()));
     request.onerror = () => reject(new Error("the connection was lost"));
     request.onabort = () => reject(new DOMException("cancelled", "AbortError"));
     signal.addEventListener("abort", () => request.abort());

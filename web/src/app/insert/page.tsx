@@ -27,7 +27,12 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
   const models = insertion.models.value;
   const wanted = search.value.trim().toLowerCase();
   const found = (models ?? []).filter(({ name, title }) => `${name} ${title}`.toLowerCase().includes(wanted));
-  const said = models === null ? "Looking for models." : models.length === 0 ? "There are no models on the model path." : "Nothing is named so.";
+  const said =
+    models === null
+      ? "Looking for models."
+      : models.length === 0
+        ? "There are no models on the model path."
+        : "Nothing is named so.";
   return (
     <>
       <div class="simple" role="group" aria-label="Simple shapes and lights">
@@ -41,7 +46,12 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
       <div class="search">
         <label class="field find">
           <Icon name="find" />
-          <input type="search" placeholder="Search the models" aria-label="Search the models" onInput={(event) => (search.value = event.currentTarget.value)} />
+          <input
+            type="search"
+            placeholder="Search the models"
+            aria-label="Search the models"
+            onInput={(event) => (search.value = event.currentTarget.value)}
+          />
         </label>
         <Button icon="upload" label="Upload a model" onClick={() => insertion.upload.open()} />
       </div>
@@ -59,7 +69,12 @@ function ModelButton({ shell, model }: { readonly shell: Shell; readonly model: 
   const { name, title, description, uploaded } = model;
   const version = uploaded ? shell.insertion.upload.count.value : 0;
   return (
-    <InsertButton shell={shell} thing={{ kind: "model", name, title }} class="model" tip={description === "" ? title : `${title}: ${description}`}>
+    <InsertButton
+      shell={shell}
+      thing={{ kind: "model", name, title }}
+      class="model"
+      tip={description === "" ? title : `${title}: ${description}`}
+    >
       <Picture key={version} name={name} version={version} />
       <span>{title}</span>
     </InsertButton>
@@ -70,5 +85,13 @@ function ModelButton({ shell, model }: { readonly shell: Shell; readonly model: 
 function Picture({ name, version }: { readonly name: string; readonly version: number }): JSX.Element {
   const failed = useSignal(false);
   if (failed.value) return <Icon name="model" />;
-  return <img src={`model.png?model=${encodeURIComponent(name)}&version=${version}`} alt="" loading="lazy" draggable={false} onError={() => (failed.value = true)} />;
+  return (
+    <img
+      src={`model.png?model=${encodeURIComponent(name)}&version=${version}`}
+      alt=""
+      loading="lazy"
+      draggable={false}
+      onError={() => (failed.value = true)}
+    />
+  );
 }

@@ -16,7 +16,15 @@ const AXES = ["x", "y", "z"] as const;
 const ZERO = [0, 0, 0] as const;
 
 /** What can be done with a model as a whole. */
-export function ModelButtons({ shell, name, model }: { readonly shell: Shell; readonly name: string; readonly model: ModelInfo }): JSX.Element {
+export function ModelButtons({
+  shell,
+  name,
+  model,
+}: {
+  readonly shell: Shell;
+  readonly name: string;
+  readonly model: ModelInfo;
+}): JSX.Element {
   return (
     <div class="sides two">
       {!model.static && (
@@ -38,7 +46,15 @@ export function ModelButtons({ shell, name, model }: { readonly shell: Shell; re
 }
 
 /** Pushes a link at its centre of mass with a force and a torque that are typed. */
-export function WrenchSection({ shell, model, link }: { readonly shell: Shell; readonly model: string; readonly link: string }): JSX.Element {
+export function WrenchSection({
+  shell,
+  model,
+  link,
+}: {
+  readonly shell: Shell;
+  readonly model: string;
+  readonly link: string;
+}): JSX.Element {
   const force = useSignal<readonly number[]>(ZERO);
   const torque = useSignal<readonly number[]>(ZERO);
   const duration = useSignal(1);
@@ -57,9 +73,31 @@ export function WrenchSection({ shell, model, link }: { readonly shell: Shell; r
       <h3>
         Force and torque <span class="dim">in world</span>
       </h3>
-      <NumbersRow name="Force" labels={labels("force")} values={force.value} unit="N" {...LIMITS} onCommit={(i, value) => (force.value = withNumber(force.value, i, value))} />
-      <NumbersRow name="Torque" labels={labels("torque")} values={torque.value} unit="N m" {...LIMITS} onCommit={(i, value) => (torque.value = withNumber(torque.value, i, value))} />
-      <NumbersRow name="For" labels={["duration"]} values={[duration.value]} unit="s" min={1e-3} max={1e6} onCommit={(_, value) => (duration.value = value)} />
+      <NumbersRow
+        name="Force"
+        labels={labels("force")}
+        values={force.value}
+        unit="N"
+        {...LIMITS}
+        onCommit={(i, value) => (force.value = withNumber(force.value, i, value))}
+      />
+      <NumbersRow
+        name="Torque"
+        labels={labels("torque")}
+        values={torque.value}
+        unit="N m"
+        {...LIMITS}
+        onCommit={(i, value) => (torque.value = withNumber(torque.value, i, value))}
+      />
+      <NumbersRow
+        name="For"
+        labels={["duration"]}
+        values={[duration.value]}
+        unit="s"
+        min={1e-3}
+        max={1e6}
+        onCommit={(_, value) => (duration.value = value)}
+      />
       <div class="sides">
         <Button small tone="line" onClick={() => push({ force: force.value, torque: torque.value }, duration.value)}>
           Apply

@@ -24,7 +24,11 @@ export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
   const selection = shell.page.selection.value;
   const { draft } = shell.editor;
   if (selection?.kind === "part") {
-    return draft.value === null ? <p class="empty">It is no longer edited.</p> : <PartForm shell={shell} draft={draft.value} path={selection.part} />;
+    return draft.value === null ? (
+      <p class="empty">It is no longer edited.</p>
+    ) : (
+      <PartForm shell={shell} draft={draft.value} path={selection.part} />
+    );
   }
   if (selection === null) return <p class="empty">Nothing is selected. Press something in the scene or in a tree.</p>;
   return (
@@ -70,7 +74,11 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   if (selection.kind === "link" && link === null) return <Gone />;
   return (
     <>
-      {link === null ? <ModelSections shell={shell} name={selection.model} model={model} /> : <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />}
+      {link === null ? (
+        <ModelSections shell={shell} name={selection.model} model={model} />
+      ) : (
+        <LinkSections shell={shell} model={selection.model} link={link} isStatic={model.static} />
+      )}
       <ModelJoints shell={shell} name={selection.model} model={model} />
       {shell.isDrawn.value && <ShownSection shell={shell} model={selection.model} />}
     </>
@@ -110,11 +118,23 @@ function asPose<T>(found: T | NoTransform): T | null {
 }
 
 const ICONS: Readonly<Record<Exclude<Shown["kind"], "sensor">, IconName>> = {
-  world: "world", light: "light", model: "model", link: "link", joint: "joint", plugin: "plugin", frame: "frame", picked: "select",
+  world: "world",
+  light: "light",
+  model: "model",
+  link: "link",
+  joint: "joint",
+  plugin: "plugin",
+  frame: "frame",
+  picked: "select",
 };
 
 function Title({ shell, selection }: SelectionProps): JSX.Element {
-  const { name, of, source, icon = selection.kind === "sensor" ? "sensor" : ICONS[selection.kind] } = titleOf(shell, selection);
+  const {
+    name,
+    of,
+    source,
+    icon = selection.kind === "sensor" ? "sensor" : ICONS[selection.kind],
+  } = titleOf(shell, selection);
   return (
     <div class="ti">
       <h2>
@@ -122,7 +142,13 @@ function Title({ shell, selection }: SelectionProps): JSX.Element {
         <span class="n">{name}</span>
       </h2>
       {selection.kind !== "picked" && (
-        <Button icon="focus" label="Frame it in the view" keys="F" small onClick={() => frameSelection(shell.page, selection)} />
+        <Button
+          icon="focus"
+          label="Frame it in the view"
+          keys="F"
+          small
+          onClick={() => frameSelection(shell.page, selection)}
+        />
       )}
       <span class="sm t2">
         {of}
@@ -154,10 +180,12 @@ interface TitleText {
 function titleOf(shell: Shell, selection: Shown): TitleText {
   const { page } = shell;
   if (selection.kind === "picked") return { name: selection.title, of: "", source: null };
-  if (selection.kind === "world") return { name: page.world.manifest.value?.name ?? "world", of: "world", source: null };
+  if (selection.kind === "world")
+    return { name: page.world.manifest.value?.name ?? "world", of: "world", source: null };
   if (selection.kind === "light") return { name: selection.light, of: "light", source: null };
   if (selection.kind === "frame") return { name: selection.frame, of: "frame", source: null };
-  if (selection.kind === "model") return { name: selection.model, of: "model", source: findModel(page, selection.model)?.source ?? null };
+  if (selection.kind === "model")
+    return { name: selection.model, of: "model", source: findModel(page, selection.model)?.source ?? null };
   if (selection.kind === "plugin") {
     const { of, plugin } = selection;
     const owner = of.kind === "world" ? "the world" : of.kind === "model" ? of.model : of.sensor;
@@ -165,9 +193,15 @@ function titleOf(shell: Shell, selection: Shown): TitleText {
   }
   if (selection.kind === "sensor") {
     const sensor = findSensor(page, selection.model, selection.link, selection.sensor);
-    return { name: selection.sensor, of: `sensor of ${selection.model}::${selection.link}`, source: sensor?.source ?? null, icon: sensorIcon(sensor?.type ?? "") };
+    return {
+      name: selection.sensor,
+      of: `sensor of ${selection.model}::${selection.link}`,
+      source: sensor?.source ?? null,
+      icon: sensorIcon(sensor?.type ?? ""),
+    };
   }
   const of = `${selection.kind} of ${selection.model}`;
-  if (selection.kind === "link") return { name: selection.link, of, source: findLink(page, selection.model, selection.link)?.source ?? null };
+  if (selection.kind === "link")
+    return { name: selection.link, of, source: findLink(page, selection.model, selection.link)?.source ?? null };
   return { name: selection.joint, of, source: findJoint(page, selection.model, selection.joint)?.source ?? null };
 }

@@ -18,10 +18,19 @@ import type { Fields } from "../../page/request_fields";
 /** Range of a velocity slider [rad/s or m/s]. */
 const FASTEST = 10;
 
-export function ModelJoints({ shell, name, model }: { readonly shell: Shell; readonly name: string; readonly model: ModelInfo }): JSX.Element | null {
+export function ModelJoints({
+  shell,
+  name,
+  model,
+}: {
+  readonly shell: Shell;
+  readonly name: string;
+  readonly model: ModelInfo;
+}): JSX.Element | null {
   const joints = model.joints.filter((joint) => joint.index !== null);
   if (joints.length === 0) return null;
-  const zero = (): void => joints.forEach((joint) => setJoint(shell, name, joint, Math.min(joint.upper ?? 0, Math.max(joint.lower ?? 0, 0))));
+  const zero = (): void =>
+    joints.forEach((joint) => setJoint(shell, name, joint, Math.min(joint.upper ?? 0, Math.max(joint.lower ?? 0, 0))));
   return (
     <section class="sec">
       <h3>
@@ -38,13 +47,23 @@ export function ModelJoints({ shell, name, model }: { readonly shell: Shell; rea
   );
 }
 
-export function JointSection({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element {
+export function JointSection({
+  shell,
+  model,
+  joint,
+}: {
+  readonly shell: Shell;
+  readonly model: string;
+  readonly joint: JointInfo;
+}): JSX.Element {
   const state = joint.index === null ? undefined : shell.page.world.joints.value.at(joint.index);
   const rows: readonly (readonly [string, string])[] = [
     ["Type", joint.type],
     ["Parent", joint.parent],
     ["Child", joint.child],
-    ...(state === undefined ? [] : [["Effort", `${fixed(state.effort, 2)} ${joint.type === "prismatic" ? "N" : "N m"}`] as const]),
+    ...(state === undefined
+      ? []
+      : [["Effort", `${fixed(state.effort, 2)} ${joint.type === "prismatic" ? "N" : "N m"}`] as const]),
   ];
   return (
     <section class="sec">
@@ -60,7 +79,9 @@ export function JointSection({ shell, model, joint }: { readonly shell: Shell; r
         </div>
       ))}
       {joint.index !== null && <JointSlider shell={shell} model={model} joint={joint} />}
-      {state !== undefined && canEdit(shell) && <JointTargets shell={shell} model={model} joint={joint} state={state} />}
+      {state !== undefined && canEdit(shell) && (
+        <JointTargets shell={shell} model={model} joint={joint} state={state} />
+      )}
     </section>
   );
 }
@@ -97,7 +118,9 @@ function JointTargets({ shell, model, joint, state }: TargetProps): JSX.Element 
           unit={unit}
           min={-1e6}
           max={1e6}
-          onCommit={(_, value) => driveJoint(shell, model, joint.name, { [name]: value }, { [name]: name === "position" ? now : 0 })}
+          onCommit={(_, value) =>
+            driveJoint(shell, model, joint.name, { [name]: value }, { [name]: name === "position" ? now : 0 })
+          }
         />
       ))}
     </>
@@ -113,7 +136,15 @@ function driveJoint(shell: Shell, model: string, joint: string, after: Target, b
   void editWorld(shell, `Joint ${joint}`, "joint", fields(after), fields(before));
 }
 
-function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly model: string; readonly joint: JointInfo }): JSX.Element | null {
+function JointSlider({
+  shell,
+  model,
+  joint,
+}: {
+  readonly shell: Shell;
+  readonly model: string;
+  readonly joint: JointInfo;
+}): JSX.Element | null {
   const held = useSignal<number | null>(null);
   const start = useSignal(0);
   const state = joint.index === null ? undefined : shell.page.world.joints.value.at(joint.index);
@@ -145,7 +176,8 @@ function JointSlider({ shell, model, joint }: { readonly shell: Shell; readonly 
         }}
         onRelease={() => {
           const name = isVelocity ? "velocity" : "position";
-          if (held.value !== null) driveJoint(shell, model, joint.name, { [name]: held.value }, { [name]: start.value });
+          if (held.value !== null)
+            driveJoint(shell, model, joint.name, { [name]: held.value }, { [name]: start.value });
           held.value = null;
         }}
       />

@@ -38,9 +38,22 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
   };
   return (
     <>
-      {first !== undefined && <PoseSection key={first} within="world" menu={<PlotMenu shell={shell} owner={name} values={bodyValues(model)} />} pose={() => page.world.pose(first)} onCommit={move} />}
+      {first !== undefined && (
+        <PoseSection
+          key={first}
+          within="world"
+          menu={<PlotMenu shell={shell} owner={name} values={bodyValues(model)} />}
+          pose={() => page.world.pose(first)}
+          onCommit={move}
+        />
+      )}
       {first !== undefined && !model.static && (
-        <TwistSection key={`twist ${first}`} page={page} body={first} onCommit={canEdit(shell) ? setTwist : undefined} />
+        <TwistSection
+          key={`twist ${first}`}
+          page={page}
+          body={first}
+          onCommit={canEdit(shell) ? setTwist : undefined}
+        />
       )}
       <section class="sec">
         <h3>Model</h3>
@@ -55,7 +68,11 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
 
 /** Moves a model so that one of its links is somewhere. */
 function mover(shell: Shell, model: string, { name }: LinkInfo): (after: Transform, before: Transform) => void {
-  const fields = ({ position, orientation }: Transform): Fields => ({ model, link: name, ...poseFields(position, orientation) });
+  const fields = ({ position, orientation }: Transform): Fields => ({
+    model,
+    link: name,
+    ...poseFields(position, orientation),
+  });
   return (after, before) => {
     void editWorld(shell, `Pose of ${model}`, "pose", fields(after), fields(before));
   };
@@ -72,16 +89,29 @@ export function LinkSections({ shell, model, link, isStatic }: LinkProps): JSX.E
   const { page } = shell;
   return (
     <>
-      <PoseSection key={link.body} within="world" menu={<PlotMenu shell={shell} owner={`${model}::${link.name}`} values={bodyValues({ static: isStatic })} />} pose={() => page.world.pose(link.body)} onCommit={canEdit(shell) ? mover(shell, model, link) : undefined} />
+      <PoseSection
+        key={link.body}
+        within="world"
+        menu={<PlotMenu shell={shell} owner={`${model}::${link.name}`} values={bodyValues({ static: isStatic })} />}
+        pose={() => page.world.pose(link.body)}
+        onCommit={canEdit(shell) ? mover(shell, model, link) : undefined}
+      />
       {!isStatic && <TwistSection key={`twist ${link.body}`} page={page} body={link.body} />}
       {!isStatic && <Inertia shell={shell} model={model} link={link} />}
-      {!isStatic && canEdit(shell) && <WrenchSection key={`force ${link.body}`} shell={shell} model={model} link={link.name} />}
+      {!isStatic && canEdit(shell) && (
+        <WrenchSection key={`force ${link.body}`} shell={shell} model={model} link={link.name} />
+      )}
       {link.friction !== null && <Friction shell={shell} model={model} link={link.name} friction={link.friction} />}
       {link.sensors.length > 0 && (
         <section class="sec">
           <h3>Sensors</h3>
           {link.sensors.map((sensor) => (
-            <KeyValue key={sensor.name} name={sensor.topic ?? sensor.name} value={`${sensor.type} ${fixed(sensor.rate, 0)}`} unit="Hz" />
+            <KeyValue
+              key={sensor.name}
+              name={sensor.topic ?? sensor.name}
+              value={`${sensor.type} ${fixed(sensor.rate, 0)}`}
+              unit="Hz"
+            />
           ))}
         </section>
       )}
@@ -93,18 +123,28 @@ function Inertia({ shell, model, link }: Omit<LinkProps, "isStatic">): JSX.Eleme
   const [ixx, iyy, izz, ixy, ixz, iyz] = link.inertia;
   const [x, y, z] = link.inertial_pose;
   const fields = (mass: number): Fields => ({ model, link: link.name, mass });
-  const set = (mass: number): void => void editWorld(shell, `Mass of ${link.name}`, "mass", fields(mass), fields(link.mass));
+  const set = (mass: number): void =>
+    void editWorld(shell, `Mass of ${link.name}`, "mass", fields(mass), fields(link.mass));
   return (
     <section class="sec">
       <h3>Mass and inertia</h3>
       {canEdit(shell) ? (
-        <NumbersRow name="Mass" labels={["Mass"]} values={[link.mass]} unit="kg" {...MASSES} onCommit={(_, mass) => set(mass)} />
+        <NumbersRow
+          name="Mass"
+          labels={["Mass"]}
+          values={[link.mass]}
+          unit="kg"
+          {...MASSES}
+          onCommit={(_, mass) => set(mass)}
+        />
       ) : (
         <KeyValue name="Mass" value={fixed(link.mass, 3)} unit="kg" />
       )}
       <KeyValue name="Centre of mass" value={row([x, y, z], 3)} unit="m" />
       <KeyValue name="ixx · iyy · izz" value={row([ixx, iyy, izz], 4)} unit="kg m²" />
-      {[ixy, ixz, iyz].some((product) => product !== 0) && <KeyValue name="ixy · ixz · iyz" value={row([ixy, ixz, iyz], 4)} unit="kg m²" />}
+      {[ixy, ixz, iyz].some((product) => product !== 0) && (
+        <KeyValue name="ixy · ixz · iyz" value={row([ixy, ixz, iyz], 4)} unit="kg m²" />
+      )}
     </section>
   );
 }
@@ -119,14 +159,23 @@ interface FrictionProps {
 function Friction({ shell, model, link, friction }: FrictionProps): JSX.Element {
   const fields = ([mu, mu2]: readonly [number, number]): Fields => ({ model, link, mu, mu2 });
   const set = (index: number, value: number): void =>
-    void editWorld(shell, `Friction of ${link}`, "friction", fields(withNumber(friction, index, value)), fields(friction));
+    void editWorld(
+      shell,
+      `Friction of ${link}`,
+      "friction",
+      fields(withNumber(friction, index, value)),
+      fields(friction),
+    );
   return (
     <section class="sec">
       <h3>Friction</h3>
       {canEdit(shell) && friction.every((mu) => mu >= 0) ? (
         <NumbersRow name="mu · mu2" labels={["mu", "mu2"]} values={friction} min={0} max={1e6} onCommit={set} />
       ) : (
-        <KeyValue name="mu · mu2" value={friction.map((mu) => (Number.isInteger(mu) ? fixed(mu, 1) : plain(mu))).join(" · ")} />
+        <KeyValue
+          name="mu · mu2"
+          value={friction.map((mu) => (Number.isInteger(mu) ? fixed(mu, 1) : plain(mu))).join(" · ")}
+        />
       )}
     </section>
   );

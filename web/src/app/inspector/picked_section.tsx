@@ -34,7 +34,9 @@ function fieldRows(fields: object, parent: string, depth: number, isOpen: (key: 
       const content = (
         <>
           <span class="n g">{name}</span>
-          <span class="r">{nested === null ? fieldText(value) : Array.isArray(nested) ? `${nested.length} entries` : ""}</span>
+          <span class="r">
+            {nested === null ? fieldText(value) : Array.isArray(nested) ? `${nested.length} entries` : ""}
+          </span>
         </>
       );
       const row: TreeRow = { key, depth, open, content };

@@ -46,7 +46,15 @@ export function PoseSection({ within, pose, menu, onCommit }: PoseProps): JSX.El
       <div class="pose">
         {AXES.map((axis, index) => (
           <>
-            <Reading key={axis} axis={axis} name={axis} value={now?.position[axis]} decimals={3} unit="m" onCommit={set === null ? null : (value) => set.move(index, value)} />
+            <Reading
+              key={axis}
+              axis={axis}
+              name={axis}
+              value={now?.position[axis]}
+              decimals={3}
+              unit="m"
+              onCommit={set === null ? null : (value) => set.move(index, value)}
+            />
             <Reading
               key={`angle ${axis}`}
               axis={axis}
@@ -85,7 +93,17 @@ function Reading({ axis, name, value, decimals, unit, onCommit }: ReadingProps):
   if (onCommit !== null && value !== undefined) {
     return (
       <span class="cell">
-        <NumberField label={name} value={value} decimals={decimals} unit={unit} min={-1e6} max={1e6} class="num" before={head} onCommit={onCommit} />
+        <NumberField
+          label={name}
+          value={value}
+          decimals={decimals}
+          unit={unit}
+          min={-1e6}
+          max={1e6}
+          class="num"
+          before={head}
+          onCommit={onCommit}
+        />
       </span>
     );
   }

@@ -50,5 +50,9 @@ export class MotionSamples {
 /** Roll, pitch and yaw [rad] of R = Rz(yaw) Ry(pitch) Rx(roll), as URDF and SDF have them. */
 export function rollPitchYaw({ x, y, z, w }: Quaternion): readonly [number, number, number] {
   const pitch = Math.asin(Math.min(1, Math.max(-1, 2 * (w * y - z * x))));
-  return [Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)), pitch, Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))];
+  return [
+    Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+    pitch,
+    Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+  ];
 }

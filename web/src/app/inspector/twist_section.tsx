@@ -33,7 +33,9 @@ export function TwistSection({ page, body, onCommit }: TwistProps): JSX.Element 
   const twist = page.world.state.value?.paused === true ? null : measured;
   const now = twist ?? STILL;
   const commit = (part: keyof Twist) =>
-    onCommit === undefined ? null : (index: number, value: number): void => onCommit({ ...now, [part]: withNumber(now[part], index, value) }, now);
+    onCommit === undefined
+      ? null
+      : (index: number, value: number): void => onCommit({ ...now, [part]: withNumber(now[part], index, value) }, now);
   return (
     <section class="sec">
       <h3>

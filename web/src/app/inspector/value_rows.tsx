@@ -7,7 +7,15 @@ import { NumberField } from "../../theme/number_field";
 /** Characters that a row shows of a value; one that is longer is shown whole where the pointer rests on it. */
 const LONG = 20;
 
-export function KeyValue({ name, value, unit }: { readonly name: string; readonly value: string; readonly unit?: string }): JSX.Element {
+export function KeyValue({
+  name,
+  value,
+  unit,
+}: {
+  readonly name: string;
+  readonly value: string;
+  readonly unit?: string;
+}): JSX.Element {
   return (
     <div class="kv">
       <span>{name}</span>

@@ -26,7 +26,15 @@ export function NoticeList({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-function Entry({ shell, notice, onClose }: { readonly shell: Shell; readonly notice: Notice; readonly onClose: () => void }): JSX.Element {
+function Entry({
+  shell,
+  notice,
+  onClose,
+}: {
+  readonly shell: Shell;
+  readonly notice: Notice;
+  readonly onClose: () => void;
+}): JSX.Element {
   const { display } = notice;
   const show = (): void => {
     if (display === undefined) return;

@@ -32,7 +32,9 @@ export class Notices {
   constructor({ displays, connection, world }: Pick<Page, "displays" | "connection" | "world">) {
     const faults = computed(() => withMembers(displays.displays.value, isEnabled).flatMap(displayFaults));
     const unsupported = computed(() =>
-      displays.unsupported.value.map(({ name, className, reason }): Notice => ({ level: "warn", title: name || className, text: reason })),
+      displays.unsupported.value.map(
+        ({ name, className, reason }): Notice => ({ level: "warn", title: name || className, text: reason }),
+      ),
     );
     const isWritten = (id: string | undefined): boolean => id?.startsWith(FILE) ?? false;
     const told = computed(() => connection.notices.value.filter(({ level }) => level !== "info"));
@@ -41,11 +43,28 @@ export class Notices {
         .filter(({ id }) => !isWritten(id))
         .map(({ level, text }): Notice => ({ level: level === "error" ? "error" : "warn", title: "Server", text })),
     );
-    const files = computed(() => told.value.filter(({ id }) => isWritten(id)).map(({ text }): Notice => ({ level: "warn", title: "File", text })));
+    const files = computed(() =>
+      told.value.filter(({ id }) => isWritten(id)).map(({ text }): Notice => ({ level: "warn", title: "File", text })),
+    );
     const drawn = computed(() => world.faults.value.map((text): Notice => ({ level: "warn", title: "World", text })));
-    this.all = computed(() => bySeverity([...this.reports.value, ...server.value, ...files.value, ...drawn.value, ...faults.value, ...unsupported.value]));
+    this.all = computed(() =>
+      bySeverity([
+        ...this.reports.value,
+        ...server.value,
+        ...files.value,
+        ...drawn.value,
+        ...faults.value,
+        ...unsupported.value,
+      ]),
+    );
     this.line = computed(() => {
-      const line = summary(this.reports.value, [...server.value, ...drawn.value], faults.value, unsupported.value.length, files.value);
+      const line = summary(
+        this.reports.value,
+        [...server.value, ...drawn.value],
+        faults.value,
+        unsupported.value.length,
+        files.value,
+      );
       return line.text === this.dismissed.value ? { level: "ok", text: "" } : line;
     });
   }
@@ -87,7 +106,8 @@ function summary(
   unsupported: number,
   files: readonly Notice[],
 ): { level: StatusLevel; text: string } {
-  const displays = (which: (notice: Notice) => boolean): number => new Set(faults.filter(which).map((notice) => notice.display)).size;
+  const displays = (which: (notice: Notice) => boolean): number =>
+    new Set(faults.filter(which).map((notice) => notice.display)).size;
   const isTransform = (notice: Notice): boolean => /no transform|fixed frame/i.test(notice.text);
   const isMesh = (notice: Notice): boolean => notice.text.startsWith("Could not load mesh");
   const isSilent = (notice: Notice): boolean => !isTransform(notice) && isSilence(notice);

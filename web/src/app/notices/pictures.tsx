@@ -43,7 +43,11 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
   };
   const turn = (dx: number, dy: number): void => {
     const { azimuth, elevation, distance } = view.peek();
-    view.value = { azimuth: azimuth - dx * TURN, elevation: Math.min(1.5, Math.max(-0.2, elevation + dy * TURN)), distance };
+    view.value = {
+      azimuth: azimuth - dx * TURN,
+      elevation: Math.min(1.5, Math.max(-0.2, elevation + dy * TURN)),
+      distance,
+    };
   };
   const zoom = (factor: number): void => {
     view.value = { ...view.peek(), distance: Math.min(100, Math.max(0.3, view.peek().distance * factor)) };
@@ -69,7 +73,9 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
           onLoad={() => answered(false)}
           onError={() => answered(true)}
           onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
-          onPointerMove={(event) => event.currentTarget.hasPointerCapture(event.pointerId) && turn(event.movementX, event.movementY)}
+          onPointerMove={(event) =>
+            event.currentTarget.hasPointerCapture(event.pointerId) && turn(event.movementX, event.movementY)
+          }
           onWheel={(event) => zoom(event.deltaY > 0 ? 1.15 : 1 / 1.15)}
           onKeyDown={(event) => keys[event.key]?.()}
         />

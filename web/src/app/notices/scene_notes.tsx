@@ -9,7 +9,8 @@ import { Pictures } from "./pictures";
 export function SceneNotes({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const status = shell.page.scene.status.value;
   if (status.kind === "unsupported") return <Pictures shell={shell} reason={status.reason} />;
-  if (status.kind === "lost") return <Note text="The graphics card was taken away; the browser will give it back, or load the page again." />;
+  if (status.kind === "lost")
+    return <Note text="The graphics card was taken away; the browser will give it back, or load the page again." />;
   return <Loading shell={shell} />;
 }
 

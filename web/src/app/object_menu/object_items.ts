@@ -44,7 +44,12 @@ function shownItems({ page }: Shell, selection: InModel): MenuItem[] {
   const parts = (): MenuItem[] =>
     partsOf(page).map((part) => {
       const isShown = world.shown.of(part, model);
-      return { title: PART_NAMES[part], checked: isShown, stays: true, run: () => world.shown.set(part, model, !isShown) };
+      return {
+        title: PART_NAMES[part],
+        checked: isShown,
+        stays: true,
+        run: () => world.shown.set(part, model, !isShown),
+      };
     });
   return [
     { title: "View", starts: true, items: parts },
@@ -53,7 +58,8 @@ function shownItems({ page }: Shell, selection: InModel): MenuItem[] {
 }
 
 function editItems(shell: Shell, selection: Selection | null, inModel: InModel | null, at: Vector3 | null): MenuItem[] {
-  if (selection?.kind === "light") return [{ title: "Delete", keys: "Delete", run: () => deleteLight(shell, selection.light) }];
+  if (selection?.kind === "light")
+    return [{ title: "Delete", keys: "Delete", run: () => deleteLight(shell, selection.light) }];
   const copied = shell.copied.value;
   const paste: MenuItem = {
     title: "Paste",
@@ -62,7 +68,12 @@ function editItems(shell: Shell, selection: Selection | null, inModel: InModel |
     run: () => copied !== null && copyModel(shell, copied, at),
   };
   if (inModel === null) return [paste];
-  return [...handlingItems(shell, inModel), { title: "Copy", starts: true, run: () => (shell.copied.value = inModel.model) }, paste, deleteItem(shell, inModel)];
+  return [
+    ...handlingItems(shell, inModel),
+    { title: "Copy", starts: true, run: () => (shell.copied.value = inModel.model) },
+    paste,
+    deleteItem(shell, inModel),
+  ];
 }
 
 function handlingItems(shell: Shell, selection: InModel): MenuItem[] {

@@ -30,11 +30,25 @@ export function ObjectMenu({ shell }: { readonly shell: Shell }): JSX.Element | 
     shell.menu.value = null;
     if (open.from instanceof HTMLElement) open.from.focus();
   };
-  return <Menu key={`${open.x} ${open.y}`} items={items} label="What is selected" place={(list) => placeAt(list, open.x, open.y)} onClose={close} />;
+  return (
+    <Menu
+      key={`${open.x} ${open.y}`}
+      items={items}
+      label="What is selected"
+      place={(list) => placeAt(list, open.x, open.y)}
+      onClose={close}
+    />
+  );
 }
 
 /** Select a thing, and open its menu at a point of the page [px]. */
-export function openMenu(shell: Shell, selection: Selection | null, x: number, y: number, at: Vector3 | null = null): void {
+export function openMenu(
+  shell: Shell,
+  selection: Selection | null,
+  x: number,
+  y: number,
+  at: Vector3 | null = null,
+): void {
   if (objectItems(shell, selection, at).length === 0) return;
   if (selection !== null) shell.page.selection.value = selection;
   shell.menu.value = { selection, x, y, at, from: document.activeElement };
@@ -47,7 +61,13 @@ export function openSceneMenu(shell: Shell, x: number, y: number): void {
   const point = pick?.point ?? scene.pickGround(x, y);
   scene.world.updateWorldMatrix(true, false);
   const { left, top } = scene.element.getBoundingClientRect();
-  openMenu(shell, selectionOf(pick), left + x, top + y, point === null ? null : scene.world.worldToLocal(point.clone()));
+  openMenu(
+    shell,
+    selectionOf(pick),
+    left + x,
+    top + y,
+    point === null ? null : scene.world.worldToLocal(point.clone()),
+  );
 }
 
 /** Open the menu of what is selected, in the middle of the scene. */

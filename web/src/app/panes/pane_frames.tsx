@@ -39,7 +39,15 @@ function PaneFrame({ shell, pane, isSplit }: PaneProps): JSX.Element {
   );
 }
 
-function PaneName({ shell, pane, isActive }: { readonly shell: Shell; readonly pane: ViewPane; readonly isActive: boolean }): JSX.Element {
+function PaneName({
+  shell,
+  pane,
+  isActive,
+}: {
+  readonly shell: Shell;
+  readonly pane: ViewPane;
+  readonly isActive: boolean;
+}): JSX.Element {
   const title = useMemo(() => computed(() => paneTitle(pane.current.value)), [pane]).value; // drawn again for other words only
   const { left, top } = pane.place.value.insets;
   return (
@@ -56,5 +64,10 @@ function CameraFrame({ pane }: { readonly pane: ViewPane }): JSX.Element | null 
   const frame = pane.cameraFrame.value;
   if (frame === null) return null;
   const { left, top, width, height } = frame;
-  return <div class="cameraframe" style={{ left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` }} />;
+  return (
+    <div
+      class="cameraframe"
+      style={{ left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` }}
+    />
+  );
 }

@@ -19,12 +19,24 @@ export function paneItems(shell: Shell, pane: ViewPane): readonly MenuItem[] {
   };
   const isActive = views.active.value === pane;
   return [
-    ...SIDES.map((side): MenuItem => ({ title: `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`, run: here(() => views.lookFrom(side)) })),
+    ...SIDES.map(
+      (side): MenuItem => ({
+        title: `Look from ${/top|bottom/.test(side) ? side : `the ${side}`}`,
+        run: here(() => views.lookFrom(side)),
+      }),
+    ),
     { title: "Perspective or orthographic", starts: true, run: here(() => views.toggleProjection()) },
     { title: "First person", run: here(() => toggleFirstPerson(page)) },
     { title: isActive && isFollowing(page) ? "Stop following" : "Follow", run: here(() => toggleFollowing(page)) },
     { title: "Frame", run: here(() => frameSelection(page, page.selection.peek())) },
-    ...(page.world.manifest.value?.cameras ?? []).map((camera, index): MenuItem => ({ title: `Through ${camera.name}`, icon: "camera", starts: index === 0, run: here(() => lookThrough(page, camera)) })),
+    ...(page.world.manifest.value?.cameras ?? []).map(
+      (camera, index): MenuItem => ({
+        title: `Through ${camera.name}`,
+        icon: "camera",
+        starts: index === 0,
+        run: here(() => lookThrough(page, camera)),
+      }),
+    ),
     { title: "Only this one", starts: true, run: here(() => chooseSplit(shell.split, "one")) },
   ];
 }

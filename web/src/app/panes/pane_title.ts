@@ -11,15 +11,25 @@ const KINDS: Readonly<Record<string, string>> = {
   "trundle/Camera": "Camera",
 };
 /** Yaw of the eye around the focal point, by the side that is seen [rad]. */
-const SIDES: readonly (readonly [SixSides, number])[] = [["front", 0], ["left", Math.PI / 2], ["back", Math.PI], ["right", -Math.PI / 2]];
+const SIDES: readonly (readonly [SixSides, number])[] = [
+  ["front", 0],
+  ["left", Math.PI / 2],
+  ["back", Math.PI],
+  ["right", -Math.PI / 2],
+];
 const CLOSE = 0.01; // rad
 
 /** As "Top", "Perspective", "First person · base_link". */
 export function paneTitle({ className, properties }: ViewController): string {
   const of = (name: string): unknown => properties.find((each: Property<unknown>) => each.name === name)?.value.value;
-  const kind = KINDS[className] ?? sideOf(Number(of("Yaw")), Number(of("Pitch"))) ?? (of("Projection") === "Orthographic" ? "Orthographic" : "Perspective");
+  const kind =
+    KINDS[className] ??
+    sideOf(Number(of("Yaw")), Number(of("Pitch"))) ??
+    (of("Projection") === "Orthographic" ? "Orthographic" : "Perspective");
   const target = of("Target Frame");
-  return typeof target !== "string" || target === FIXED_FRAME || target === "" ? kind : `${kind} · ${target.slice(target.lastIndexOf(":") + 1)}`;
+  return typeof target !== "string" || target === FIXED_FRAME || target === ""
+    ? kind
+    : `${kind} · ${target.slice(target.lastIndexOf(":") + 1)}`;
 }
 
 /** The side that is looked from straight; null: none. */

@@ -10,7 +10,12 @@ import type { Layout } from "../layout";
 import type { Shell } from "../shell";
 import { isOneOf, recall, remember } from "../../page/storage";
 
-const TITLES: Readonly<Record<PaneLayout, string>> = { one: "One view", beside: "Two views side by side", stacked: "Two views, stacked", four: "Four views" };
+const TITLES: Readonly<Record<PaneLayout, string>> = {
+  one: "One view",
+  beside: "Two views side by side",
+  stacked: "Two views, stacked",
+  four: "Four views",
+};
 
 /** The remembered layout, which the scene has unless the page is a phone's. */
 export function recallSplit({ views }: Pick<Page, "views">, layout: Layout): Signal<PaneLayout> {
@@ -32,7 +37,11 @@ export function chooseSplit(split: Signal<PaneLayout>, layout: PaneLayout): void
 
 export function SplitMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const items = (): ReturnType<Parameters<typeof MenuButton>[0]["items"]> =>
-    PANE_LAYOUTS.map((layout) => ({ title: TITLES[layout], checked: shell.split.value === layout, run: () => chooseSplit(shell.split, layout) }));
+    PANE_LAYOUTS.map((layout) => ({
+      title: TITLES[layout],
+      checked: shell.split.value === layout,
+      run: () => chooseSplit(shell.split, layout),
+    }));
   return (
     <div class="tools float">
       <MenuButton icon="panes" label="Split the view" items={items} />
@@ -43,8 +52,30 @@ export function SplitMenu({ shell }: { readonly shell: Shell }): JSX.Element {
 export function splitCommands({ page, split, layout }: Shell): readonly Command[] {
   const isSplit = (): boolean => page.views.panes.peek().length > 1;
   return [
-    ...PANE_LAYOUTS.map((each): Command => ({ id: `split.${each}`, group: "View", title: TITLES[each], enabled: () => !layout.isPhone.peek(), run: () => chooseSplit(split, each) })),
-    { id: "pane.next", group: "View", title: "Next of the views", keys: "V", enabled: isSplit, run: () => page.views.stepPane(1) },
-    { id: "pane.previous", group: "View", title: "View before", keys: "Shift V", enabled: isSplit, run: () => page.views.stepPane(-1) },
+    ...PANE_LAYOUTS.map(
+      (each): Command => ({
+        id: `split.${each}`,
+        group: "View",
+        title: TITLES[each],
+        enabled: () => !layout.isPhone.peek(),
+        run: () => chooseSplit(split, each),
+      }),
+    ),
+    {
+      id: "pane.next",
+      group: "View",
+      title: "Next of the views",
+      keys: "V",
+      enabled: isSplit,
+      run: () => page.views.stepPane(1),
+    },
+    {
+      id: "pane.previous",
+      group: "View",
+      title: "View before",
+      keys: "Shift V",
+      enabled: isSplit,
+      run: () => page.views.stepPane(-1),
+    },
   ];
 }

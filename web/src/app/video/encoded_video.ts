@@ -30,13 +30,23 @@ export class EncodedVideo implements VideoFile {
   /** Null: the browser has no encoder, as on a page that comes by plain http over a network. */
   static async open(canvas: HTMLCanvasElement): Promise<EncodedVideo | null> {
     if (typeof VideoEncoder === "undefined") return null;
-    const { BufferTarget, CanvasSource, getFirstEncodableVideoCodec, Mp4OutputFormat, Output, Quality } = await import("mediabunny");
+    const { BufferTarget, CanvasSource, getFirstEncodableVideoCodec, Mp4OutputFormat, Output, Quality } = await import(
+      "mediabunny"
+    );
     const quality = new Quality({ bitrate: bitRate(canvas) });
-    const codec = await getFirstEncodableVideoCodec([...CODECS], { width: canvas.width, height: canvas.height, quality });
+    const codec = await getFirstEncodableVideoCodec([...CODECS], {
+      width: canvas.width,
+      height: canvas.height,
+      quality,
+    });
     if (codec === null) return null;
     const output = new Output({ format: new Mp4OutputFormat({ fastStart: "in-memory" }), target: new BufferTarget() });
     const written = { bytes: 0 };
-    const source = new CanvasSource(canvas, { codec, quality, onEncodedPacket: ({ byteLength }) => (written.bytes += byteLength) });
+    const source = new CanvasSource(canvas, {
+      codec,
+      quality,
+      onEncodedPacket: ({ byteLength }) => (written.bytes += byteLength),
+    });
     output.addVideoTrack(source);
     await output.start();
     return new EncodedVideo(output, source, written);

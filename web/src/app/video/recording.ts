@@ -30,7 +30,11 @@ export class Recording {
    * Take a picture for a time [s], unless the encoder is busy; the first one gives the video its size. After a jump back
    * in time the video goes on.
    */
-  add(image: CanvasImageSource, from: PictureSize & { readonly left: number; readonly top: number }, time: number): void {
+  add(
+    image: CanvasImageSource,
+    from: PictureSize & { readonly left: number; readonly top: number },
+    time: number,
+  ): void {
     this.opening ??= this.open(from);
     const { canvas, context, file, last } = this;
     if (file === null || file.isBusy || time === last) return;
@@ -42,7 +46,8 @@ export class Recording {
   }
 
   async finish(): Promise<VideoContent> {
-    if (this.opening === null) throw new Error("No picture has come; a simulated camera draws while the simulation runs.");
+    if (this.opening === null)
+      throw new Error("No picture has come; a simulated camera draws while the simulation runs.");
     return (await this.opening).finish();
   }
 

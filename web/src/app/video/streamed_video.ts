@@ -3,7 +3,14 @@
 import { bitRate, RATE, type VideoContent, type VideoFile } from "./video_file";
 
 /** Containers and codecs, the most widely played first. */
-const TYPES = ["video/mp4;codecs=avc1.64003E", "video/mp4;codecs=avc1.42E01E", "video/mp4;codecs=vp9", "video/mp4", "video/webm;codecs=vp9", "video/webm"];
+const TYPES = [
+  "video/mp4;codecs=avc1.64003E",
+  "video/mp4;codecs=avc1.42E01E",
+  "video/mp4;codecs=vp9",
+  "video/mp4",
+  "video/webm;codecs=vp9",
+  "video/webm",
+];
 
 export class StreamedVideo implements VideoFile {
   readonly remark: string;
@@ -15,7 +22,10 @@ export class StreamedVideo implements VideoFile {
     private readonly recorder: MediaRecorder,
     private readonly suffix: VideoContent["suffix"],
   ) {
-    this.remark = suffix === "mp4" ? "in the time of the clock" : "as WebM, in the time of the clock; MP4 needs a page from localhost or https";
+    this.remark =
+      suffix === "mp4"
+        ? "in the time of the clock"
+        : "as WebM, in the time of the clock; MP4 needs a page from localhost or https";
     recorder.ondataavailable = ({ data }) => {
       this.parts.push(data);
       this.size += data.size;
@@ -25,9 +35,13 @@ export class StreamedVideo implements VideoFile {
 
   /** Throws a sentence where the browser records none. */
   static open(canvas: HTMLCanvasElement): StreamedVideo {
-    const type = typeof MediaRecorder === "undefined" ? undefined : TYPES.find((each) => MediaRecorder.isTypeSupported(each));
+    const type =
+      typeof MediaRecorder === "undefined" ? undefined : TYPES.find((each) => MediaRecorder.isTypeSupported(each));
     if (type === undefined) throw new Error("This browser records no video; trundle render writes one of a camera.");
-    const recorder = new MediaRecorder(canvas.captureStream(RATE), { mimeType: type, videoBitsPerSecond: bitRate(canvas) });
+    const recorder = new MediaRecorder(canvas.captureStream(RATE), {
+      mimeType: type,
+      videoBitsPerSecond: bitRate(canvas),
+    });
     return new StreamedVideo(recorder, type.startsWith("video/mp4") ? "mp4" : "webm");
   }
 

@@ -22,7 +22,11 @@ export function toggleFirstPerson(page: Page): void {
   const at = target.lastIndexOf("::");
   const link = { kind: "link", model: target.slice(0, Math.max(0, at)), link: target.slice(at + 2) } as const;
   const [body] = selectedBodies(page, link);
-  const height = body === undefined ? 0 : world.bounds(selectedBodies(page, { kind: "model", model: link.model })).max.z - (world.object(body)?.position.z ?? 0);
+  const height =
+    body === undefined
+      ? 0
+      : world.bounds(selectedBodies(page, { kind: "model", model: link.model })).max.z -
+        (world.object(body)?.position.z ?? 0);
   views.ride(target, [0, 0, height + OVER]);
 }
 

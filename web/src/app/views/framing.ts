@@ -82,8 +82,14 @@ export function targetPose(page: Page, target: string): Transform | null {
 /** Bodies with an outline: the selected link's is broad, its model's thin, and what is hovered thin. */
 export function outlinedBodies(page: Page): { readonly thin: readonly number[]; readonly broad: readonly number[] } {
   const selection = placed(page.selection.value);
-  if (selection?.kind === "part" && selection.part.length > 0) return { thin: selectedBodies(page, page.hovered.value), broad: selectedBodies(page, selection) };
+  if (selection?.kind === "part" && selection.part.length > 0)
+    return { thin: selectedBodies(page, page.hovered.value), broad: selectedBodies(page, selection) };
   const isPart = selection?.kind === "link" || selection?.kind === "joint";
-  const whole = isPart ? selectedBodies(page, { kind: "model", model: selection.model }) : selectedBodies(page, selection);
-  return { thin: [...whole, ...selectedBodies(page, page.hovered.value)], broad: isPart ? selectedBodies(page, selection) : [] };
+  const whole = isPart
+    ? selectedBodies(page, { kind: "model", model: selection.model })
+    : selectedBodies(page, selection);
+  return {
+    thin: [...whole, ...selectedBodies(page, page.hovered.value)],
+    broad: isPart ? selectedBodies(page, selection) : [],
+  };
 }

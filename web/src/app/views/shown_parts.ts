@@ -23,7 +23,11 @@ export const PART_NAMES: Readonly<Record<Part, string>> = {
   sonars: "Sonar cones",
 };
 
-export const WORLD_PART_NAMES: Readonly<Record<WorldPart, string>> = { grid: "Grid", origin: "World origin", wind: "Wind" };
+export const WORLD_PART_NAMES: Readonly<Record<WorldPart, string>> = {
+  grid: "Grid",
+  origin: "World origin",
+  wind: "Wind",
+};
 
 /** Parts that only a running simulation has. */
 const LIVE: readonly Part[] = ["contacts", "rays", "points", "sonars"];
@@ -64,9 +68,14 @@ export function rememberShown({ world }: Pick<Page, "world">): void {
     if (name !== recalled) {
       recalled = name;
       const saved = recall<readonly (readonly [string, Saved<Part>])[]>(`shown.models.${name}`, [], isListOf(isModel));
-      untracked(() => (shown.models.value = new Map(saved.map(([model, own]) => [model, new Map(own)])) satisfies ModelParts));
+      untracked(
+        () => (shown.models.value = new Map(saved.map(([model, own]) => [model, new Map(own)])) satisfies ModelParts),
+      );
     }
-    remember(`shown.models.${name}`, [...shown.models.value].map(([model, own]) => [model, [...own]]));
+    remember(
+      `shown.models.${name}`,
+      [...shown.models.value].map(([model, own]) => [model, [...own]]),
+    );
   });
 }
 
@@ -77,7 +86,8 @@ function isListOf<T>(is: Guard<T>): Guard<readonly T[]> {
 }
 
 function isPair<Key extends string>(isKey: Guard<Key>): Guard<readonly [Key, boolean]> {
-  return (value): value is readonly [Key, boolean] => Array.isArray(value) && value.length === 2 && isKey(value[0]) && typeof value[1] === "boolean";
+  return (value): value is readonly [Key, boolean] =>
+    Array.isArray(value) && value.length === 2 && isKey(value[0]) && typeof value[1] === "boolean";
 }
 
 function isModel(value: unknown): value is readonly [string, Saved<Part>] {

@@ -12,8 +12,13 @@ const KEY = "#view=";
 const LONGEST = 8000;
 
 /** The link to the page with the current view, or the views of all panes. */
-export function linkTo(views: Pick<Views, "current" | "layout" | "panes" | "active">, address: string, token: string): string {
-  const short = (_: string, value: unknown): unknown => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
+export function linkTo(
+  views: Pick<Views, "current" | "layout" | "panes" | "active">,
+  address: string,
+  token: string,
+): string {
+  const short = (_: string, value: unknown): unknown =>
+    typeof value === "number" ? Number(value.toPrecision(6)) : value;
   const url = new URL(address);
   url.hash = "";
   url.searchParams.delete("view_only");

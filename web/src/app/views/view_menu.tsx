@@ -15,8 +15,15 @@ export function ViewMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const isRecorded = videos.has("");
   return (
     <div class="tools float">
-      {page.world.manifest.value !== null && <MenuButton icon="eye" label="Show in the view" items={() => shownItems(page)} />}
-      <Button icon="camera" label={isRecorded ? "Stop and save the video" : "Record a video of the view"} on={isRecorded} onClick={() => videos.toggleView()} />
+      {page.world.manifest.value !== null && (
+        <MenuButton icon="eye" label="Show in the view" items={() => shownItems(page)} />
+      )}
+      <Button
+        icon="camera"
+        label={isRecorded ? "Stop and save the video" : "Record a video of the view"}
+        on={isRecorded}
+        onClick={() => videos.toggleView()}
+      />
     </div>
   );
 }
@@ -65,10 +72,14 @@ export function viewMenuCommands({ page }: Shell): readonly Command[] {
   });
   return [
     ...partsOf(page).map((part) =>
-      command(part, `Show or hide ${PART_NAMES[part].toLowerCase()}`, () => world.shown.setAll(part, !world.shown.all.peek().has(part))),
+      command(part, `Show or hide ${PART_NAMES[part].toLowerCase()}`, () =>
+        world.shown.setAll(part, !world.shown.all.peek().has(part)),
+      ),
     ),
     ...WORLD_PARTS.map((part) =>
-      command(`world.${part}`, `Show or hide ${WORLD_PART_NAMES[part].toLowerCase()}`, () => world.shown.setWorld(part, !isWorldPartShown(page, part))),
+      command(`world.${part}`, `Show or hide ${WORLD_PART_NAMES[part].toLowerCase()}`, () =>
+        world.shown.setWorld(part, !isWorldPartShown(page, part)),
+      ),
     ),
   ];
 }

@@ -61,7 +61,12 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
           <Button small tone="line" onClick={() => views.toggleProjection()}>
             {isOrthographic(current) ? "Perspective" : "Orthographic"}
           </Button>
-          <Button small tone="line" on={current.className === "rviz/FrameAligned" && isFollowing(page)} onClick={() => toggleFirstPerson(page)}>
+          <Button
+            small
+            tone="line"
+            on={current.className === "rviz/FrameAligned" && isFollowing(page)}
+            onClick={() => toggleFirstPerson(page)}
+          >
             First person
           </Button>
           {page.world.manifest.value?.cameras.map((camera) => (
@@ -109,7 +114,11 @@ function saveView({ page }: Shell): void {
   const { views, displays } = page;
   const before = views.saved.peek();
   const view = views.copyCurrent(freeName(page));
-  displays.edit(`Save ${view.name.peek()}`, () => (views.saved.value = [...before, view]), () => (views.saved.value = before));
+  displays.edit(
+    `Save ${view.name.peek()}`,
+    () => (views.saved.value = [...before, view]),
+    () => (views.saved.value = before),
+  );
 }
 
 function removeView({ page }: Shell, view: ViewController): void {

@@ -33,13 +33,15 @@ export function makeEditor(world: SimulatedWorld, shell: () => Shell): WorldEdit
   return {
     world,
     ask: (title, request, fields) =>
-      shell().page.connection.request(request, fields).then(
-        () => true,
-        (error: unknown) => {
-          shell().notices.report(title, error instanceof Error ? error.message : String(error));
-          return false;
-        },
-      ),
+      shell()
+        .page.connection.request(request, fields)
+        .then(
+          () => true,
+          (error: unknown) => {
+            shell().notices.report(title, error instanceof Error ? error.message : String(error));
+            return false;
+          },
+        ),
     edit: (...edit) => editWorld(shell(), ...edit),
   };
 }

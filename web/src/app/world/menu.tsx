@@ -10,11 +10,13 @@ const COMMANDS = ["side.insert", "new_model", "save_world", "reload"];
 
 export function WorldMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const items = (): readonly MenuItem[] =>
-    COMMANDS.flatMap((id) => shell.commands.all.peek().filter((command) => command.id === id)).map(({ title, keys, run, enabled }) => ({
-      title,
-      keys,
-      disabled: enabled?.() === false,
-      run,
-    }));
+    COMMANDS.flatMap((id) => shell.commands.all.peek().filter((command) => command.id === id)).map(
+      ({ title, keys, run, enabled }) => ({
+        title,
+        keys,
+        disabled: enabled?.() === false,
+        run,
+      }),
+    );
   return <MenuButton icon="dots" label="World's menu" items={items} />;
 }

@@ -57,7 +57,12 @@ export function deleteModel(shell: Shell, model: string): void {
 
 /** Delete a light of the world itself. */
 export function deleteLight(shell: Shell, light: string): void {
-  void change(shell, `Delete ${light}`, { request: "delete_light", fields: { light } }, { request: "restore_light", fields: { light } });
+  void change(
+    shell,
+    `Delete ${light}`,
+    { request: "delete_light", fields: { light } },
+    { request: "restore_light", fields: { light } },
+  );
 }
 
 /** Commands for what is selected. */
@@ -100,7 +105,10 @@ async function changeAndRecord(shell: Shell, ...[title, after, before, again = a
     shell.notices.report(title, error instanceof Error ? error.message : String(error));
     return false;
   }
-  const send = ({ request, fields }: Asked) => (): void => shell.request(title, request, fields);
+  const send =
+    ({ request, fields }: Asked) =>
+    (): void =>
+      shell.request(title, request, fields);
   shell.page.undo.record(title, send(again), send(before));
   return true;
 }

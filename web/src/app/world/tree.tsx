@@ -15,18 +15,30 @@ import type { Shell } from "../shell";
 import { toggleHidden } from "../views/shown_parts";
 import { canEdit } from "./edits";
 import { WorldMenu } from "./menu";
-import { allModels, bodiesOf, keyOf, seenNodes, worldNode, type SeenNode, type WorldNode } from "../../page/world_nodes";
+import {
+  allModels,
+  bodiesOf,
+  keyOf,
+  seenNodes,
+  worldNode,
+  type SeenNode,
+  type WorldNode,
+} from "../../page/world_nodes";
 
 export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const { world, selection, session } = shell.page;
-  const root = useComputed(() => (world.manifest.value === null ? null : worldNode(world.manifest.value, shell.page.session.title)));
+  const root = useComputed(() =>
+    world.manifest.value === null ? null : worldNode(world.manifest.value, shell.page.session.title),
+  );
   const search = useSignal("");
   const rows = useRef(new WorldRows());
   const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
   const opened = useComputed(() => openedAtFirst(world.manifest.value));
-  const isOpen = (node: WorldNode): boolean => toggled.value.get(node.key) ?? (node.selection?.kind !== "model" || opened.value.has(node.hides ?? ""));
+  const isOpen = (node: WorldNode): boolean =>
+    toggled.value.get(node.key) ?? (node.selection?.kind !== "model" || opened.value.has(node.hides ?? ""));
   if (root.value === null) {
-    const said = session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
+    const said =
+      session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
     return <p class="empty">{said}</p>;
   }
   const draft = shell.editor.draft.value;
@@ -73,7 +85,10 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
 function openedAtFirst(manifest: Manifest | null): ReadonlySet<string> {
   const models = allModels(manifest?.models ?? []);
   const robot = manifest?.robot ?? null;
-  const shown = robot === null ? models.filter(({ model }) => !model.static) : models.filter(({ model }) => bodiesOf(model).includes(robot));
+  const shown =
+    robot === null
+      ? models.filter(({ model }) => !model.static)
+      : models.filter(({ model }) => bodiesOf(model).includes(robot));
   return new Set(shown.length === 1 || robot !== null ? shown.map(({ name }) => name) : []);
 }
 
@@ -103,7 +118,9 @@ function makeRow(shell: Shell, { node, depth, isOpen }: SeenNode, selected: bool
       <>
         {node.icon !== null && <Icon name={node.icon} />}
         <span class={`${node.icon === null ? "n g" : "n"}${hidden ? " hid" : ""}`}>{node.label}</span>
-        <span class="r">{typeof node.detail === "string" ? node.detail : <JointValue shell={shell} node={node} />}</span>
+        <span class="r">
+          {typeof node.detail === "string" ? node.detail : <JointValue shell={shell} node={node} />}
+        </span>
         {node.hides !== null && shell.isDrawn.value && <Eye shell={shell} name={node.hides} hidden={hidden} />}
       </>
     ),
@@ -116,7 +133,15 @@ function JointValue({ shell, node }: { readonly shell: Shell; readonly node: Wor
   return <>{joint === null || state === undefined ? (joint?.type ?? "") : jointValue(joint, state).text}</>;
 }
 
-function Eye({ shell, name, hidden }: { readonly shell: Shell; readonly name: string; readonly hidden: boolean }): JSX.Element {
+function Eye({
+  shell,
+  name,
+  hidden,
+}: {
+  readonly shell: Shell;
+  readonly name: string;
+  readonly hidden: boolean;
+}): JSX.Element {
   return (
     <button
       type="button"
@@ -137,7 +162,13 @@ function Search({ shell, onInput }: { readonly shell: Shell; readonly onInput: (
   const input = useRef<HTMLInputElement>(null);
   useEffect(
     () =>
-      shell.commands.add({ id: "search_world", title: "Search the world", group: "View", keys: "/", run: () => input.current?.focus() }),
+      shell.commands.add({
+        id: "search_world",
+        title: "Search the world",
+        group: "View",
+        keys: "/",
+        run: () => input.current?.focus(),
+      }),
     [shell],
   );
   return (

@@ -31,10 +31,22 @@ export function projection({ P }: CameraInfo, { width, height }: Size, zoom: num
   }
   if (fx === 0 || fy === 0) return "CameraInfo/P resulted in an invalid position calculation (nans or infs)";
   return new Matrix4().set(
-    (2 * fx * zoom) / width, 0, 2 * (0.5 - cx / width) * zoom, 0,
-    0, (2 * fy * zoom) / height, 2 * (cy / height - 0.5) * zoom, 0,
-    0, 0, -(FAR + NEAR) / (FAR - NEAR), (-2 * FAR * NEAR) / (FAR - NEAR),
-    0, 0, -1, 0,
+    (2 * fx * zoom) / width,
+    0,
+    2 * (0.5 - cx / width) * zoom,
+    0,
+    0,
+    (2 * fy * zoom) / height,
+    2 * (cy / height - 0.5) * zoom,
+    0,
+    0,
+    0,
+    -(FAR + NEAR) / (FAR - NEAR),
+    (-2 * FAR * NEAR) / (FAR - NEAR),
+    0,
+    0,
+    -1,
+    0,
   );
 }
 
@@ -46,7 +58,11 @@ export function cameraPose({ P }: CameraInfo, { position, orientation }: Transfo
 }
 
 /** Where a picture lies in a canvas of the calibration's size [px]: all of it, or its region of interest; zoomed about the middle. */
-export function pictureRectangle({ roi }: CameraInfo, { width, height }: Size, zoom: number): [x: number, y: number, width: number, height: number] {
+export function pictureRectangle(
+  { roi }: CameraInfo,
+  { width, height }: Size,
+  zoom: number,
+): [x: number, y: number, width: number, height: number] {
   const isRegion = roi.width > 0 || roi.height > 0;
   const [x, y, w, h] = isRegion ? [roi.x_offset, roi.y_offset, roi.width, roi.height] : [0, 0, width, height];
   return [width / 2 + (x - width / 2) * zoom, height / 2 + (y - height / 2) * zoom, w * zoom, h * zoom];

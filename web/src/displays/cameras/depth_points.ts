@@ -10,7 +10,11 @@ const STRIDE = CHANNELS.length;
 const WHITE = 0xffffff;
 
 /** Metres of a number of an encoding. */
-const METRES = new Map([["16UC1", 0.001], ["mono16", 0.001], ["32FC1", 1]]);
+const METRES = new Map([
+  ["16UC1", 0.001],
+  ["mono16", 0.001],
+  ["32FC1", 1],
+]);
 
 /** The points in the camera's optical frame, or rviz's sentence about why there are none; `color` has the same size. */
 export function depthPoints(depth: Image, info: CameraInfo, color: Pixels | null): Cloud | string {
@@ -28,7 +32,8 @@ export function depthPoints(depth: Image, info: CameraInfo, color: Pixels | null
     return `Depth image resolution (${width}x${height}) does not match color image resolution (${color.width}x${color.height})`;
   }
   const [fx = 0, , cx = 0, , , fy = 0, cy = 0] = info.P;
-  if (!areFinite([fx, fy, cx, cy]) || fx === 0 || fy === 0) return "Camera info contains invalid floating point values (nans or infs)";
+  if (!areFinite([fx, fy, cx, cy]) || fx === 0 || fy === 0)
+    return "Camera info contains invalid floating point values (nans or infs)";
   const [binX, binY] = [Math.max(1, info.binning_x), Math.max(1, info.binning_y)];
   const [midX, midY] = [(cx - info.roi.x_offset) / binX, (cy - info.roi.y_offset) / binY];
 
@@ -55,7 +60,10 @@ function colorAt(rgba: Uint8ClampedArray, index: number): number {
   return ((rgba[4 * index] ?? 0) << 16) | ((rgba[4 * index + 1] ?? 0) << 8) | (rgba[4 * index + 2] ?? 0);
 }
 
-function sizeMismatch({ width, height }: Image, { roi, binning_x, binning_y, width: infoWidth, height: infoHeight }: CameraInfo): string | null {
+function sizeMismatch(
+  { width, height }: Image,
+  { roi, binning_x, binning_y, width: infoWidth, height: infoHeight }: CameraInfo,
+): string | null {
   const [binX, binY] = [Math.max(1, binning_x), Math.max(1, binning_y)];
   const [roiWidth, roiHeight] = [roi.width || infoWidth, roi.height || infoHeight];
   const [wantedWidth, wantedHeight] = [Math.floor(roiWidth / binX), Math.floor(roiHeight / binY)];

@@ -1,6 +1,14 @@
 /** Pictures of the displays by another camera, on what is transparent. */
 
-import { Color, PerspectiveCamera, WebGLRenderTarget, type Light, type Matrix4, type Object3D, type WebGLRenderer } from "three";
+import {
+  Color,
+  PerspectiveCamera,
+  WebGLRenderTarget,
+  type Light,
+  type Matrix4,
+  type Object3D,
+  type WebGLRenderer,
+} from "three";
 
 import type { Transform } from "../../frames/transform";
 import type { Size } from "./camera_projection";
@@ -13,7 +21,14 @@ export class ScenePicture {
   private readonly clearColor = new Color();
 
   /** Draw what stands in `displays`, but those `without`; the simulated world and the ground are left out, as the picture has them. */
-  draw(renderer: WebGLRenderer, displays: Object3D, size: Size, matrix: Matrix4, pose: Transform, without: readonly Object3D[]): void {
+  draw(
+    renderer: WebGLRenderer,
+    displays: Object3D,
+    size: Size,
+    matrix: Matrix4,
+    pose: Transform,
+    without: readonly Object3D[],
+  ): void {
     const scene = displays.parent;
     if (scene === null) return;
     this.camera.position.copy(pose.position);
@@ -59,7 +74,8 @@ function isLight(object: Object3D): boolean {
 /** Rows from the top, and colours that are not multiplied by their alpha, as canvases have them. */
 export function upright(bytes: Uint8Array, width: number, height: number): Uint8ClampedArray<ArrayBuffer> {
   const turned = new Uint8ClampedArray(bytes.length);
-  for (let y = 0; y < height; y++) turned.set(bytes.subarray((height - 1 - y) * width * 4, (height - y) * width * 4), y * width * 4);
+  for (let y = 0; y < height; y++)
+    turned.set(bytes.subarray((height - 1 - y) * width * 4, (height - y) * width * 4), y * width * 4);
   for (let at = 3; at < turned.length; at += 4) {
     const alpha = turned[at] ?? 0;
     if (alpha === 0 || alpha === 255) continue;

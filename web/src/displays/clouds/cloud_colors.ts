@@ -25,7 +25,8 @@ export function packedColor(cloud: Cloud): Channel | undefined {
 /** Color transformers that can show a cloud. */
 export function supported(cloud: Cloud): readonly ColorTransformer[] {
   const isPacked = packedColor(cloud) !== undefined;
-  const isFloat = cloud.channel("r")?.datatype === FLOAT32 && ["g", "b"].every((name) => cloud.channel(name) !== undefined);
+  const isFloat =
+    cloud.channel("r")?.datatype === FLOAT32 && ["g", "b"].every((name) => cloud.channel(name) !== undefined);
   return COLOR_TRANSFORMERS.filter((name) => {
     if (name === "RGB8" || name === "MONO8") return isPacked;
     return name !== "RGBF32" || isFloat;

@@ -5,7 +5,16 @@ import { Matrix4, type Vector3 } from "three";
 import type { Transform } from "../../frames/transform";
 import type { Rgb } from "../../rviz/properties";
 import type { Cloud } from "./cloud";
-import { axisBounds, channelBounds, choose, intensityChannel, packedColor, range, supported, type Bounds } from "./cloud_colors";
+import {
+  axisBounds,
+  channelBounds,
+  choose,
+  intensityChannel,
+  packedColor,
+  range,
+  supported,
+  type Bounds,
+} from "./cloud_colors";
 import { ColorMode } from "./cloud_material";
 import type { CloudProperties } from "./cloud_properties";
 import { wordOf, type CloudObject } from "./point_cloud_object";
@@ -59,7 +68,8 @@ export function dress(object: CloudObject, cloud: Cloud, transform: Transform, p
 function colorByChannel(object: CloudObject, cloud: Cloud, properties: CloudProperties): void {
   const { uniforms } = object.material;
   const channel = intensityChannel(cloud, properties.channel.value.value);
-  if (channel === undefined) { // rviz leaves such points white
+  if (channel === undefined) {
+    // rviz leaves such points white
     uniforms.colorMode.value = ColorMode.flat;
     uniforms.minColor.value.setScalar(1);
     return;
@@ -86,7 +96,8 @@ function colorByAxis(object: CloudObject, cloud: Cloud, transform: Transform, pr
   const { uniforms } = object.material;
   const axis = ({ X: 0, Y: 1, Z: 2 } as const)[properties.axis.value.value as "X" | "Y" | "Z"];
   const frame = new Matrix4();
-  if (properties.inFixedFrame.value.value) frame.makeRotationFromQuaternion(transform.orientation).setPosition(transform.position);
+  if (properties.inFixedFrame.value.value)
+    frame.makeRotationFromQuaternion(transform.orientation).setPosition(transform.position);
   const { minValue, maxValue } = properties;
   let bounds: Bounds = { min: minValue.value.value, max: maxValue.value.value };
   if (properties.autoValues.value.value) {
@@ -124,7 +135,12 @@ export function describePoint(cloud: Cloud, index: number): Record<string, unkno
     if (["x", "y", "z"].includes(channel.name.toLowerCase())) return;
     if (channel === packed) {
       const word = cloud.words[index * cloud.stride + wordOf(channel)] ?? 0;
-      fields[`${number}: ${channel.name}`] = { r: (word >> 16) & 255, g: (word >> 8) & 255, b: word & 255, alpha: (word >>> 24) / 255 };
+      fields[`${number}: ${channel.name}`] = {
+        r: (word >> 16) & 255,
+        g: (word >> 8) & 255,
+        b: word & 255,
+        alpha: (word >>> 24) / 255,
+      };
     } else fields[`${number}: ${channel.name}`] = cloud.value(channel, index);
   });
   return fields;

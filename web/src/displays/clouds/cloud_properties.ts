@@ -51,7 +51,10 @@ export class CloudProperties {
     const isFree = fixed === undefined;
     const free = (visible: () => boolean): Visible => computed(() => isFree && visible());
     this.position = new EnumProperty("Position Transformer", "", ["XYZ"], { open: true, visible: free(() => true) });
-    this.color = new EnumProperty("Color Transformer", "", COLOR_TRANSFORMERS, { open: true, visible: free(() => true) });
+    this.color = new EnumProperty("Color Transformer", "", COLOR_TRANSFORMERS, {
+      open: true,
+      visible: free(() => true),
+    });
     const shows = (name: string): boolean => this.color.value.value === name;
 
     const byAxis = computed(() => shows("AxisColor"));
@@ -78,16 +81,35 @@ export class CloudProperties {
     });
     this.minColor = new ColorProperty("Min Color", [0, 0, 0], { visible: twoColors });
     this.maxColor = new ColorProperty("Max Color", [255, 255, 255], { visible: twoColors });
-    this.autoIntensity = new BoolProperty("Autocompute Intensity Bounds", isFree, { visible: free(() => byIntensity.value) });
+    this.autoIntensity = new BoolProperty("Autocompute Intensity Bounds", isFree, {
+      visible: free(() => byIntensity.value),
+    });
     this.minIntensity = new NumberProperty("Min Intensity", fixed?.min ?? 0, { visible: bounded });
     this.maxIntensity = new NumberProperty("Max Intensity", fixed?.max ?? 4096, { visible: bounded });
   }
 
   get all(): readonly Property<unknown>[] {
     return [
-      this.selectable, this.style, this.size, this.pixels, this.alpha, this.decay, this.position, this.color, this.axis, this.autoValues,
-      this.inFixedFrame, this.flatColor, this.channel, this.useRainbow, this.invertRainbow, this.minColor, this.maxColor,
-      this.autoIntensity, this.minIntensity, this.maxIntensity,
+      this.selectable,
+      this.style,
+      this.size,
+      this.pixels,
+      this.alpha,
+      this.decay,
+      this.position,
+      this.color,
+      this.axis,
+      this.autoValues,
+      this.inFixedFrame,
+      this.flatColor,
+      this.channel,
+      this.useRainbow,
+      this.invertRainbow,
+      this.minColor,
+      this.maxColor,
+      this.autoIntensity,
+      this.minIntensity,
+      this.maxIntensity,
     ];
   }
 

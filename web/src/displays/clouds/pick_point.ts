@@ -11,10 +11,16 @@ const PICK_ANGLE = 0.005;
  * The nearest point that a ray hits within `radius` [m] of its middle, else the one that it passes at the least angle;
  * null: none. `matrix` is the cloud's pose in the world.
  */
-export function nearestPoint(cloud: Cloud, radius: number, matrix: Matrix4, raycaster: Raycaster): { point: Vector3; distance: number; index: number } | null {
+export function nearestPoint(
+  cloud: Cloud,
+  radius: number,
+  matrix: Matrix4,
+  raycaster: Raycaster,
+): { point: Vector3; distance: number; index: number } | null {
   const { origin, direction } = new Ray().copy(raycaster.ray).applyMatrix4(new Matrix4().copy(matrix).invert());
   const isOrthographic = raycaster.camera instanceof OrthographicCamera;
-  const reach = (along: number): number => Math.max(radius, isOrthographic ? raycaster.params.Points.threshold : PICK_ANGLE * along);
+  const reach = (along: number): number =>
+    Math.max(radius, isOrthographic ? raycaster.params.Points.threshold : PICK_ANGLE * along);
   const [x = 0, y = 0, z = 0] = ["x", "y", "z"].map((axis) => (cloud.channel(axis)?.offset ?? 0) / 4);
   const { floats, stride } = cloud;
   let best = -1;

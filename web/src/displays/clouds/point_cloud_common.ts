@@ -56,7 +56,8 @@ export class PointCloudCommon {
   update(now: bigint): void {
     const decay = this.properties.decay.value.peek();
     const newest = this.entries.at(-1);
-    const isKept = (entry: Entry): boolean => (decay > 0 ? Number(now - entry.received) * 1e-9 < decay : entry === newest);
+    const isKept = (entry: Entry): boolean =>
+      decay > 0 ? Number(now - entry.received) * 1e-9 < decay : entry === newest;
     const old = this.entries.filter((entry) => !isKept(entry));
     if (old.length === 0) return;
     for (const entry of old) this.erase(entry);

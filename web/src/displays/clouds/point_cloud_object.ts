@@ -1,8 +1,20 @@
 /** A cloud in the scene, drawn from the message's own words. */
 
 import {
-  BufferAttribute, BufferGeometry, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBuffer, InterleavedBufferAttribute,
-  Mesh, MeshBasicMaterial, Points, type Intersection, type Object3D, type Raycaster, type WebGLRenderer, Vector4,
+  BufferAttribute,
+  BufferGeometry,
+  InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
+  InterleavedBuffer,
+  InterleavedBufferAttribute,
+  Mesh,
+  MeshBasicMaterial,
+  Points,
+  type Intersection,
+  type Object3D,
+  type Raycaster,
+  type WebGLRenderer,
+  Vector4,
 } from "three";
 
 import type { Channel, Cloud } from "./cloud";
@@ -17,7 +29,12 @@ const MOST_INSTANCES = 1000;
 
 /** Lightness of a box's sides in rviz without geometry shaders, −x +x −y +y −z +z. */
 const SIDES: readonly (readonly [axis: 0 | 1 | 2, sign: 1 | -1, lightness: number])[] = [
-  [0, -1, 0.6], [0, 1, 0.6], [1, -1, 1.0], [1, 1, 0.4], [2, -1, 0.5], [2, 1, 0.9],
+  [0, -1, 0.6],
+  [0, 1, 0.6],
+  [1, -1, 1.0],
+  [1, 1, 0.4],
+  [2, -1, 0.5],
+  [2, 1, 0.9],
 ];
 
 const VIEWPORT = new Vector4();
@@ -35,7 +52,9 @@ export function cloudObject(cloud: Cloud, style: Style): CloudObject {
   const isSprite = style !== "Boxes" && style !== "Tiles" && cloud.count > MOST_INSTANCES;
   const geometry = isSprite ? new BufferGeometry() : shapeGeometry(style, cloud.count);
   if (isSprite) geometry.setDrawRange(0, cloud.count);
-  const buffer = isSprite ? new InterleavedBuffer(cloud.words, cloud.stride) : new InstancedInterleavedBuffer(cloud.words, cloud.stride);
+  const buffer = isSprite
+    ? new InterleavedBuffer(cloud.words, cloud.stride)
+    : new InstancedInterleavedBuffer(cloud.words, cloud.stride);
   const setWord = (name: string, word: number): void => {
     geometry.setAttribute(name, new InterleavedBufferAttribute(buffer, 1, word));
   };
@@ -75,7 +94,12 @@ function shapeGeometry(style: Style, count: number): InstancedBufferGeometry {
   const sides = style === "Boxes" ? SIDES : ([[2, 1, 1]] as const);
   for (const [axis, sign, light] of sides) {
     const first = positions.length / 3;
-    for (const [u, v] of [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]] as const) {
+    for (const [u, v] of [
+      [-0.5, -0.5],
+      [0.5, -0.5],
+      [-0.5, 0.5],
+      [0.5, 0.5],
+    ] as const) {
       const corner = [0, 0, 0];
       corner[axis] = style === "Boxes" ? sign / 2 : 0;
       corner[(axis + 1) % 3] = u;

@@ -3,10 +3,26 @@
 export const OrientationMode = { inherit: 0, fixed: 1, viewFacing: 2 } as const;
 
 export const InteractionMode = {
-  none: 0, menu: 1, button: 2, moveAxis: 3, movePlane: 4, rotateAxis: 5, moveRotate: 6, move3D: 7, rotate3D: 8, moveRotate3D: 9,
+  none: 0,
+  menu: 1,
+  button: 2,
+  moveAxis: 3,
+  movePlane: 4,
+  rotateAxis: 5,
+  moveRotate: 6,
+  move3D: 7,
+  rotate3D: 8,
+  moveRotate3D: 9,
 } as const;
 
-export const FeedbackEvent = { keepAlive: 0, poseUpdate: 1, menuSelect: 2, buttonClick: 3, mouseDown: 4, mouseUp: 5 } as const;
+export const FeedbackEvent = {
+  keepAlive: 0,
+  poseUpdate: 1,
+  menuSelect: 2,
+  buttonClick: 3,
+  mouseDown: 4,
+  mouseUp: 5,
+} as const;
 
 /** What the server of a menu's entry wants: a message, or a program that is run where rviz is. */
 export const MenuCommand = { feedback: 0, rosrun: 1, roslaunch: 2 } as const;

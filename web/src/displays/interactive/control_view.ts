@@ -55,13 +55,15 @@ export class ControlView extends Group {
     if (mode === OrientationMode.inherit) return;
     parentTurn.copy(reference).multiply(marker).invert();
     if (mode === OrientationMode.fixed) this.quaternion.copy(parentTurn).multiply(reference);
-    else if (!this.control.independent_marker_orientation) this.quaternion.copy(parentTurn).multiply(camera).multiply(FACING);
+    else if (!this.control.independent_marker_orientation)
+      this.quaternion.copy(parentTurn).multiply(camera).multiply(FACING);
   }
 
   /** The control's x axis in the fixed frame. */
   axis(marker: Quaternion, reference: Quaternion, camera: Quaternion, result: Vector3): Vector3 {
     result.set(1, 0, 0);
-    if (this.control.orientation_mode === OrientationMode.viewFacing) return result.set(0, 0, 1).applyQuaternion(camera);
+    if (this.control.orientation_mode === OrientationMode.viewFacing)
+      return result.set(0, 0, 1).applyQuaternion(camera);
     result.applyQuaternion(this.own);
     if (this.control.orientation_mode === OrientationMode.inherit) result.applyQuaternion(marker);
     return result.applyQuaternion(reference);

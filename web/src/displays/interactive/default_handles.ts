@@ -44,8 +44,20 @@ function handlesOf(marker: InteractiveMarker, control: InteractiveMarkerControl,
 
 function blank(marker: InteractiveMarker, control: InteractiveMarkerControl, id: number, alpha: number): Marker {
   return {
-    header: { ...marker.header, frame_id: "" }, ns: control.name, id, type: 0, action: 0, pose: ORIGIN, scale: { x: 1, y: 1, z: 1 },
-    color: { ...colorOf(control), a: alpha }, lifetime: { sec: 0, nsec: 0 }, frame_locked: true, points: [], colors: [], text: "", mesh_resource: "",
+    header: { ...marker.header, frame_id: "" },
+    ns: control.name,
+    id,
+    type: 0,
+    action: 0,
+    pose: ORIGIN,
+    scale: { x: 1, y: 1, z: 1 },
+    color: { ...colorOf(control), a: alpha },
+    lifetime: { sec: 0, nsec: 0 },
+    frame_locked: true,
+    points: [],
+    colors: [],
+    text: "",
+    mesh_resource: "",
     mesh_use_embedded_materials: false,
   };
 }
@@ -55,8 +67,10 @@ function arrow(marker: InteractiveMarker, control: InteractiveMarkerControl, sid
   const size = scaleOf(marker);
   const at = (distance: number): Point => turned(control, new Vector3(side * distance * size, 0, 0));
   return {
-    ...blank(marker, control, side, alpha), type: Type.arrow,
-    scale: { x: 0.15 * size, y: 0.25 * size, z: 0.2 * size }, points: [at(0.5), at(0.9)],
+    ...blank(marker, control, side, alpha),
+    type: Type.arrow,
+    scale: { x: 0.15 * size, y: 0.25 * size, z: 0.2 * size },
+    points: [at(0.5), at(0.9)],
   };
 }
 
@@ -65,8 +79,12 @@ function button(marker: InteractiveMarker, control: InteractiveMarkerControl): M
   const size = 0.25 * scaleOf(marker);
   const position = { x: -0.1 * size, y: 0, z: 1.2 * scaleOf(marker) - 0.1 * size };
   return {
-    ...blank(marker, control, 0, 1), type: Type.text, text: control.description, color: { r: 1, g: 1, b: 1, a: 1 },
-    scale: { x: size, y: size, z: size }, pose: { ...ORIGIN, position },
+    ...blank(marker, control, 0, 1),
+    type: Type.text,
+    text: control.description,
+    color: { r: 1, g: 1, b: 1, a: 1 },
+    scale: { x: size, y: size, z: size },
+    pose: { ...ORIGIN, position },
   };
 }
 
@@ -83,7 +101,14 @@ function ring(marker: InteractiveMarker, control: InteractiveMarkerControl, alph
   if (control.interaction_mode === InteractionMode.rotateAxis) return stripedRing(shape, inner, outer);
   if (control.interaction_mode === InteractionMode.moveRotate) return toothedRing(shape, inner, outer);
   const steps = Array.from({ length: STEPS }, (_, step) => step);
-  const points = steps.flatMap((step) => [inner(step), outer(step), inner(step + 1), inner(step + 1), outer(step), outer(step + 1)]);
+  const points = steps.flatMap((step) => [
+    inner(step),
+    outer(step),
+    inner(step + 1),
+    inner(step + 1),
+    outer(step),
+    outer(step + 1),
+  ]);
   return { ...shape, points };
 }
 

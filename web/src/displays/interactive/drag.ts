@@ -98,7 +98,10 @@ export class Drag {
     const hit = planeHit(ray, this.axis, this.grasp);
     if (hit === null) return;
     const arm = this.grasp.clone().sub(this.position);
-    const turn = new Quaternion().setFromAxisAngle(this.axis, angleAbout(this.axis, arm, hit.clone().sub(this.position)));
+    const turn = new Quaternion().setFromAxisAngle(
+      this.axis,
+      angleAbout(this.axis, arm, hit.clone().sub(this.position)),
+    );
     this.orientation.premultiply(turn);
     this.position.copy(hit).sub(arm.applyQuaternion(turn));
     this.grasp.copy(hit);

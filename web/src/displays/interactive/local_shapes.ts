@@ -37,6 +37,10 @@ function orientationOf({ orientation: { x, y, z, w } }: Pose): Quaternion {
   return turn.lengthSq() === 0 ? turn.identity() : turn.normalize();
 }
 
-function xyz({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): { x: number; y: number; z: number } {
+function xyz({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): {
+  x: number;
+  y: number;
+  z: number;
+} {
   return { x, y, z };
 }

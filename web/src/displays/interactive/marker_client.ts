@@ -1,7 +1,12 @@
 /** Interactive markers of the servers on a topic, by their protocol: a full state, then numbered updates. */
 
 import type { Connection, Subscription } from "../../protocol/connection";
-import type { InteractiveMarker, InteractiveMarkerInit, InteractiveMarkerPose, InteractiveMarkerUpdate } from "../../protocol/messages";
+import type {
+  InteractiveMarker,
+  InteractiveMarkerInit,
+  InteractiveMarkerPose,
+  InteractiveMarkerUpdate,
+} from "../../protocol/messages";
 
 const KEEP_ALIVE = 0;
 /** Seconds without a message after which a server is silent; servers say something twice a second. */

@@ -110,7 +110,10 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     this.feedback(FeedbackEvent.mouseDown, event.pick.point);
     if (!control.isMovable) return true;
     const axis = control.axis(this.place.quaternion, this.quaternion, this.cameraTurn(), new Vector3()).normalize();
-    const [position, orientation] = [this.place.getWorldPosition(new Vector3()), this.place.getWorldQuaternion(new Quaternion())];
+    const [position, orientation] = [
+      this.place.getWorldPosition(new Vector3()),
+      this.place.getWorldQuaternion(new Quaternion()),
+    ];
     this.drag = new Drag(mode, axis, event.pick.point.clone(), position, orientation, event);
     return true;
   }
@@ -177,13 +180,22 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     const stamp = { sec: Number(now / 1_000_000_000n), nsec: Number(now % 1_000_000_000n) };
     this.send({
       header: isLocked ? header : { seq: 0, stamp, frame_id: this.context.fixedFrame.peek() },
-      client_id: this.clientId, marker_name: this.marker.name, control_name: this.held?.control.name ?? "",
-      event_type: event, pose: { position: xyz(position), orientation: { ...xyz(orientation), w: orientation.w } },
-      menu_entry_id: entry, mouse_point: xyz(mouse), mouse_point_valid: point !== undefined,
+      client_id: this.clientId,
+      marker_name: this.marker.name,
+      control_name: this.held?.control.name ?? "",
+      event_type: event,
+      pose: { position: xyz(position), orientation: { ...xyz(orientation), w: orientation.w } },
+      menu_entry_id: entry,
+      mouse_point: xyz(mouse),
+      mouse_point_valid: point !== undefined,
     });
   }
 }
 
-function xyz({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): { x: number; y: number; z: number } {
+function xyz({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): {
+  x: number;
+  y: number;
+  z: number;
+} {
   return { x, y, z };
 }

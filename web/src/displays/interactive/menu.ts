@@ -4,7 +4,12 @@ import type { MenuEntry } from "../../protocol/messages";
 import { MenuCommand } from "./control_modes";
 
 /** Open a menu in the document; `choose` gets the entry that is clicked. It closes by itself. */
-export function openMenu(entries: readonly MenuEntry[], x: number, y: number, choose: (entry: MenuEntry) => void): HTMLElement {
+export function openMenu(
+  entries: readonly MenuEntry[],
+  x: number,
+  y: number,
+  choose: (entry: MenuEntry) => void,
+): HTMLElement {
   const menu = document.createElement("div");
   menu.className = "menu";
   menu.setAttribute("role", "menu");
@@ -36,7 +41,13 @@ export function openMenu(entries: readonly MenuEntry[], x: number, y: number, ch
 }
 
 /** Entries below a parent, each followed by its own, further in. */
-function addEntries(menu: HTMLElement, entries: readonly MenuEntry[], parent: number, depth: number, choose: (entry: MenuEntry) => void): void {
+function addEntries(
+  menu: HTMLElement,
+  entries: readonly MenuEntry[],
+  parent: number,
+  depth: number,
+  choose: (entry: MenuEntry) => void,
+): void {
   if (depth > 8) return; // entries that are their own parents
   for (const entry of entries.filter((other) => other.parent_id === parent)) {
     const hasChildren = entries.some((other) => other.parent_id === entry.id);

@@ -1,8 +1,19 @@
 /** A map in the scene: textures of bytes that a shader looks up in a palette. */
 
 import {
-  CustomBlending, DataTexture, DoubleSide, Group, Mesh, OneFactor, OneMinusSrcAlphaFactor, PlaneGeometry, RedFormat, ShaderMaterial, SrcAlphaFactor,
-  Vector2, type WebGLRenderer,
+  CustomBlending,
+  DataTexture,
+  DoubleSide,
+  Group,
+  Mesh,
+  OneFactor,
+  OneMinusSrcAlphaFactor,
+  PlaneGeometry,
+  RedFormat,
+  ShaderMaterial,
+  SrcAlphaFactor,
+  Vector2,
+  type WebGLRenderer,
 } from "three";
 
 import { cut, overlap, tilesOf, type OccupancyMap, type Region } from "./occupancy_map";
@@ -136,7 +147,10 @@ export class MapObject extends Group {
   }
 }
 
-function bytesTexture(bytes: Uint8Array<ArrayBuffer>, { width, height }: { readonly width: number; readonly height: number }): DataTexture {
+function bytesTexture(
+  bytes: Uint8Array<ArrayBuffer>,
+  { width, height }: { readonly width: number; readonly height: number },
+): DataTexture {
   const texture = new DataTexture(bytes, width, height, RedFormat);
   texture.needsUpdate = true;
   return texture;

@@ -43,7 +43,8 @@ export function readMap({ info, data }: OccupancyGrid): OccupancyMap | string {
 
 /** Write an update into a map; returns its region, or rviz's sentence. */
 export function writeUpdate(map: OccupancyMap, { x, y, width, height, data }: OccupancyGridUpdate): Region | string {
-  if (x < 0 || y < 0 || x + width > map.width || y + height > map.height) return "Update area outside of original map area.";
+  if (x < 0 || y < 0 || x + width > map.width || y + height > map.height)
+    return "Update area outside of original map area.";
   if (width * height !== data.length) return `Update of ${width} x ${height} cells has ${data.length} bytes.`;
   for (let row = 0; row < height; row++) {
     const from = new Uint8Array(data.buffer, data.byteOffset + row * width, width);
@@ -54,7 +55,8 @@ export function writeUpdate(map: OccupancyMap, { x, y, width, height, data }: Oc
 
 /** Bytes of a region, by rows; the map's own where the region is all of it. */
 export function cut(map: OccupancyMap, { x, y, width, height }: Region): Uint8Array<ArrayBuffer> {
-  if (width === map.width && height === map.height && map.cells.buffer instanceof ArrayBuffer) return map.cells as Uint8Array<ArrayBuffer>;
+  if (width === map.width && height === map.height && map.cells.buffer instanceof ArrayBuffer)
+    return map.cells as Uint8Array<ArrayBuffer>;
   const bytes = new Uint8Array(width * height);
   for (let row = 0; row < height; row++) {
     const from = (y + row) * map.width + x;
@@ -67,7 +69,8 @@ export function cut(map: OccupancyMap, { x, y, width, height }: Region): Uint8Ar
 export function tilesOf({ width, height }: OccupancyMap, size: number): Region[] {
   const tiles: Region[] = [];
   for (let y = 0; y < height; y += size) {
-    for (let x = 0; x < width; x += size) tiles.push({ x, y, width: Math.min(size, width - x), height: Math.min(size, height - y) });
+    for (let x = 0; x < width; x += size)
+      tiles.push({ x, y, width: Math.min(size, width - x), height: Math.min(size, height - y) });
   }
   return tiles;
 }

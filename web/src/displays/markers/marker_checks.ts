@@ -59,7 +59,8 @@ function checkScale({ type, scale, points }: Marker, report: Report): void {
     case Type.lineStrip:
     case Type.lineList:
       if (scale.x === 0) report("error", "Width LINE_LIST or LINE_STRIP is 0.0 (scale.x).");
-      else if (scale.y !== 0 || scale.z !== 0) report("warn", "scale.y and scale.z of LINE_LIST or LINE_STRIP are ignored.");
+      else if (scale.y !== 0 || scale.z !== 0)
+        report("warn", "scale.y and scale.z of LINE_LIST or LINE_STRIP are ignored.");
       return;
     case Type.points:
       if (scale.x === 0 || scale.y === 0) report("error", "Width and/or height of POINTS is 0.0 (scale.x, scale.y).");
@@ -91,8 +92,10 @@ function checkPoints({ type, points }: Marker, report: Report): void {
       if (type === Type.triangleList && count % 3 !== 0) {
         report("error", "Number of points should be a multiple of 3 for TRIANGLE_LIST marker.");
       }
-      if (type === Type.lineList && count % 2 !== 0) report("error", "Number of points should be a multiple of 2 for LINE_LIST marker.");
-      if (type === Type.lineStrip && count === 1) report("error", "At least two points are required for a LINE_STRIP marker.");
+      if (type === Type.lineList && count % 2 !== 0)
+        report("error", "Number of points should be a multiple of 2 for LINE_LIST marker.");
+      if (type === Type.lineStrip && count === 1)
+        report("error", "At least two points are required for a LINE_STRIP marker.");
       return;
     default:
       if (count > 0) report("warn", "Non-empty points array is ignored.");
@@ -101,11 +104,12 @@ function checkPoints({ type, points }: Marker, report: Report): void {
 
 function checkColors(marker: Marker, report: Report): void {
   const { type, points, colors, color } = marker;
-  const hasColors = type >= Type.lineStrip && type <= Type.points || type === Type.triangleList;
+  const hasColors = (type >= Type.lineStrip && type <= Type.points) || type === Type.triangleList;
   if (colors.length > 0 && !hasColors) report("warn", "Non-empty colors array is ignored.");
   if (hasColors && colors.length > 0) {
     const perTriangle = type === Type.triangleList && 3 * colors.length === points.length;
-    if (colors.length !== points.length && !perTriangle) report("error", "Number of colors doesn't match number of points.");
+    if (colors.length !== points.length && !perTriangle)
+      report("error", "Number of colors doesn't match number of points.");
     return;
   }
   const isEmbedded = type === Type.mesh && marker.mesh_use_embedded_materials;
@@ -114,8 +118,11 @@ function checkColors(marker: Marker, report: Report): void {
 
 function isFinite({ pose, scale, color, points, colors }: Marker): boolean {
   const { position: p, orientation: q } = pose;
-  const sum = p.x + p.y + p.z + q.x + q.y + q.z + q.w + scale.x + scale.y + scale.z + color.r + color.g + color.b + color.a;
-  return Number.isFinite(sum)
-    && points.every(({ x, y, z }) => Number.isFinite(x + y + z))
-    && colors.every(({ r, g, b, a }) => Number.isFinite(r + g + b + a));
+  const sum =
+    p.x + p.y + p.z + q.x + q.y + q.z + q.w + scale.x + scale.y + scale.z + color.r + color.g + color.b + color.a;
+  return (
+    Number.isFinite(sum) &&
+    points.every(({ x, y, z }) => Number.isFinite(x + y + z)) &&
+    colors.every(({ r, g, b, a }) => Number.isFinite(r + g + b + a))
+  );
 }

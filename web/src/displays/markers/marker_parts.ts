@@ -31,7 +31,15 @@ export function eachPart(marker: Marker, emit: Emit): void {
   const { type, scale: size, points, colors, color } = marker;
   if (type === Type.arrow) {
     if (points.length === 2) arrowBetween(marker, emit);
-    else arrow(size.x * SHAFT_LENGTH, size.x * HEAD_LENGTH, [size.y, size.z], [HEAD_WIDTH * size.y, HEAD_WIDTH * size.z], color, emit);
+    else
+      arrow(
+        size.x * SHAFT_LENGTH,
+        size.x * HEAD_LENGTH,
+        [size.y, size.z],
+        [HEAD_WIDTH * size.y, HEAD_WIDTH * size.z],
+        color,
+        emit,
+      );
     return;
   }
   if (type === Type.cubeList || type === Type.sphereList) {

@@ -49,7 +49,10 @@ export class MarkerScene extends Group {
     this.drop(name);
     const lifetime = nanoseconds(marker.lifetime);
     const shown: Shown = {
-      marker, isVisible, matrix: new Matrix4(), view: null,
+      marker,
+      isVisible,
+      matrix: new Matrix4(),
+      view: null,
       expires: lifetime > 0n ? now + lifetime : null,
     };
     this.shown.set(name, shown);
@@ -156,8 +159,13 @@ export function poseMatrix({ position: p, orientation: q }: Pose, result: Matrix
 function describeMarker(marker: Marker): Readonly<Record<string, unknown>> {
   const { pose, scale, color, text, points } = marker;
   const fields: Record<string, unknown> = {
-    Marker: markerName(marker), Type: TYPE_NAMES[marker.type] ?? marker.type, Frame: marker.header.frame_id,
-    Position: pose.position, Orientation: pose.orientation, Scale: scale, Color: color,
+    Marker: markerName(marker),
+    Type: TYPE_NAMES[marker.type] ?? marker.type,
+    Frame: marker.header.frame_id,
+    Position: pose.position,
+    Orientation: pose.orientation,
+    Scale: scale,
+    Color: color,
   };
   if (points.length > 0) fields["Points"] = points.length;
   if (text !== "") fields["Text"] = text;

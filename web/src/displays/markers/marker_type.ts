@@ -18,8 +18,18 @@ export const Type = {
 } as const;
 
 export const TYPE_NAMES = [
-  "ARROW", "CUBE", "SPHERE", "CYLINDER", "LINE_STRIP", "LINE_LIST", "CUBE_LIST", "SPHERE_LIST", "POINTS", "TEXT_VIEW_FACING",
-  "MESH_RESOURCE", "TRIANGLE_LIST",
+  "ARROW",
+  "CUBE",
+  "SPHERE",
+  "CYLINDER",
+  "LINE_STRIP",
+  "LINE_LIST",
+  "CUBE_LIST",
+  "SPHERE_LIST",
+  "POINTS",
+  "TEXT_VIEW_FACING",
+  "MESH_RESOURCE",
+  "TRIANGLE_LIST",
 ] as const;
 
 /** MODIFY is ADD. */

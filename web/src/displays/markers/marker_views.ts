@@ -63,7 +63,9 @@ function lines(marker: Marker): MarkerView {
   const color = (index: number): readonly number[] => rgba(marker.colors[index] ?? marker.color);
   object.begin();
   if (marker.type === Type.lineStrip) object.addPolyline(places, color);
-  else for (let k = 0; k + 1 < marker.points.length; k += 2) object.addSegment(places, 3 * k, places, 3 * k + 3, color(k), color(k + 1));
+  else
+    for (let k = 0; k + 1 < marker.points.length; k += 2)
+      object.addSegment(places, 3 * k, places, 3 * k + 3, color(k), color(k + 1));
   object.finish();
   return { object, dispose: () => object.dispose() };
 }
@@ -111,19 +113,21 @@ function mesh(marker: Marker, { connection, onFault, onChange }: ViewParts): Mar
   object.scale.set(marker.scale.x, marker.scale.y, marker.scale.z);
   let isGone = false;
   let materials: readonly ShapeMaterial[] = [];
-  meshLibrary(connection).copy(marker.mesh_resource).then(
-    (copy) => {
-      if (isGone) return;
-      materials = paintMesh(marker, copy.object, copy.materials);
-      object.add(copy.object);
-      onChange();
-    },
-    (error: unknown) => {
-      if (isGone) return;
-      const reason = error instanceof Error ? error.message : String(error);
-      onFault(marker, `Could not load mesh resource '${marker.mesh_resource}'`, reason);
-    },
-  );
+  meshLibrary(connection)
+    .copy(marker.mesh_resource)
+    .then(
+      (copy) => {
+        if (isGone) return;
+        materials = paintMesh(marker, copy.object, copy.materials);
+        object.add(copy.object);
+        onChange();
+      },
+      (error: unknown) => {
+        if (isGone) return;
+        const reason = error instanceof Error ? error.message : String(error);
+        onFault(marker, `Could not load mesh resource '${marker.mesh_resource}'`, reason);
+      },
+    );
   return {
     object: new Group().add(object),
     dispose: () => {

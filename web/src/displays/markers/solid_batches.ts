@@ -10,7 +10,9 @@ import { BOX, CLOUD_BOX, CYLINDER, HEAD, SHAFT, SPHERE } from "../../shapes/soli
 import { eachPart, type PartKind } from "./marker_parts";
 
 /** rviz draws lists as clouds of points, whose boxes and spheres are shaded otherwise. */
-const SHAPES: Readonly<Record<PartKind, { readonly geometry: BufferGeometry; readonly options?: ShapeMaterialOptions }>> = {
+const SHAPES: Readonly<
+  Record<PartKind, { readonly geometry: BufferGeometry; readonly options?: ShapeMaterialOptions }>
+> = {
   box: { geometry: BOX },
   sphere: { geometry: SPHERE },
   cylinder: { geometry: CYLINDER },

@@ -75,11 +75,13 @@ class SideFiles {
   /** Fetch textures; loaders ask for them by the folder and their name. */
   async fetchAll(names: Iterable<string>): Promise<void> {
     await Promise.all(
-      [...new Set(names)].filter((name) => !name.startsWith("data:")).map(async (name) => {
-        const bytes = await this.bytes(name);
-        const url = bytes === null ? EMPTY_PICTURE : URL.createObjectURL(new Blob([bytes]));
-        this.urls.set(name, url).set(this.folder + name, url);
-      }),
+      [...new Set(names)]
+        .filter((name) => !name.startsWith("data:"))
+        .map(async (name) => {
+          const bytes = await this.bytes(name);
+          const url = bytes === null ? EMPTY_PICTURE : URL.createObjectURL(new Blob([bytes]));
+          this.urls.set(name, url).set(this.folder + name, url);
+        }),
     );
   }
 }

@@ -1,6 +1,15 @@
 /** Meshes by their address: each is fetched and read once, and every use has materials of its own. */
 
-import { DoubleSide, Mesh, NoColorSpace, SRGBColorSpace, type Color, type Material, type Object3D, type Texture } from "three";
+import {
+  DoubleSide,
+  Mesh,
+  NoColorSpace,
+  SRGBColorSpace,
+  type Color,
+  type Material,
+  type Object3D,
+  type Texture,
+} from "three";
 
 import type { Connection } from "../../protocol/connection";
 import { ShapeMaterial } from "../../shapes/shape_material";
@@ -42,7 +51,10 @@ class MeshLibrary {
 }
 
 /** The object's meshes in their places, without its lights, cameras and lines. */
-export function copyMeshes(object: Object3D): { readonly object: Object3D; readonly materials: readonly ShapeMaterial[] } {
+export function copyMeshes(object: Object3D): {
+  readonly object: Object3D;
+  readonly materials: readonly ShapeMaterial[];
+} {
   const materials = new Map<Material, ShapeMaterial>();
   const convert = (material: Material): ShapeMaterial => {
     const found = materials.get(material) ?? shapeMaterial(material);

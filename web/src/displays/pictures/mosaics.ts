@@ -4,7 +4,10 @@ import type { RawImage } from "./pixels";
 
 /** Place of the red pixel in a cell of 2 × 2. */
 const RED: Readonly<Record<string, readonly [x: number, y: number]>> = {
-  bayer_rggb: [0, 0], bayer_grbg: [1, 0], bayer_gbrg: [0, 1], bayer_bggr: [1, 1],
+  bayer_rggb: [0, 0],
+  bayer_grbg: [1, 0],
+  bayer_gbrg: [0, 1],
+  bayer_bggr: [1, 1],
 };
 
 export function isBayer(encoding: string): boolean {
@@ -12,11 +15,15 @@ export function isBayer(encoding: string): boolean {
 }
 
 /** Each cell of 2 × 2 in one colour: its red, its blue and the mean of its greens. rviz shows the mosaic in grey. */
-export function demosaic({ width, height, encoding, step, data, is_bigendian }: RawImage, rgba: Uint8ClampedArray): void {
+export function demosaic(
+  { width, height, encoding, step, data, is_bigendian }: RawImage,
+  rgba: Uint8ClampedArray,
+): void {
   const bytes = encoding.endsWith("16") ? 2 : 1;
   const high = bytes === 2 && is_bigendian === 0 ? 1 : 0;
   const [redX, redY] = RED[encoding.slice(0, 10)] ?? [0, 0];
-  const at = (x: number, y: number): number => data[Math.min(y, height - 1) * step + Math.min(x, width - 1) * bytes + high] ?? 0;
+  const at = (x: number, y: number): number =>
+    data[Math.min(y, height - 1) * step + Math.min(x, width - 1) * bytes + high] ?? 0;
   for (let y = 0; y < height; y++) {
     for (let x = 0; x < width; x++) {
       const [cellX, cellY] = [x & ~1, y & ~1];

@@ -10,7 +10,11 @@ export interface Decoded {
 }
 
 /** Decodes an image; rejects with a sentence. */
-export type DecodePicture = (message: Image | CompressedImage, normalization: Normalization, history: RangeHistory) => Promise<Decoded>;
+export type DecodePicture = (
+  message: Image | CompressedImage,
+  normalization: Normalization,
+  history: RangeHistory,
+) => Promise<Decoded>;
 
 let worker: Worker | null = null;
 let count = 0;
@@ -23,7 +27,12 @@ function unpack(message: Image, normalization: Normalization, history: RangeHist
   const id = count++;
   const { width, height, encoding, is_bigendian, step } = message;
   const data = message.data.slice(); // others show the same message
-  const request: PictureRequest = { id, image: { width, height, encoding, is_bigendian, step, data }, normalization, history };
+  const request: PictureRequest = {
+    id,
+    image: { width, height, encoding, is_bigendian, step, data },
+    normalization,
+    history,
+  };
   return new Promise((resolve, reject) => {
     waiting.set(id, { resolve, reject });
     theWorker().postMessage(request, [data.buffer]);

@@ -11,9 +11,14 @@ const COUNT_PERIOD_S = 0.25;
 const TRANSPORTS = ["raw", "compressed"];
 
 export abstract class PictureDisplay extends Display implements PictureSource {
-  readonly topicProperty = this.add(new TopicProperty("Image Topic", "", ["sensor_msgs/Image", "sensor_msgs/CompressedImage"]));
+  readonly topicProperty = this.add(
+    new TopicProperty("Image Topic", "", ["sensor_msgs/Image", "sensor_msgs/CompressedImage"]),
+  );
   readonly transport = this.add(
-    new EnumProperty("Transport Hint", "raw", TRANSPORTS, { open: true, description: "Preferred method of sending images." }),
+    new EnumProperty("Transport Hint", "raw", TRANSPORTS, {
+      open: true,
+      description: "Preferred method of sending images.",
+    }),
   );
   /** What the topic brings; null while it is disabled. */
   protected readonly stream = signal<PictureStream | null>(null);
@@ -22,8 +27,14 @@ export abstract class PictureDisplay extends Display implements PictureSource {
 
   constructor(context: DisplayContext) {
     super(context);
-    this.add(new IntProperty("Queue Size", 2, { min: 1, description: "Kept for rviz; here the newest image is shown." }));
-    this.add(new BoolProperty("Unreliable", false, { description: "Prefer UDP topic transport; kept for rviz, without effect here." }));
+    this.add(
+      new IntProperty("Queue Size", 2, { min: 1, description: "Kept for rviz; here the newest image is shown." }),
+    );
+    this.add(
+      new BoolProperty("Unreliable", false, {
+        description: "Prefer UDP topic transport; kept for rviz, without effect here.",
+      }),
+    );
   }
 
   abstract readonly picture: ReadonlySignal<Picture | null>;
@@ -77,7 +88,12 @@ export abstract class PictureDisplay extends Display implements PictureSource {
     this.stream.peek()?.close();
     this.stream.value = topic === "" ? null : new PictureStream(this.context.connection, topic);
     if (TRANSPORTS.includes(this.transport.value.peek())) this.clearStatus("Transport Hint");
-    else this.setStatus("Transport Hint", "error", `Transport ${this.transport.value.peek()} is not supported; use raw or compressed`);
+    else
+      this.setStatus(
+        "Transport Hint",
+        "error",
+        `Transport ${this.transport.value.peek()} is not supported; use raw or compressed`,
+      );
     this.showCount();
   }
 

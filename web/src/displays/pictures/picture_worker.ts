@@ -19,7 +19,9 @@ async function answer({ id, image, normalization, history }: PictureRequest): Pr
     postMessage({ id, fault: pixels } satisfies PictureAnswer);
     return;
   }
-  const bitmap = await createImageBitmap(new ImageData(pixels.rgba, pixels.width, pixels.height), { premultiplyAlpha: "none" });
+  const bitmap = await createImageBitmap(new ImageData(pixels.rgba, pixels.width, pixels.height), {
+    premultiplyAlpha: "none",
+  });
   postMessage({ id, bitmap, history: pixels.history } satisfies PictureAnswer, { transfer: [bitmap] });
 }
 

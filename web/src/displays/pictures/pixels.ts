@@ -41,22 +41,42 @@ const MOST_PIXELS = 16384 * 16384;
 /** Bytes of a pixel and the places of red, green, blue and alpha in it. */
 type Layout = readonly [bytes: number, red: number, green: number, blue: number, alpha: number | null];
 const LAYOUTS = new Map<string, Layout>([
-  ["rgb8", [3, 0, 1, 2, null]], ["rgba8", [4, 0, 1, 2, 3]], ["bgr8", [3, 2, 1, 0, null]], ["bgra8", [4, 2, 1, 0, 3]],
-  ["8UC3", [3, 2, 1, 0, null]], ["8SC3", [3, 2, 1, 0, null]], ["8UC4", [4, 2, 1, 0, 3]], ["8SC4", [4, 2, 1, 0, 3]],
-  ["mono8", [1, 0, 0, 0, null]], ["8UC1", [1, 0, 0, 0, null]], ["8SC1", [1, 0, 0, 0, null]],
+  ["rgb8", [3, 0, 1, 2, null]],
+  ["rgba8", [4, 0, 1, 2, 3]],
+  ["bgr8", [3, 2, 1, 0, null]],
+  ["bgra8", [4, 2, 1, 0, 3]],
+  ["8UC3", [3, 2, 1, 0, null]],
+  ["8SC3", [3, 2, 1, 0, null]],
+  ["8UC4", [4, 2, 1, 0, 3]],
+  ["8SC4", [4, 2, 1, 0, 3]],
+  ["mono8", [1, 0, 0, 0, null]],
+  ["8UC1", [1, 0, 0, 0, null]],
+  ["8SC1", [1, 0, 0, 0, null]],
   // the more significant byte of each, where it stands in a little-endian image
-  ["rgb16", [6, 1, 3, 5, null]], ["rgba16", [8, 1, 3, 5, 7]], ["bgr16", [6, 5, 3, 1, null]], ["bgra16", [8, 5, 3, 1, 7]],
+  ["rgb16", [6, 1, 3, 5, null]],
+  ["rgba16", [8, 1, 3, 5, 7]],
+  ["bgr16", [6, 5, 3, 1, null]],
+  ["bgra16", [8, 5, 3, 1, 7]],
 ]);
 
 /** Encodings of one number for a pixel, with the bytes that it takes. */
-const NUMBERS = new Map([["mono16", 2], ["16UC1", 2], ["16SC1", 2], ["32FC1", 4]]);
+const NUMBERS = new Map([
+  ["mono16", 2],
+  ["16UC1", 2],
+  ["16SC1", 2],
+  ["32FC1", 4],
+]);
 
 export function isNumeric(encoding: string): boolean {
   return NUMBERS.has(encoding);
 }
 
 /** The pixels of an image, or the sentence about why there are none. */
-export function readPixels(image: RawImage, normalization: Normalization, history: RangeHistory = NO_HISTORY): Pixels | string {
+export function readPixels(
+  image: RawImage,
+  normalization: Normalization,
+  history: RangeHistory = NO_HISTORY,
+): Pixels | string {
   const { width, height, encoding } = image;
   if (width === 0 || height === 0) return `Image is zero-sized (${width}x${height})`;
   const bytes = bytesPerPixel(encoding);
@@ -97,7 +117,12 @@ function unpack({ width, height, step, data, is_bigendian }: RawImage, layout: L
 }
 
 /** Grey by each pixel's number; returns the ranges that the next image's median is taken from. */
-function spread(image: RawImage, normalization: Normalization, history: RangeHistory, rgba: Uint8ClampedArray): RangeHistory {
+function spread(
+  image: RawImage,
+  normalization: Normalization,
+  history: RangeHistory,
+  rgba: Uint8ClampedArray,
+): RangeHistory {
   const numbers = readNumbers(image);
   let { min, max } = normalization;
   let next = history;

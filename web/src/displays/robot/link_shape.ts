@@ -1,6 +1,17 @@
 /** The shapes of one link: visuals or collisions, with rviz's rules of colour. */
 
-import { DoubleSide, Euler, FrontSide, Group, Mesh, NoColorSpace, Quaternion, Texture, type Object3D, type Side } from "three";
+import {
+  DoubleSide,
+  Euler,
+  FrontSide,
+  Group,
+  Mesh,
+  NoColorSpace,
+  Quaternion,
+  Texture,
+  type Object3D,
+  type Side,
+} from "three";
 
 import { meshLibrary } from "../meshes/mesh_library";
 import type { Connection } from "../../protocol/connection";
@@ -53,7 +64,9 @@ export class LinkShapes extends Group {
   }
 
   private paint(material: ShapeMaterial): void {
-    const [red, green, blue, alpha] = this.hasPlace ? (this.colors.get(material) ?? SHADED_RED) : ([1, 1, 1, 1] as const);
+    const [red, green, blue, alpha] = this.hasPlace
+      ? (this.colors.get(material) ?? SHADED_RED)
+      : ([1, 1, 1, 1] as const);
     material.setRgba(red, green, blue, alpha * this.alpha);
   }
 
@@ -73,7 +86,11 @@ export class LinkShapes extends Group {
     else place.add(...solid(shape.geometry, this.linkMaterial(material, FrontSide)));
   }
 
-  private async addMesh(place: Group, geometry: Geometry & { kind: "mesh" }, material: RobotMaterial | null): Promise<void> {
+  private async addMesh(
+    place: Group,
+    geometry: Geometry & { kind: "mesh" },
+    material: RobotMaterial | null,
+  ): Promise<void> {
     place.scale.fromArray(geometry.scale);
     try {
       const { object, materials, hasMaterials, missing } = await meshLibrary(this.connection).copy(geometry.uri);

@@ -28,7 +28,13 @@ export class LinkView extends Group {
   private axes: Axes | null = null;
   private trail: Trail | null = null;
 
-  constructor(connection: Connection, link: RobotLink, rows: KeyedProperty<LinkProperty>, onMissing: OnMissing, onChange: () => void) {
+  constructor(
+    connection: Connection,
+    link: RobotLink,
+    rows: KeyedProperty<LinkProperty>,
+    onMissing: OnMissing,
+    onChange: () => void,
+  ) {
     super();
     this.name = link.name;
     const color = link.visuals[0]?.material ?? null; // rviz's colour of shapes that have none
@@ -49,7 +55,8 @@ export class LinkView extends Group {
   place(pose: Transform | null): boolean {
     const changed = this.visuals.setPlaced(pose !== null);
     this.collisions.setPlaced(pose !== null);
-    if (pose === null || (this.position.equals(pose.position) && this.quaternion.equals(pose.orientation))) return changed;
+    if (pose === null || (this.position.equals(pose.position) && this.quaternion.equals(pose.orientation)))
+      return changed;
     this.position.copy(pose.position);
     this.quaternion.copy(pose.orientation);
     this.trail?.follow(pose.position);

@@ -57,7 +57,8 @@ export function readUrdf(text: string): Robot {
   const fault = document.querySelector("parsererror")?.textContent.trim().split("\n")[0];
   if (fault !== undefined) throw new UrdfError(`The robot description is not XML: ${fault}`);
   const robot = document.documentElement;
-  if (robot.nodeName !== "robot") throw new UrdfError(`The robot description begins with <${robot.nodeName}>, not <robot>.`);
+  if (robot.nodeName !== "robot")
+    throw new UrdfError(`The robot description begins with <${robot.nodeName}>, not <robot>.`);
   const named = new Map(children(robot, "material").map((node) => [attribute(node, "name"), readMaterial(node)]));
   return {
     name: attribute(robot, "name"),
@@ -146,7 +147,11 @@ function attribute(node: Element | null, name: string): string {
 }
 
 function numbers(text: string | null | undefined): number[] {
-  return (text ?? "").trim().split(/\s+/).filter((part) => part !== "").map((part) => number(part, 0));
+  return (text ?? "")
+    .trim()
+    .split(/\s+/)
+    .filter((part) => part !== "")
+    .map((part) => number(part, 0));
 }
 
 function number(text: string | null, otherwise: number): number {

@@ -96,7 +96,8 @@ export class TfShapes extends Group {
 
   private drawArrow(index: number, frame: FrameView, distance: number, style: TfStyle): void {
     const size = style.scale;
-    const headLength = distance < ARROW.headLength * size ? ARROW.headLength * size * distance : ARROW.headLength * size;
+    const headLength =
+      distance < ARROW.headLength * size ? ARROW.headLength * size * distance : ARROW.headLength * size;
     const shaftLength = distance - headLength;
     turn.setFromUnitVectors(X, frame.toParent.divideScalar(distance));
     scale.set(shaftLength, ARROW.shaft * size, ARROW.shaft * size);
@@ -111,11 +112,24 @@ export class TfShapes extends Group {
   private describe(index: number | null): Readonly<Record<string, unknown>> {
     const frame = index === null ? undefined : this.shown[index];
     if (frame === undefined) return {};
-    return { Frame: frame.name, Parent: frame.parent ?? "", Position: frame.anchor.position.toArray(), Orientation: frame.anchor.quaternion.toArray() };
+    return {
+      Frame: frame.name,
+      Parent: frame.parent ?? "",
+      Position: frame.anchor.position.toArray(),
+      Orientation: frame.anchor.quaternion.toArray(),
+    };
   }
 }
 
-function setFaded(part: Instances, index: number, red: number, green: number, blue: number, { fade }: FrameView, alpha: number): void {
+function setFaded(
+  part: Instances,
+  index: number,
+  red: number,
+  green: number,
+  blue: number,
+  { fade }: FrameView,
+  alpha: number,
+): void {
   const own = 1 - fade.grey;
   const grey = GREY * fade.grey;
   part.setRgbaAt(index, red * own + grey, green * own + grey, blue * own + grey, alpha * fade.alpha);

@@ -7,7 +7,11 @@ import type { DrawnArrow, DrawnBox } from "./graph_drawing";
 const OLD = 10; // s: tf forgets what is older
 
 /** Boxes and arrows from parents to children; `now` in ROS time [ns]. */
-export function frameBoxes(frames: readonly FrameInfo[], fixedFrame: string, now: bigint): readonly [readonly DrawnBox[], readonly DrawnArrow[]] {
+export function frameBoxes(
+  frames: readonly FrameInfo[],
+  fixedFrame: string,
+  now: bigint,
+): readonly [readonly DrawnBox[], readonly DrawnArrow[]] {
   const byName = new Map(frames.map((frame) => [frame.name, frame]));
   const root = rootOf(byName, fixedFrame);
   const names = new Set(frames.flatMap((frame) => (frame.parent === null ? [frame.name] : [frame.name, frame.parent])));
@@ -19,7 +23,9 @@ export function frameBoxes(frames: readonly FrameInfo[], fixedFrame: string, now
     const title = `${name}${frame?.parent ? ` in ${frame.parent}` : ""}: ${caption}${publisher}${fault.text === "" ? "" : `. ${fault.text}`}`;
     return { id: name, name, caption: fault.text === "" ? caption : fault.short, kind: `frame ${fault.kind}`, title };
   });
-  const arrows = frames.flatMap(({ name, parent }) => (parent === null ? [] : [{ from: parent, to: name, title: `${parent} → ${name}` }]));
+  const arrows = frames.flatMap(({ name, parent }) =>
+    parent === null ? [] : [{ from: parent, to: name, title: `${parent} → ${name}` }],
+  );
   return [boxes, arrows];
 }
 
@@ -53,7 +59,13 @@ interface Fault {
   readonly short: string;
 }
 
-function faultOf(frames: ReadonlyMap<string, FrameInfo>, name: string, root: string | null, fixedFrame: string, now: bigint): Fault {
+function faultOf(
+  frames: ReadonlyMap<string, FrameInfo>,
+  name: string,
+  root: string | null,
+  fixedFrame: string,
+  now: bigint,
+): Fault {
   const own = rootOf(frames, name);
   if (own === null) return { kind: "error", text: "Its parents go round in a loop", short: "loop of parents" };
   const frame = frames.get(name);
@@ -61,6 +73,7 @@ function faultOf(frames: ReadonlyMap<string, FrameInfo>, name: string, root: str
     const text = age(secondsOld(frame, now));
     return { kind: "warn", text: `Not updated for ${text}`, short: `${text} old` };
   }
-  if (root !== null && own !== root) return { kind: "warn", text: `Not connected with ${fixedFrame}`, short: "not connected" };
+  if (root !== null && own !== root)
+    return { kind: "warn", text: `Not connected with ${fixedFrame}`, short: "not connected" };
   return { kind: "", text: "", short: "" };
 }

@@ -40,19 +40,32 @@ const CAPTION_ROOM = 132; // px: captions change, boxes do not
 const LINE = 26;
 const WIDE = 2; // times as wide as high
 
-export function GraphDrawing({ label, boxes, arrows, direction: wanted, panZoom, onSelect }: GraphDrawingProps): JSX.Element {
+export function GraphDrawing({
+  label,
+  boxes,
+  arrows,
+  direction: wanted,
+  panZoom,
+  onSelect,
+}: GraphDrawingProps): JSX.Element {
   const svg = useRef<SVGSVGElement>(null);
   const [room, setRoom] = useState<readonly [number, number]>([1, 1]);
   const [lit, setLit] = useState<string | null>(null);
   useLayoutEffect(() => {
     const element = svg.current;
     if (element === null) return;
-    const observer = new ResizeObserver(() => setRoom([Math.max(1, element.clientWidth), Math.max(1, element.clientHeight)]));
+    const observer = new ResizeObserver(() =>
+      setRoom([Math.max(1, element.clientWidth), Math.max(1, element.clientHeight)]),
+    );
     observer.observe(element);
     return () => observer.disconnect();
   }, []);
   const direction = wanted === "fit" ? (room[0] > WIDE * room[1] ? "LR" : "TB") : wanted;
-  const shape = JSON.stringify([direction, boxes.map((box) => [box.id, box.name, box.caption !== undefined]), arrows.map((arrow) => [arrow.from, arrow.to])]);
+  const shape = JSON.stringify([
+    direction,
+    boxes.map((box) => [box.id, box.name, box.caption !== undefined]),
+    arrows.map((arrow) => [arrow.from, arrow.to]),
+  ]);
   const placed = useMemo(() => layered(boxes.map(sized), arrows, direction), [shape]);
   const view = panZoom.current([placed.width, placed.height], room);
   const box = (): DOMRect => svg.current?.getBoundingClientRect() ?? new DOMRect(0, 0, 1, 1);
@@ -62,7 +75,10 @@ export function GraphDrawing({ label, boxes, arrows, direction: wanted, panZoom,
     element?.addEventListener("wheel", wheel, { passive: false });
     return () => element?.removeEventListener("wheel", wheel);
   });
-  const isLit = (id: string): boolean => lit === null || id === lit || arrows.some(({ from, to }) => (from === lit && to === id) || (to === lit && from === id));
+  const isLit = (id: string): boolean =>
+    lit === null ||
+    id === lit ||
+    arrows.some(({ from, to }) => (from === lit && to === id) || (to === lit && from === id));
   return (
     <svg
       ref={svg}
@@ -82,14 +98,28 @@ export function GraphDrawing({ label, boxes, arrows, direction: wanted, panZoom,
       onKeyDown={(event) => panZoom.key(event.key, view, room[0]) && event.preventDefault()}
     >
       <defs>
-        <marker id={`tip-${direction}`} viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto-start-reverse">
+        <marker
+          id={`tip-${direction}`}
+          viewBox="0 0 8 8"
+          refX="7"
+          refY="4"
+          markerWidth="7"
+          markerHeight="7"
+          orient="auto-start-reverse"
+        >
           <path class="tip-shape" d="M0 0.5L8 4L0 7.5z" />
         </marker>
       </defs>
       {arrows.map((arrow, index) => (
         <path
           key={`${arrow.from} ${arrow.to}`}
-          class={lit === null || arrow.from === lit || arrow.to === lit ? (lit === null ? "arrow" : "arrow lit") : "arrow faint"}
+          class={
+            lit === null || arrow.from === lit || arrow.to === lit
+              ? lit === null
+                ? "arrow"
+                : "arrow lit"
+              : "arrow faint"
+          }
           d={placed.paths[index]}
           marker-end={`url(#tip-${direction})`}
         >
@@ -112,7 +142,11 @@ export function GraphDrawing({ label, boxes, arrows, direction: wanted, panZoom,
 
 function sized(box: DrawnBox): { readonly id: string; readonly width: number; readonly height: number } {
   const name = textWidth(box.name, NAME_SIZE) + 20;
-  return { id: box.id, width: box.caption === undefined ? name : Math.max(name, CAPTION_ROOM), height: box.caption === undefined ? LINE : LINE + 14 };
+  return {
+    id: box.id,
+    width: box.caption === undefined ? name : Math.max(name, CAPTION_ROOM),
+    height: box.caption === undefined ? LINE : LINE + 14,
+  };
 }
 
 interface BoxShapeProps {
@@ -136,7 +170,13 @@ function BoxShape({ drawn, centre: [x, y], faint, onHover, onSelect }: BoxShapeP
       onClick={() => onSelect?.(drawn.id)}
     >
       <title>{drawn.title}</title>
-      <rect x={-width / 2} y={-height / 2} width={width} height={height} rx={drawn.kind.includes("topic") ? height / 2 : 4} />
+      <rect
+        x={-width / 2}
+        y={-height / 2}
+        width={width}
+        height={height}
+        rx={drawn.kind.includes("topic") ? height / 2 : 4}
+      />
       <text class="name" y={drawn.caption === undefined ? 4 : -3} font-size={NAME_SIZE}>
         {drawn.name}
       </text>

@@ -31,8 +31,15 @@ const ROW_WIDTH = 560;
 /** Lay boxes out from left to right, or from top to bottom; those without arrows in rows below the others. */
 export function layered(boxes: readonly Box[], arrows: readonly Arrow[], direction: "LR" | "TB"): Placed {
   const joined = new Set(arrows.flatMap(({ from, to }) => [from, to]));
-  const drawing = arranged(boxes.filter(({ id }) => joined.has(id)), arrows, direction);
-  return withRows(drawing, boxes.filter(({ id }) => !joined.has(id)));
+  const drawing = arranged(
+    boxes.filter(({ id }) => joined.has(id)),
+    arrows,
+    direction,
+  );
+  return withRows(
+    drawing,
+    boxes.filter(({ id }) => !joined.has(id)),
+  );
 }
 
 function withRows(drawing: Placed, lone: readonly Box[]): Placed {
@@ -67,7 +74,9 @@ function arranged(boxes: readonly Box[], arrows: readonly Arrow[], direction: "L
     }),
   );
   const paths = arrows.map(({ from, to }, index) => {
-    const { points = [] } = graph.edge(node(from), node(to), String(index)) as { points?: readonly { x: number; y: number }[] };
+    const { points = [] } = graph.edge(node(from), node(to), String(index)) as {
+      points?: readonly { x: number; y: number }[];
+    };
     return curve(points.map(({ x, y }) => [x, y] as const));
   });
   const { width = 0, height = 0 } = graph.graph() as { width?: number; height?: number };

@@ -35,7 +35,12 @@ export class PanZoom {
   zoom(from: ViewBox, factor: number, across: number, down: number, room: number): void {
     const width = Math.max(room / LARGEST, from.width / factor);
     const height = (from.height * width) / from.width;
-    this.view.value = { x: from.x + (from.width - width) * across, y: from.y + (from.height - height) * down, width, height };
+    this.view.value = {
+      x: from.x + (from.width - width) * across,
+      y: from.y + (from.height - height) * down,
+      width,
+      height,
+    };
   }
 
   wheel(event: WheelEvent, from: ViewBox, box: DOMRect): void {
@@ -77,7 +82,8 @@ export class PanZoom {
       ArrowDown: [0, 0.1],
     };
     const move = moves[key];
-    if (move !== undefined) this.view.value = { ...from, x: from.x + move[0] * from.width, y: from.y + move[1] * from.height };
+    if (move !== undefined)
+      this.view.value = { ...from, x: from.x + move[0] * from.width, y: from.y + move[1] * from.height };
     else if (key === "+" || key === "=") this.zoom(from, STEP, 0.5, 0.5, room);
     else if (key === "-") this.zoom(from, 1 / STEP, 0.5, 0.5, room);
     else if (key === "0") this.fit();

@@ -1,6 +1,16 @@
 /** A drawing of the page as an SVG file of its own: what the style sheet says stands in the elements. */
 
-const STYLES = ["fill", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-family", "font-size", "font-weight", "text-anchor"] as const;
+const STYLES = [
+  "fill",
+  "stroke",
+  "stroke-width",
+  "stroke-dasharray",
+  "opacity",
+  "font-family",
+  "font-size",
+  "font-weight",
+  "text-anchor",
+] as const;
 
 export function svgFile(drawing: SVGSVGElement, content: readonly [number, number]): Blob {
   const copy = drawing.cloneNode(true) as SVGSVGElement;

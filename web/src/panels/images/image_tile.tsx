@@ -20,7 +20,14 @@ interface ImageTileProps {
   readonly onClose: () => void;
 }
 
-const ZOOMS: Readonly<Record<string, number | null>> = { Fit: null, "50 %": 0.5, "1 : 1": 1, "200 %": 2, "400 %": 4, "800 %": 8 };
+const ZOOMS: Readonly<Record<string, number | null>> = {
+  Fit: null,
+  "50 %": 0.5,
+  "1 : 1": 1,
+  "200 %": 2,
+  "400 %": 4,
+  "800 %": 8,
+};
 
 interface Newest {
   message: Image | CompressedImage | null;
@@ -34,7 +41,10 @@ export function ImageTile({ connection, topic, isEnlarged, onEnlarge, onClose }:
   const newest = useRef<Newest>({ message: null });
   useEffect(() => {
     const opened = new PictureStream(connection, topic);
-    const raw = connection.subscribe<Image | CompressedImage>(topic, ({ message }) => void (newest.current.message = message));
+    const raw = connection.subscribe<Image | CompressedImage>(
+      topic,
+      ({ message }) => void (newest.current.message = message),
+    );
     const drawn = opened.picture.subscribe((picture) => {
       if (picture !== null && canvas.current !== null) drawPicture(canvas.current, picture);
     });
@@ -58,7 +68,11 @@ export function ImageTile({ connection, topic, isEnlarged, onEnlarge, onClose }:
           role="img"
           aria-label={`Picture of ${topic}`}
           class={factor !== null && factor > 1 ? "pixels" : ""}
-          style={factor === null || picture === null ? {} : { width: `${picture.width * factor}px`, height: `${picture.height * factor}px` }}
+          style={
+            factor === null || picture === null
+              ? {}
+              : { width: `${picture.width * factor}px`, height: `${picture.height * factor}px` }
+          }
           hidden={picture === null}
           onPointerMove={(event) => setPixel(pixelAt(event))}
           onPointerLeave={() => setPixel(null)}
@@ -69,11 +83,27 @@ export function ImageTile({ connection, topic, isEnlarged, onEnlarge, onClose }:
         <span class="dim sm n">{pixel === null ? size : pixelText(newest.current.message, canvas.current, pixel)}</span>
         <span class="sp" />
         <Select label={`Zoom of ${topic}`} value={zoom} choices={Object.keys(ZOOMS)} onChange={setZoom} />
-        <Button small icon="download" label={`Save ${topic} as PNG`} disabled={picture === null} onClick={() => save(canvas.current, topic)} />
-        <Button small icon="enlarge" label={isEnlarged ? `Show ${topic} beside the others` : `Enlarge ${topic}`} on={isEnlarged} onClick={onEnlarge} />
+        <Button
+          small
+          icon="download"
+          label={`Save ${topic} as PNG`}
+          disabled={picture === null}
+          onClick={() => save(canvas.current, topic)}
+        />
+        <Button
+          small
+          icon="enlarge"
+          label={isEnlarged ? `Show ${topic} beside the others` : `Enlarge ${topic}`}
+          on={isEnlarged}
+          onClick={onEnlarge}
+        />
         <Button small icon="close" label={`Close ${topic}`} onClick={onClose} />
       </figcaption>
-      {picture !== null && fault !== null && <div class="fault pad" role="alert">{fault}</div>}
+      {picture !== null && fault !== null && (
+        <div class="fault pad" role="alert">
+          {fault}
+        </div>
+      )}
     </figure>
   );
 }
@@ -81,17 +111,28 @@ export function ImageTile({ connection, topic, isEnlarged, onEnlarge, onClose }:
 function pixelAt(event: PointerEvent & { readonly currentTarget: HTMLCanvasElement }): readonly [number, number] {
   const { width, height } = event.currentTarget;
   const box = event.currentTarget.getBoundingClientRect();
-  return [Math.floor(((event.clientX - box.left) / box.width) * width), Math.floor(((event.clientY - box.top) / box.height) * height)];
+  return [
+    Math.floor(((event.clientX - box.left) / box.width) * width),
+    Math.floor(((event.clientY - box.top) / box.height) * height),
+  ];
 }
 
 /** "12, 30: r 255 g 0 b 0"; of a compressed picture its colour. */
-function pixelText(message: Image | CompressedImage | null, canvas: HTMLCanvasElement | null, [x, y]: readonly [number, number]): string {
+function pixelText(
+  message: Image | CompressedImage | null,
+  canvas: HTMLCanvasElement | null,
+  [x, y]: readonly [number, number],
+): string {
   const values = message !== null && "encoding" in message ? pixelValue(message, x, y) : shownColour(canvas, x, y);
   const text = values?.map(([name, value]) => `${name} ${exact(value)}`.trim()).join("  ") ?? "";
   return `${x}, ${y}: ${text}`;
 }
 
-function shownColour(canvas: HTMLCanvasElement | null, x: number, y: number): readonly (readonly [string, number])[] | null {
+function shownColour(
+  canvas: HTMLCanvasElement | null,
+  x: number,
+  y: number,
+): readonly (readonly [string, number])[] | null {
   const data = canvas?.getContext("2d")?.getImageData(x, y, 1, 1).data;
   return data === undefined ? null : ["r", "g", "b"].map((name, index) => [name, data[index] ?? 0]);
 }

@@ -24,13 +24,25 @@ function layoutOf(encoding: string): readonly [kind: string, channels: readonly 
 }
 
 /** Values of the channels at a pixel, with their names where they have any; null where they cannot be told. */
-export function pixelValue(image: Image, x: number, y: number): readonly (readonly [name: string, value: number])[] | null {
+export function pixelValue(
+  image: Image,
+  x: number,
+  y: number,
+): readonly (readonly [name: string, value: number])[] | null {
   const layout = layoutOf(image.encoding);
   if (layout === null) return null;
   const [kind, channels] = layout;
   const [bytes, read] = READS[kind] ?? [0, null];
   const at = y * image.step + x * bytes * channels.length;
-  if (read === null || x < 0 || y < 0 || x >= image.width || y >= image.height || at + bytes * channels.length > image.data.length) return null;
+  if (
+    read === null ||
+    x < 0 ||
+    y < 0 ||
+    x >= image.width ||
+    y >= image.height ||
+    at + bytes * channels.length > image.data.length
+  )
+    return null;
   const view = new DataView(image.data.buffer, image.data.byteOffset, image.data.byteLength);
   return channels.map((name, index) => [name, read(view, at + index * bytes, image.is_bigendian === 0)]);
 }

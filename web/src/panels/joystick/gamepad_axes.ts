@@ -6,8 +6,29 @@ export interface JoyState {
   readonly buttons: readonly number[];
 }
 
-export const AXIS_NAMES = ["Left stick, left", "Left stick, up", "LT", "Right stick, left", "Right stick, up", "RT", "Cross, left", "Cross, up"] as const;
-export const BUTTON_NAMES = ["A", "B", "X", "Y", "LB", "RB", "Back", "Start", "Guide", "Left stick", "Right stick"] as const;
+export const AXIS_NAMES = [
+  "Left stick, left",
+  "Left stick, up",
+  "LT",
+  "Right stick, left",
+  "Right stick, up",
+  "RT",
+  "Cross, left",
+  "Cross, up",
+] as const;
+export const BUTTON_NAMES = [
+  "A",
+  "B",
+  "X",
+  "Y",
+  "LB",
+  "RB",
+  "Back",
+  "Start",
+  "Guide",
+  "Left stick",
+  "Right stick",
+] as const;
 
 /** A released pad: triggers rest at 1. */
 export const AT_REST: JoyState = { axes: [0, 0, 1, 0, 0, 1, 0, 0], buttons: BUTTON_NAMES.map(() => 0) };

@@ -49,7 +49,11 @@ export class JoystickState {
   private poll(): void {
     const pad = navigator.getGamepads().find((one) => one?.connected === true && one.mapping === "standard");
     const name = pad?.id ?? null;
-    if (pad) this.joy.value = joyFromGamepad(pad.axes, pad.buttons.map((button) => button.value));
+    if (pad)
+      this.joy.value = joyFromGamepad(
+        pad.axes,
+        pad.buttons.map((button) => button.value),
+      );
     else if (this.gamepad.peek() !== null) this.joy.value = AT_REST;
     this.gamepad.value = name;
     this.send();

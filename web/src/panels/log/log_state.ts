@@ -22,7 +22,11 @@ export class LogState {
   /** What is shown while it is paused; null: it is not. */
   readonly frozen = signal<readonly LogEntry[] | null>(null);
   readonly shown = computed(() =>
-    filtered(this.frozen.value ?? this.entries.value, { levels: this.levels.value, node: this.node.value, text: this.text.value }),
+    filtered(this.frozen.value ?? this.entries.value, {
+      levels: this.levels.value,
+      node: this.node.value,
+      text: this.text.value,
+    }),
   );
   private pending: LogEntry[] = [];
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -36,7 +40,16 @@ export class LogState {
       seen = notices;
       const time = Number(connection.now()) / 1e9;
       for (const { level, text } of fresh) {
-        this.add({ id: this.nextId(), time, level: NOTICE_LEVELS[level], node: "page", text, file: "", line: 0, function: "" });
+        this.add({
+          id: this.nextId(),
+          time,
+          level: NOTICE_LEVELS[level],
+          node: "page",
+          text,
+          file: "",
+          line: 0,
+          function: "",
+        });
       }
     });
   }

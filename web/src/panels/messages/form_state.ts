@@ -34,7 +34,8 @@ export class FormState {
 
   /** Throws an Error with a sentence where the type holds too much for a form. */
   constructor(readonly type: MessageType) {
-    if (!(emptyValues(type) <= MOST_VALUES)) throw new Error(`It holds more than ${MOST_VALUES.toLocaleString("en")} values, too many for a form.`);
+    if (!(emptyValues(type) <= MOST_VALUES))
+      throw new Error(`It holds more than ${MOST_VALUES.toLocaleString("en")} values, too many for a form.`);
     this.rows = formRows(type, "", 0);
   }
 
@@ -124,11 +125,14 @@ function textOf(value: RosValue | undefined): string {
 function flow(value: RosValue): string {
   if (typeof value === "string") return JSON.stringify(value);
   if (typeof value !== "object") return String(value);
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) return `[${Array.from(value as ArrayLike<RosValue>, flow).join(", ")}]`;
+  if (Array.isArray(value) || ArrayBuffer.isView(value))
+    return `[${Array.from(value as ArrayLike<RosValue>, flow).join(", ")}]`;
   const message = value as RosMessage;
   const { sec, nsec } = message;
   if (typeof sec === "number" && typeof nsec === "number") {
     return nsec === 0 ? String(sec) : `${sec}.${String(nsec).padStart(9, "0").replace(/0+$/, "")}`;
   }
-  return `{${Object.entries(message).map(([name, part]) => `${name}: ${flow(part)}`).join(", ")}}`;
+  return `{${Object.entries(message)
+    .map(([name, part]) => `${name}: ${flow(part)}`)
+    .join(", ")}}`;
 }

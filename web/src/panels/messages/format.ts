@@ -52,5 +52,7 @@ export function timeText(seconds: number, decimals = 2): string {
   if (Math.abs(seconds) < WALL_CLOCK) return clock(seconds, decimals);
   const midnight = new Date(seconds * 1000).setHours(0, 0, 0, 0) / 1000;
   const ofDay = seconds - midnight;
-  return ofDay < 3600 ? `0:${clock(ofDay, decimals).padStart(decimals > 0 ? 6 + decimals : 5, "0")}` : clock(ofDay, decimals);
+  return ofDay < 3600
+    ? `0:${clock(ofDay, decimals).padStart(decimals > 0 ? 6 + decimals : 5, "0")}`
+    : clock(ofDay, decimals);
 }

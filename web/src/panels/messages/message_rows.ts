@@ -21,12 +21,23 @@ const SHOWN = 4;
 const LONGEST_TEXT = 2000;
 
 /** Rows of a message of a type; of what `isOpen` names, the parts too. */
-export function messageRows(type: string, message: RosMessage, isOpen: (key: string, depth: number) => boolean): readonly MessageRow[] {
+export function messageRows(
+  type: string,
+  message: RosMessage,
+  isOpen: (key: string, depth: number) => boolean,
+): readonly MessageRow[] {
   const rows: MessageRow[] = [];
   const add = (key: string, name: string, value: RosValue, fields: readonly string[], depth: number): void => {
     const parts = partsOf(value);
     const open = parts ? isOpen(key, depth) : undefined;
-    rows.push({ key, depth, name, open, text: valueText(value), unit: parts ? "" : unitIn(type, message, fields, value) });
+    rows.push({
+      key,
+      depth,
+      name,
+      open,
+      text: valueText(value),
+      unit: parts ? "" : unitIn(type, message, fields, value),
+    });
     if (parts && open === true) addParts(key, value, fields, depth + 1);
   };
   const addParts = (key: string, value: RosValue, fields: readonly string[], depth: number): void => {
@@ -39,11 +50,20 @@ export function messageRows(type: string, message: RosMessage, isOpen: (key: str
       }
     }
   };
-  const addNamed = (key: string, name: string, list: RosValue, names: readonly string[], fields: readonly string[], depth: number): void => {
+  const addNamed = (
+    key: string,
+    name: string,
+    list: RosValue,
+    names: readonly string[],
+    fields: readonly string[],
+    depth: number,
+  ): void => {
     const open = isOpen(key, depth);
     rows.push({ key, depth, name, open, text: valueText(list), unit: "" });
     if (!open || !isList(list)) return;
-    list.forEach((element: RosValue, index: number) => add(`${key}[${index}]`, names[index] ?? `[${index}]`, element, fields, depth + 1));
+    list.forEach((element: RosValue, index: number) =>
+      add(`${key}[${index}]`, names[index] ?? `[${index}]`, element, fields, depth + 1),
+    );
   };
   const addList = (key: string, list: readonly RosValue[], fields: readonly string[], depth: number): void => {
     if (list.length <= CHUNK) {
@@ -96,7 +116,9 @@ function listText(list: readonly RosValue[]): string {
   if (list.length === 0) return "[]";
   const first = [...list.slice(0, SHOWN)];
   if (first.some((element) => typeof element === "object")) return `${list.length} elements`;
-  const texts = first.map((element) => (typeof element === "number" ? significant(element, 6) : valueText(element))).join(", ");
+  const texts = first
+    .map((element) => (typeof element === "number" ? significant(element, 6) : valueText(element)))
+    .join(", ");
   return list.length > SHOWN ? `[${texts}, …] ${list.length} elements` : `[${texts}]`;
 }
 

@@ -20,7 +20,8 @@ const OPEN_DEPTH = 2;
 export function MessageTree({ label, type, message }: MessageTreeProps): JSX.Element {
   const [toggled, setToggled] = useState<ReadonlyMap<string, boolean>>(new Map());
   const [selected, setSelected] = useState<string | null>(null);
-  const isOpen = (key: string, depth: number): boolean => toggled.get(key) ?? (depth < OPEN_DEPTH && !key.endsWith("]") && key !== ".header");
+  const isOpen = (key: string, depth: number): boolean =>
+    toggled.get(key) ?? (depth < OPEN_DEPTH && !key.endsWith("]") && key !== ".header");
   const rows = messageRows(type, message, isOpen).map((row) => treeRow(row, row.key === selected));
   return (
     <Tree

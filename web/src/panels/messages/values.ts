@@ -32,7 +32,11 @@ export function emptyMessage(type: MessageType): RosMessage {
 /** Number of values of the empty message; infinite where a type contains itself. */
 export function emptyValues(type: MessageType): number {
   const counts = new Map<string, number>();
-  const countOf = (within: MessageType): number => within.root.fields.reduce((sum, field) => sum + (field.isArray ? (field.length ?? 0) : 1) * elementOf(within, field), 0);
+  const countOf = (within: MessageType): number =>
+    within.root.fields.reduce(
+      (sum, field) => sum + (field.isArray ? (field.length ?? 0) : 1) * elementOf(within, field),
+      0,
+    );
   const elementOf = (within: MessageType, { isComplex, type: name }: Field): number => {
     if (!isComplex) return 1;
     const known = counts.get(name);

@@ -51,7 +51,8 @@ export function parameterRows(
 /** A value on one line; a whole float keeps its point. */
 export function parameterText(value: ParameterValue, isFloat: boolean): string {
   if (typeof value === "string") return value;
-  if (typeof value === "number" && isFloat && Number.isInteger(value) && Math.abs(value) < 1e15) return value.toFixed(1);
+  if (typeof value === "number" && isFloat && Number.isInteger(value) && Math.abs(value) < 1e15)
+    return value.toFixed(1);
   if (Array.isArray(value)) return `[${value.map((entry: ParameterValue) => quoted(entry, isFloat)).join(", ")}]`;
   return typeof value === "object" ? JSON.stringify(value) : String(value);
 }
@@ -67,7 +68,10 @@ export function parameterFromText(
   isFloat: boolean,
 ): { readonly value: ParameterValue } | { readonly fault: string } {
   if (typeof old === "string") return { value: text };
-  const json = text.replace(/\bTrue\b/g, "true").replace(/\bFalse\b/g, "false").replace(/−/g, "-");
+  const json = text
+    .replace(/\bTrue\b/g, "true")
+    .replace(/\bFalse\b/g, "false")
+    .replace(/−/g, "-");
   let value: ParameterValue;
   try {
     value = JSON.parse(json) as ParameterValue;

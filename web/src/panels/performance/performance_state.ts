@@ -69,7 +69,8 @@ export class PerformanceState {
 
   receive(profile: Profile): void {
     this.profile.value = profile;
-    if (profile.wall_s > 0) this.factors.value = [...this.factors.peek(), profile.simulated_s / profile.wall_s].slice(-KEPT);
+    if (profile.wall_s > 0)
+      this.factors.value = [...this.factors.peek(), profile.simulated_s / profile.wall_s].slice(-KEPT);
   }
 }
 
@@ -78,8 +79,14 @@ export const performanceState = perPage((page) => new PerformanceState(page));
 /** The most expensive parts first; waiting, which costs nothing, last. */
 export function rowsOf({ parts, wall_s, simulated_s }: Profile): readonly Row[] {
   if (wall_s <= 0 || simulated_s <= 0) return [];
-  const rows = parts.map((part) => ({ ...part, perSecond: (1000 * part.wall_s) / simulated_s, share: part.wall_s / wall_s }));
-  return rows.sort((one, other) => Number(one.group === "waiting") - Number(other.group === "waiting") || other.wall_s - one.wall_s);
+  const rows = parts.map((part) => ({
+    ...part,
+    perSecond: (1000 * part.wall_s) / simulated_s,
+    share: part.wall_s / wall_s,
+  }));
+  return rows.sort(
+    (one, other) => Number(one.group === "waiting") - Number(other.group === "waiting") || other.wall_s - one.wall_s,
+  );
 }
 
 /** Rows as they lie in the bar: group by group. */

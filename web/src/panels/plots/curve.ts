@@ -5,7 +5,16 @@ import { effect, signal } from "@preact/signals";
 import type { Page } from "../../page/page";
 import type { Subscription } from "../../protocol/connection";
 import { seconds, type RosMessage, type RosTime } from "../../protocol/ros_types";
-import { isList, isMessage, numberAt, parsePath, stepsText, valueAt, type Step, type TopicPath } from "../messages/field_path";
+import {
+  isList,
+  isMessage,
+  numberAt,
+  parsePath,
+  stepsText,
+  valueAt,
+  type Step,
+  type TopicPath,
+} from "../messages/field_path";
 import { unitOf } from "../messages/units";
 import { RingBuffer } from "./ring_buffer";
 import { seriesFeed } from "./series_feed";
@@ -45,20 +54,27 @@ export class Curve {
       this.subscription = undefined;
       if (joint !== null) this.followJoint(joint.index, joint.field);
       else if (found !== null) this.follow(found);
-      else this.fault.value = path.startsWith("/") ? "This is no path, as /odom.twist.twist.linear.x" : `No joint ${path} is simulated`;
+      else
+        this.fault.value = path.startsWith("/")
+          ? "This is no path, as /odom.twist.twist.linear.x"
+          : `No joint ${path} is simulated`;
     });
   }
 
   /** Last two steps, or a joint without its model, for the legend. */
   get name(): string {
     const { steps } = this.split();
-    return steps.length === 0 ? this.path.slice(this.modelEnd > 0 ? this.modelEnd + 2 : 0) : stepsText(steps.slice(-2)).replace(/^\./, "");
+    return steps.length === 0
+      ? this.path.slice(this.modelEnd > 0 ? this.modelEnd + 2 : 0)
+      : stepsText(steps.slice(-2)).replace(/^\./, "");
   }
 
   /** What the name leaves out. */
   get caption(): string {
     const { topic, steps } = this.split();
-    return steps.length === 0 ? this.path.slice(0, Math.max(0, this.modelEnd)) : `${topic} ${stepsText(steps.slice(0, -2)).replace(/^\./, "")}`.trim();
+    return steps.length === 0
+      ? this.path.slice(0, Math.max(0, this.modelEnd))
+      : `${topic} ${stepsText(steps.slice(0, -2)).replace(/^\./, "")}`.trim();
   }
 
   close(): void {
@@ -142,6 +158,9 @@ function faultAt(message: RosMessage, steps: readonly Step[]): string {
     }
   }
   const value = valueAt(message, steps);
-  if (value !== undefined && isMessage(value)) return `This is no number; fields there: ${Object.keys(value).join(", ")}`;
-  return value !== undefined && isList(value) ? `This is a list of ${value.length}; choose one, as [0]` : "This is no number";
+  if (value !== undefined && isMessage(value))
+    return `This is no number; fields there: ${Object.keys(value).join(", ")}`;
+  return value !== undefined && isList(value)
+    ? `This is a list of ${value.length}; choose one, as [0]`
+    : "This is no number";
 }

@@ -29,7 +29,12 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
   const messages = useMessages(page, open);
   const search = useSignal("");
   const found = search.value.trim().toLowerCase();
-  const rows = [...simulatedRows(page, open, found), ...topicRows(page, open, messages).filter(({ label }) => found === "" || (label ?? "").toLowerCase().includes(found))];
+  const rows = [
+    ...simulatedRows(page, open, found),
+    ...topicRows(page, open, messages).filter(
+      ({ label }) => found === "" || (label ?? "").toLowerCase().includes(found),
+    ),
+  ];
   const plotted = new Map(state.curves.map((curve) => [curve.path, curve]));
   const toggle = (key: string, on: boolean): void => {
     const next = new Set(open);
@@ -49,7 +54,12 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
     <>
       <div class="toolrow">
         <span class="sm t2">Path</span>
-        <Combo label="Path of a curve" value="" choices={() => paths.map((value) => ({ value }))} onCommit={(path) => state.add(path)} />
+        <Combo
+          label="Path of a curve"
+          value=""
+          choices={() => paths.map((value) => ({ value }))}
+          onCommit={(path) => state.add(path)}
+        />
         <Button small icon="close" label="Close" onClick={() => void (state.isAdding.value = false)} />
       </div>
       <FilterField label="Search values" value={search} />
@@ -73,7 +83,10 @@ function usePaths(page: Page): readonly string[] {
   useEffect(() => {
     let isOver = false;
     const manifest = page.world.manifest.peek();
-    const joints = page.session.kind === "simulation" ? valueOwners(manifest).flatMap(({ values }) => values) : movingJoints(manifest).map(({ name }) => `${name}.position`);
+    const joints =
+      page.session.kind === "simulation"
+        ? valueOwners(manifest).flatMap(({ values }) => values)
+        : movingJoints(manifest).map(({ name }) => `${name}.position`);
     const all = [...known.values()].map(async ({ name, type }) => {
       const text = await page.connection.definition(type).catch(() => "");
       return numericPaths(MessageType.parse(text)).map((path) => name + path);
@@ -89,8 +102,13 @@ function usePaths(page: Page): readonly string[] {
 }
 
 /** Newest messages of the topics that are open. */
-function useMessages(page: Page, open: ReadonlySet<string>): ReadonlyMap<string, { readonly type: string; readonly message: RosMessage }> {
-  const [messages, setMessages] = useState<ReadonlyMap<string, { readonly type: string; readonly message: RosMessage }>>(new Map());
+function useMessages(
+  page: Page,
+  open: ReadonlySet<string>,
+): ReadonlyMap<string, { readonly type: string; readonly message: RosMessage }> {
+  const [messages, setMessages] = useState<
+    ReadonlyMap<string, { readonly type: string; readonly message: RosMessage }>
+  >(new Map());
   useEffect(() => {
     const newest = new Map<string, { readonly type: string; readonly message: RosMessage }>();
     const subscriptions = [...open]
@@ -118,7 +136,10 @@ function simulatedRows(page: Page, open: ReadonlySet<string>, search: string): r
     const model = name.split("::")[0] ?? name;
     if (kind !== "model" && !open.has(model)) return [];
     const isOpen = open.has(name);
-    return [row(name, depth, label, kind, isOpen), ...(isOpen ? values.map((value) => row(value, depth + 1, value.slice(name.length + 1), "", undefined)) : [])];
+    return [
+      row(name, depth, label, kind, isOpen),
+      ...(isOpen ? values.map((value) => row(value, depth + 1, value.slice(name.length + 1), "", undefined)) : []),
+    ];
   });
   return rows.slice(0, search === "" ? rows.length : MOST_FOUND);
 }
@@ -133,7 +154,11 @@ function jointRows(page: Page, open: ReadonlySet<string>): readonly TreeRow[] {
   return [...rows, ...leaves.map((path) => row(path, 1, path, "", undefined))];
 }
 
-function topicRows(page: Page, open: ReadonlySet<string>, messages: ReturnType<typeof useMessages>): readonly TreeRow[] {
+function topicRows(
+  page: Page,
+  open: ReadonlySet<string>,
+  messages: ReturnType<typeof useMessages>,
+): readonly TreeRow[] {
   const topics = [...page.connection.topics.value.values()].sort((one, other) => (one.name < other.name ? -1 : 1));
   return topics.flatMap(({ name, type }) => {
     const isOpen = open.has(name);

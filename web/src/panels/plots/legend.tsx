@@ -23,15 +23,22 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
       {plot.curves.map((curve, index) => {
         const value = time === null ? curve.points.lastY : curve.points.at(time);
         return (
-          <li key={curve.path} class={isDashed(index) ? "dash" : ""} style={{ "--c": `var(${COLOURS[index % COLOURS.length] ?? ""})` }}>
+          <li
+            key={curve.path}
+            class={isDashed(index) ? "dash" : ""}
+            style={{ "--c": `var(${COLOURS[index % COLOURS.length] ?? ""})` }}
+          >
             <span class="n" title={curve.path}>
               {curve.name}
             </span>
             <span class="num">
-              <b>{value === null ? "—" : legendText(value, largest(curve, state))}</b> {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
+              <b>{value === null ? "—" : legendText(value, largest(curve, state))}</b>{" "}
+              {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
             </span>
             <MenuButton label={`Curve ${curve.path}`} icon="dots" class="sml" items={() => items(state, plot, curve)} />
-            <span class="t">{curve.fault.value === "" ? curve.caption : <span class="warned">{curve.fault.value}</span>}</span>
+            <span class="t">
+              {curve.fault.value === "" ? curve.caption : <span class="warned">{curve.fault.value}</span>}
+            </span>
           </li>
         );
       })}
@@ -58,7 +65,10 @@ function items(state: PlotsState, plot: Plot, curve: Curve): readonly MenuItem[]
     { title: "Left axis", checked: curve.axis.value === "left", run: () => void (curve.axis.value = "left") },
     { title: "Right axis", checked: curve.axis.value === "right", run: () => void (curve.axis.value = "right") },
     { title: "In a plot of its own", disabled: plot.curves.length < 2, run: () => state.separate(curve) },
-    ...others.map((other) => ({ title: `Into the plot of ${other.curves[0]?.name ?? "none"}`, run: () => state.move(curve, other.id) })),
+    ...others.map((other) => ({
+      title: `Into the plot of ${other.curves[0]?.name ?? "none"}`,
+      run: () => state.move(curve, other.id),
+    })),
     { title: "Remove", icon: "close", run: () => state.remove(curve) },
   ];
 }

@@ -46,7 +46,9 @@ export function PlotCanvas({ state, curves, theme }: PlotCanvasProps): JSX.Eleme
       plot.destroy();
     };
   }, [state, curves, theme, axes, units]);
-  return <div ref={box} class="canvas" role="img" aria-label={`Plot of ${curves.map((curve) => curve.path).join(", ")}`} />;
+  return (
+    <div ref={box} class="canvas" role="img" aria-label={`Plot of ${curves.map((curve) => curve.path).join(", ")}`} />
+  );
 }
 
 /** Draws when points came or the range changed; returns how to stop. */
@@ -54,7 +56,14 @@ function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): 
   let drawn = "";
   const draw = (): void => {
     const range = state.range();
-    const key = [...range, state.isPaused.peek() ? "" : curves.map((curve) => curve.revision).join(), plot.width, plot.height, state.cursor.peek(), state.shownTime()].join(" ");
+    const key = [
+      ...range,
+      state.isPaused.peek() ? "" : curves.map((curve) => curve.revision).join(),
+      plot.width,
+      plot.height,
+      state.cursor.peek(),
+      state.shownTime(),
+    ].join(" ");
     if (key === drawn) return;
     drawn = key;
     show(plot, curves, range);
@@ -116,7 +125,12 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
     legend: { show: false },
     scales: { x: { time: false, auto: false }, left: { auto: false }, right: { auto: false } },
     axes: [
-      { ...axis, scale: "x", size: 22, values: (_plot, splits, _axis, _space, step) => splits.map((split) => timeText(split, decimals(step))) },
+      {
+        ...axis,
+        scale: "x",
+        size: 22,
+        values: (_plot, splits, _axis, _space, step) => splits.map((split) => timeText(split, decimals(step))),
+      },
       value(LEFT, "left"),
       value(RIGHT, "right"),
     ],

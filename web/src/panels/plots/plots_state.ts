@@ -36,7 +36,10 @@ export class PlotsState {
   private plotCount = 1;
 
   constructor(private readonly page: Page) {
-    forEachNew(() => page.session.plots, (path) => this.add(path));
+    forEachNew(
+      () => page.session.plots,
+      (path) => this.add(path),
+    );
   }
 
   get curves(): readonly Curve[] {
@@ -45,10 +48,21 @@ export class PlotsState {
 
   /** Add curves to a plot; `/pose/x:y` is two of them, as for rqt_plot. */
   add(text: string, plot = this.plots.peek().at(-1)?.id): void {
-    const [first = "", ...others] = text.trim().split(":").filter((part) => part !== "");
-    const paths = text.includes("::") ? [text.trim()] : [first, ...others.map((name) => first.replace(/[^./]+$/, name))];
-    const known = this.plots.peek().find(({ id }) => id === plot)?.curves.map((curve) => curve.path) ?? [];
-    const fresh = paths.filter((path) => path !== "" && !known.includes(path)).map((path) => new Curve(this.page, path));
+    const [first = "", ...others] = text
+      .trim()
+      .split(":")
+      .filter((part) => part !== "");
+    const paths = text.includes("::")
+      ? [text.trim()]
+      : [first, ...others.map((name) => first.replace(/[^./]+$/, name))];
+    const known =
+      this.plots
+        .peek()
+        .find(({ id }) => id === plot)
+        ?.curves.map((curve) => curve.path) ?? [];
+    const fresh = paths
+      .filter((path) => path !== "" && !known.includes(path))
+      .map((path) => new Curve(this.page, path));
     this.change(plot, (curves) => [...curves, ...fresh]);
   }
 
@@ -67,7 +81,9 @@ export class PlotsState {
   move(curve: Curve, plot: number): void {
     this.change(plot, (curves) => [...curves, curve]);
     this.plots.value = withoutEmpty(
-      this.plots.peek().map((one) => (one.id === plot ? one : { ...one, curves: one.curves.filter((other) => other !== curve) })),
+      this.plots
+        .peek()
+        .map((one) => (one.id === plot ? one : { ...one, curves: one.curves.filter((other) => other !== curve) })),
     );
   }
 
@@ -116,7 +132,9 @@ export class PlotsState {
   }
 
   private take(curve: Curve): void {
-    const plots = this.plots.peek().map((plot) => ({ ...plot, curves: plot.curves.filter((other) => other !== curve) }));
+    const plots = this.plots
+      .peek()
+      .map((plot) => ({ ...plot, curves: plot.curves.filter((other) => other !== curve) }));
     this.plots.value = withoutEmpty(plots);
   }
 

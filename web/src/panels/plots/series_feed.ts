@@ -25,7 +25,9 @@ export interface SeriesListener {
 }
 
 /** Rows of a message: times and values as the names of its head stand; null: it is cut short. */
-export function readSeries(payload: DataView): { readonly first: number; readonly head: Head; readonly rows: readonly Float64Array[] } | null {
+export function readSeries(
+  payload: DataView,
+): { readonly first: number; readonly head: Head; readonly rows: readonly Float64Array[] } | null {
   if (payload.byteLength < HEADER) return null;
   const start = HEADER + payload.getUint32(8, true);
   if (payload.byteLength < start) return null;
@@ -34,7 +36,9 @@ export function readSeries(payload: DataView): { readonly first: number; readonl
   const width = 1 + head.names.length;
   const count = Math.floor((payload.byteLength - start) / (NUMBER * width));
   const rows = Array.from({ length: count }, (_, row) =>
-    Float64Array.from({ length: width }, (_value, column) => payload.getFloat64(start + NUMBER * (row * width + column), true)),
+    Float64Array.from({ length: width }, (_value, column) =>
+      payload.getFloat64(start + NUMBER * (row * width + column), true),
+    ),
   );
   return { first: Number(payload.getBigUint64(0, true)), head, rows };
 }
@@ -85,7 +89,8 @@ export class SeriesFeed {
     const message = readSeries(payload);
     if (message === null) return;
     const { first, head, rows } = message;
-    for (const [name, fault] of Object.entries(head.faults)) for (const { onFault } of this.listeners.get(name) ?? []) onFault(fault);
+    for (const [name, fault] of Object.entries(head.faults))
+      for (const { onFault } of this.listeners.get(name) ?? []) onFault(fault);
     head.names.forEach((name, index) => {
       for (const { onUnit, onValue } of this.listeners.get(name) ?? []) {
         onUnit(head.units[index] ?? "");

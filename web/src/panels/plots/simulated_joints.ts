@@ -21,7 +21,8 @@ export function movingJoints(manifest: Manifest | null): readonly NamedJoint[] {
     for (const model of models) {
       const name = prefix + model.name;
       for (const joint of model.joints) {
-        if (joint.index !== null) joints.push({ name: `${name}::${joint.name}`, model: name, joint, index: joint.index });
+        if (joint.index !== null)
+          joints.push({ name: `${name}::${joint.name}`, model: name, joint, index: joint.index });
       }
       add(model.models, `${name}::`);
     }
@@ -31,7 +32,10 @@ export function movingJoints(manifest: Manifest | null): readonly NamedJoint[] {
 }
 
 /** Joint and field of a path; null where it is none. */
-export function simulatedJoint(manifest: Manifest | null, path: string): { readonly index: number; readonly field: JointField } | null {
+export function simulatedJoint(
+  manifest: Manifest | null,
+  path: string,
+): { readonly index: number; readonly field: JointField } | null {
   const dot = path.lastIndexOf(".");
   const field = FIELDS.find((known) => known === path.slice(dot + 1));
   const joint = movingJoints(manifest).find(({ name }) => name === path.slice(0, dot));

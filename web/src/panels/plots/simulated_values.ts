@@ -32,9 +32,13 @@ export function bodyValues({ static: isStatic }: Pick<ModelInfo, "static">): rea
 function partsOf(model: ModelInfo, scope: string): readonly ValueOwner[] {
   const links = model.links.flatMap((link) => [
     owner(`${scope}::${link.name}`, "link", bodyValues(model)),
-    ...link.sensors.filter(({ series }) => series.length > 0).map((sensor) => owner(`${scope}::${link.name}::${sensor.name}`, "sensor", sensor.series)),
+    ...link.sensors
+      .filter(({ series }) => series.length > 0)
+      .map((sensor) => owner(`${scope}::${link.name}::${sensor.name}`, "sensor", sensor.series)),
   ]);
-  const joints = model.joints.filter(({ index }) => index !== null).map(({ name }) => owner(`${scope}::${name}`, "joint", JOINT_VALUES));
+  const joints = model.joints
+    .filter(({ index }) => index !== null)
+    .map(({ name }) => owner(`${scope}::${name}`, "joint", JOINT_VALUES));
   return [...links, ...joints, ...model.models.flatMap((nested) => partsOf(nested, `${scope}::${nested.name}`))];
 }
 

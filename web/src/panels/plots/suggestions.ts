@@ -16,7 +16,9 @@ export function suggestions(page: Pick<Page, "connection" | "drive" | "world">):
   const odometry = [...page.connection.topics.value.values()].find(({ type }) => type === "nav_msgs/Odometry")?.name;
   const robot = robotOf(page.world.manifest.value)?.name;
   return [
-    ...(isTwist && odometry !== undefined ? [{ title: "Speed, commanded and measured", paths: [`${odometry}/twist/twist/linear/x`, `${command}/linear/x`] }] : []),
+    ...(isTwist && odometry !== undefined
+      ? [{ title: "Speed, commanded and measured", paths: [`${odometry}/twist/twist/linear/x`, `${command}/linear/x`] }]
+      : []),
     ...(robot === undefined ? [] : [{ title: `Position of ${robot}`, paths: [`${robot}.pose.x`, `${robot}.pose.y`] }]),
   ];
 }

@@ -26,28 +26,39 @@ ${plots.map((plot, index) => `<g transform="translate(0 ${index * HEIGHT})">\n${
 function plotText({ curves }: Plot, range: Range): string {
   const [from, to] = range;
   const x = (time: number): number => LEFT + ((time - from) / (to - from)) * (WIDTH - LEFT - RIGHT);
-  const parts = [`<rect x="${LEFT}" y="${TOP}" width="${WIDTH - LEFT - RIGHT}" height="${HEIGHT - TOP - BOTTOM}" fill="none" stroke="#999"/>`];
+  const parts = [
+    `<rect x="${LEFT}" y="${TOP}" width="${WIDTH - LEFT - RIGHT}" height="${HEIGHT - TOP - BOTTOM}" fill="none" stroke="#999"/>`,
+  ];
   for (const time of ticks(range)) parts.push(label(x(time), HEIGHT - BOTTOM + 16, "middle", timeText(time)));
   for (const side of ["left", "right"] as const) {
     const own = curves.filter((curve) => curve.axis.peek() === side);
     if (own.length === 0) continue;
     const values = paddedRange(own.map((curve) => curve.points.between(from, to)[1]));
-    const y = (value: number): number => HEIGHT - BOTTOM - ((value - values[0]) / (values[1] - values[0])) * (HEIGHT - TOP - BOTTOM);
+    const y = (value: number): number =>
+      HEIGHT - BOTTOM - ((value - values[0]) / (values[1] - values[0])) * (HEIGHT - TOP - BOTTOM);
     for (const value of ticks(values)) {
-      parts.push(side === "left" ? label(LEFT - 6, y(value) + 4, "end", significant(value, 5)) : label(WIDTH - RIGHT + 6, y(value) + 4, "start", significant(value, 5)));
+      parts.push(
+        side === "left"
+          ? label(LEFT - 6, y(value) + 4, "end", significant(value, 5))
+          : label(WIDTH - RIGHT + 6, y(value) + 4, "start", significant(value, 5)),
+      );
     }
     for (const curve of own) {
       const index = curves.indexOf(curve);
       const [xs, ys] = curve.points.between(from, to);
       const points = Array.from(xs, (time, at) => `${x(time).toFixed(2)},${y(ys[at] ?? 0).toFixed(2)}`);
       const dash = isDashed(index) ? ' stroke-dasharray="4 3"' : "";
-      parts.push(`<polyline clip-path="inset(0)" fill="none" stroke="${colour(index)}" stroke-width="1.5"${dash} points="${points.join(" ")}"/>`);
+      parts.push(
+        `<polyline clip-path="inset(0)" fill="none" stroke="${colour(index)}" stroke-width="1.5"${dash} points="${points.join(" ")}"/>`,
+      );
     }
   }
   curves.forEach((curve, index) => {
     const unit = curve.unit.peek() === "" ? "" : ` [${curve.unit.peek()}]`;
     const at = LEFT + (index * (WIDTH - LEFT - RIGHT)) / curves.length;
-    parts.push(`<text x="${at.toFixed(1)}" y="${TOP - 10}" fill="${colour(index)}">${escaped(curve.path + unit)}</text>`);
+    parts.push(
+      `<text x="${at.toFixed(1)}" y="${TOP - 10}" fill="${colour(index)}">${escaped(curve.path + unit)}</text>`,
+    );
   });
   return parts.join("\n");
 }

@@ -14,7 +14,11 @@ export function parseLiteral(text: string): Literal | undefined {
   }
 }
 
-const WORDS = new Map<string, Literal>([["True", true], ["False", false], ["None", null]]);
+const WORDS = new Map<string, Literal>([
+  ["True", true],
+  ["False", false],
+  ["None", null],
+]);
 const ESCAPES: Readonly<Record<string, string>> = { n: "\n", t: "\t", r: "\r" };
 
 class Reader {

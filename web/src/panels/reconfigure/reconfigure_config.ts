@@ -96,7 +96,11 @@ function choicesOf(method: string): readonly Choice[] {
   if (!Array.isArray(list)) return [];
   return list.flatMap((entry: unknown) => {
     const { name, value, description } = entry as { name?: unknown; value?: unknown; description?: unknown };
-    if (typeof name !== "string" || !(typeof value === "number" || typeof value === "string" || typeof value === "boolean")) return [];
+    if (
+      typeof name !== "string" ||
+      !(typeof value === "number" || typeof value === "string" || typeof value === "boolean")
+    )
+      return [];
     return [{ name, value, description: typeof description === "string" ? description : "" }];
   });
 }

@@ -5,7 +5,15 @@ import { signal } from "@preact/signals";
 import type { UndoStack } from "../../displays/undo_stack";
 import type { Connection, Subscription, TopicInfo } from "../../protocol/connection";
 import { sentence } from "../use";
-import { configValues, describedGroups, setRequest, type Option, type OptionGroup, type OptionValue, type OptionValues } from "./reconfigure_config";
+import {
+  configValues,
+  describedGroups,
+  setRequest,
+  type Option,
+  type OptionGroup,
+  type OptionValue,
+  type OptionValues,
+} from "./reconfigure_config";
 
 const DESCRIPTIONS = "/parameter_descriptions";
 
@@ -31,8 +39,16 @@ export class ReconfigureServer {
   ) {
     const onError = (text: string): void => void (this.fault.value = text);
     this.subscriptions = [
-      connection.subscribe(`${name}${DESCRIPTIONS}`, ({ message }) => void (this.groups.value = describedGroups(message)), { onError }),
-      connection.subscribe(`${name}/parameter_updates`, ({ message }) => void (this.values.value = configValues(message)), { onError }),
+      connection.subscribe(
+        `${name}${DESCRIPTIONS}`,
+        ({ message }) => void (this.groups.value = describedGroups(message)),
+        { onError },
+      ),
+      connection.subscribe(
+        `${name}/parameter_updates`,
+        ({ message }) => void (this.values.value = configValues(message)),
+        { onError },
+      ),
     ];
   }
 
@@ -53,7 +69,11 @@ export class ReconfigureServer {
 
   /** Set an option; taking it back sets what it was before. */
   commit(option: Option, old: OptionValue, value: OptionValue): void {
-    this.undo.run(`Change of ${option.name}`, () => this.set(option, value), () => this.set(option, old));
+    this.undo.run(
+      `Change of ${option.name}`,
+      () => this.set(option, value),
+      () => this.set(option, old),
+    );
   }
 
   /** Set an option now, as a slider does while it is dragged. */

@@ -40,7 +40,12 @@ export class TerminalView {
   }
 
   /** Load xterm.js, which few pages need, and open a terminal in an element. */
-  static async open(element: HTMLElement, connection: Connection, number: number, canType: boolean): Promise<TerminalView> {
+  static async open(
+    element: HTMLElement,
+    connection: Connection,
+    number: number,
+    canType: boolean,
+  ): Promise<TerminalView> {
     const [{ Terminal }, { FitAddon }] = await Promise.all([import("@xterm/xterm"), import("@xterm/addon-fit")]);
     const terminal = new Terminal({
       scrollback: SCROLLBACK,
@@ -60,7 +65,9 @@ export class TerminalView {
   /** Show the output until the returned function is called. */
   follow(): () => void {
     this.feed.restart();
-    const subscription = this.connection.subscribeRaw(`trundle/terminal/${this.number}`, (payload) => this.receive(payload));
+    const subscription = this.connection.subscribeRaw(`trundle/terminal/${this.number}`, (payload) =>
+      this.receive(payload),
+    );
     return () => subscription.close();
   }
 
@@ -69,7 +76,8 @@ export class TerminalView {
     const size = this.fit.proposeDimensions();
     if (!this.canType || size === undefined || !(size.cols > 1 && size.rows > 1)) return;
     const wanted: Size = [Math.min(size.cols, 500), Math.min(size.rows, 500)];
-    if (wanted[0] !== this.terminal.cols || wanted[1] !== this.terminal.rows) this.connection.useTerminal(this.number, "", wanted);
+    if (wanted[0] !== this.terminal.cols || wanted[1] !== this.terminal.rows)
+      this.connection.useTerminal(this.number, "", wanted);
   }
 
   recolour(): void {

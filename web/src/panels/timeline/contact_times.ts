@@ -28,19 +28,30 @@ export class ContactTimes {
   }
 
   private dropOldest(): void {
-    const spans = [...this.intervals].map(([pair, { bands }]) => ({ pair, start: bands[0]?.[0] ?? 0, end: bands.at(-1)?.[1] ?? -Infinity }));
-    const oldest = spans.reduce((one, other) => (other.end < one.end || (other.end === one.end && other.start > one.start) ? other : one));
+    const spans = [...this.intervals].map(([pair, { bands }]) => ({
+      pair,
+      start: bands[0]?.[0] ?? 0,
+      end: bands.at(-1)?.[1] ?? -Infinity,
+    }));
+    const oldest = spans.reduce((one, other) =>
+      other.end < one.end || (other.end === one.end && other.start > one.start) ? other : one,
+    );
     this.intervals.delete(oldest.pair);
   }
 }
 
 /** Pairs of models that touch in a message; `models`: of each body. Contacts of a model with itself do not count. */
-export function touchingPairs(message: DataView, generation: number | undefined, models: ReadonlyMap<number, string>): ReadonlySet<string> {
+export function touchingPairs(
+  message: DataView,
+  generation: number | undefined,
+  models: ReadonlyMap<number, string>,
+): ReadonlySet<string> {
   const pairs = new Set<string>();
   const end = HEADER + SIZE * contactCount(message, generation);
   for (let at = HEADER; at < end; at += SIZE) {
     const [one, other] = [models.get(message.getFloat64(at, true)), models.get(message.getFloat64(at + 8, true))];
-    if (one !== undefined && other !== undefined && one !== other) pairs.add(one < other ? `${one} · ${other}` : `${other} · ${one}`);
+    if (one !== undefined && other !== undefined && one !== other)
+      pairs.add(one < other ? `${one} · ${other}` : `${other} · ${one}`);
   }
   return pairs;
 }

@@ -23,7 +23,11 @@ export function Bands({ weak = false, bands, span, share }: BandsProps): JSX.Ele
   return (
     <>
       {seen.map(([start, end]) => (
-        <i key={start} class={weak ? "band weak" : "band"} style={{ left: share(Math.max(start, span.start)), right: `calc(100% - ${share(Math.min(end, span.end))})` }} />
+        <i
+          key={start}
+          class={weak ? "band weak" : "band"}
+          style={{ left: share(Math.max(start, span.start)), right: `calc(100% - ${share(Math.min(end, span.end))})` }}
+        />
       ))}
     </>
   );
@@ -49,7 +53,11 @@ export function Lane({ name, title = name, children }: LaneProps): JSX.Element {
 }
 
 /** A lane for each pair of models that touched. */
-export function ContactLanes({ lanes, span, share }: ShareProps & { readonly lanes: readonly PairStretches[] }): JSX.Element {
+export function ContactLanes({
+  lanes,
+  span,
+  share,
+}: ShareProps & { readonly lanes: readonly PairStretches[] }): JSX.Element {
   if (lanes.length === 0) return <Lane name="Contacts">{[]}</Lane>;
   return (
     <>

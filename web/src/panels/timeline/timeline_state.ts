@@ -60,7 +60,9 @@ export class TimelineState {
   /** Note who touches whom from now on, which the simulation computes only for those who ask. */
   followContacts(): void {
     if (this.page.session.kind !== "simulation") return;
-    this.contactsAsked ??= this.page.connection.subscribeRaw("trundle/contacts", (payload) => this.noteContacts(payload));
+    this.contactsAsked ??= this.page.connection.subscribeRaw("trundle/contacts", (payload) =>
+      this.noteContacts(payload),
+    );
   }
 
   /** Times of the recording, or of the simulation so far; null before anything is known. */
@@ -148,7 +150,9 @@ export const timelineState = perPage((page) => new TimelineState(page));
 
 /** Times of the ruler: a round step that leaves each some room. */
 export function rulerTimes({ start, end }: Span, most: number): readonly number[] {
-  const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find((one) => (end - start) / one <= most) ?? 7200;
+  const step =
+    [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find((one) => (end - start) / one <= most) ??
+    7200;
   const first = Math.ceil(start / step - 1e-9);
   const count = Math.floor((end - first * step) / step + 1e-9) + 1;
   return Array.from({ length: Math.max(0, count) }, (_, index) => (first + index) * step);

@@ -19,7 +19,9 @@ export interface BagLanes {
   readonly start_ns: number;
   readonly bucket_ns: number;
   /** First and last bucket of each stretch. */
-  readonly topics: Readonly<Record<string, { readonly count: number; readonly bands: readonly (readonly [number, number])[] }>>;
+  readonly topics: Readonly<
+    Record<string, { readonly count: number; readonly bands: readonly (readonly [number, number])[] }>
+  >;
 }
 
 /** Most buckets of the span that is shown. */
@@ -46,7 +48,10 @@ export class TopicTimes {
 
   /** By topic. */
   get all(): readonly TopicStretches[] {
-    return this.recorded.value ?? [...this.came.keys()].sort().map((topic) => ({ topic, count: null, bands: this.bands(topic) }));
+    return (
+      this.recorded.value ??
+      [...this.came.keys()].sort().map((topic) => ({ topic, count: null, bands: this.bands(topic) }))
+    );
   }
 
   /**
@@ -80,7 +85,8 @@ export class TopicTimes {
       this.came.clear();
       this.lookedAt = -Infinity;
     } else if (ratio < 1) {
-      for (const [topic, buckets] of this.came) this.came.set(topic, new Set([...buckets].map((each) => Math.floor(each * ratio))));
+      for (const [topic, buckets] of this.came)
+        this.came.set(topic, new Set([...buckets].map((each) => Math.floor(each * ratio))));
       this.lookedAt = Math.floor(this.lookedAt * ratio);
     }
   }

@@ -9,7 +9,13 @@ import { MessageTree } from "../messages/message_tree";
 
 const PERIOD = 100; // ms: nobody reads faster
 
-export function TopicEcho({ connection, topic }: { readonly connection: Connection; readonly topic: string }): JSX.Element {
+export function TopicEcho({
+  connection,
+  topic,
+}: {
+  readonly connection: Connection;
+  readonly topic: string;
+}): JSX.Element {
   const [received, setReceived] = useState<Received<RosMessage> | null>(null);
   const [fault, setFault] = useState("");
   useEffect(() => {
@@ -34,7 +40,12 @@ export function TopicEcho({ connection, topic }: { readonly connection: Connecti
       subscription.close();
     };
   }, [connection, topic]);
-  if (fault !== "") return <div class="fault pad" role="alert">{fault}</div>;
+  if (fault !== "")
+    return (
+      <div class="fault pad" role="alert">
+        {fault}
+      </div>
+    );
   if (received === null) return <div class="empty">No message yet.</div>;
   return <MessageTree label={`Message of ${topic}`} type={received.type} message={received.message} />;
 }

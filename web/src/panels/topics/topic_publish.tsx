@@ -29,7 +29,15 @@ export function TopicPublish({ publication }: { readonly publication: Publicatio
           {isRunning.value ? "Stop" : "Publish at"}
         </Button>
         <span class="narrow">
-          <NumberField label="Rate" unit="Hz" value={rate.value} min={0.01} max={FASTEST} class="small num" onCommit={(value) => publication.setRate(value)} />
+          <NumberField
+            label="Rate"
+            unit="Hz"
+            value={rate.value}
+            min={0.01}
+            max={FASTEST}
+            class="small num"
+            onCommit={(value) => publication.setRate(value)}
+          />
         </span>
         {count.value > 0 && <span class="dim sm">{count.value} sent</span>}
         <span class="sp" />
@@ -37,7 +45,11 @@ export function TopicPublish({ publication }: { readonly publication: Publicatio
           YAML
         </Button>
       </div>
-      {fault.value !== "" && <div class="fault pad" role="alert">{fault.value}</div>}
+      {fault.value !== "" && (
+        <div class="fault pad" role="alert">
+          {fault.value}
+        </div>
+      )}
       {isYaml && form !== null && (
         <div class="pad">
           <TextField

@@ -38,7 +38,12 @@ export function TopicTable({ connection, state, topics, now }: TopicTableProps):
   );
 }
 
-function Row({ connection, state, topic, now }: Omit<TopicTableProps, "topics"> & { readonly topic: TopicInfo }): JSX.Element {
+function Row({
+  connection,
+  state,
+  topic,
+  now,
+}: Omit<TopicTableProps, "topics"> & { readonly topic: TopicInfo }): JSX.Element {
   const { name, type } = topic;
   const statistics = connection.statistics(name);
   const isSelected = state.selected.value === name;

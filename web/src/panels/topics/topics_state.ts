@@ -8,7 +8,8 @@ import { perPage } from "../per_page";
 import { Publication } from "./publication";
 
 /** Types whose messages are too large to ask for only to count them. */
-const LARGE = /^(sensor_msgs\/(Image|CompressedImage|PointCloud2?)|stereo_msgs\/DisparityImage|nav_msgs\/OccupancyGrid|theora_image_transport\/Packet)$/;
+const LARGE =
+  /^(sensor_msgs\/(Image|CompressedImage|PointCloud2?)|stereo_msgs\/DisparityImage|nav_msgs\/OccupancyGrid|theora_image_transport\/Packet)$/;
 
 export class TopicsState {
   readonly filter = signal("");
@@ -25,7 +26,10 @@ export class TopicsState {
   measure(topics: Iterable<TopicInfo>): void {
     for (const topic of topics) {
       if (this.meters.has(topic.name) || !this.isMeasured(topic)) continue;
-      this.meters.set(topic.name, this.connection.subscribeRaw(topic.name, () => undefined));
+      this.meters.set(
+        topic.name,
+        this.connection.subscribeRaw(topic.name, () => undefined),
+      );
     }
   }
 
@@ -57,7 +61,10 @@ export const topicsState = perPage((page) => new TopicsState(page.connection));
 
 /** Topics that are published, or only subscribed to. */
 export function allTopics({ topics, graph }: Connection): ReadonlyMap<string, TopicInfo> {
-  const waiting = [...graph.value.types].map(([name, type]): [string, TopicInfo] => [name, { name, type, encoding: "ros1" }]);
+  const waiting = [...graph.value.types].map(([name, type]): [string, TopicInfo] => [
+    name,
+    { name, type, encoding: "ros1" },
+  ]);
   return new Map([...waiting, ...topics.value]);
 }
 

@@ -55,7 +55,12 @@ export class BodyOverlays {
           const manifest = world.manifest.value;
           const isThere = world.progress.value === 1; // sizes are those of what came
           if (manifest === null || !isThere || !shown.any(part)) this.clear(part);
-          else this.draw(part, manifest, this.models(manifest).filter(({ name }) => shown.of(part, name)));
+          else
+            this.draw(
+              part,
+              manifest,
+              this.models(manifest).filter(({ name }) => shown.of(part, name)),
+            );
         }),
       ),
       effect(() => this.drawMarks(world.manifest.value)),
@@ -89,10 +94,14 @@ export class BodyOverlays {
       for (const camera of manifest.cameras) if (bodies.has(camera.body)) add(camera.body, drawFrustum(camera));
     } else {
       for (const { model } of models) {
-        for (const link of model.links) if (part === "frames" || (!model.static && link.mass > 0)) add(link.body, this.ofLink(part, link));
+        for (const link of model.links)
+          if (part === "frames" || (!model.static && link.mass > 0)) add(link.body, this.ofLink(part, link));
       }
     }
-    this.anchors.set(part, [...groups].map(([body, group]) => ({ body, group })));
+    this.anchors.set(
+      part,
+      [...groups].map(([body, group]) => ({ body, group })),
+    );
     this.scene.invalidate();
   }
 
@@ -102,8 +111,16 @@ export class BodyOverlays {
   }
 
   /** A joint's child may be in a nested model, `inner::link`. */
-  private drawJoints(manifest: Manifest, models: readonly NamedModel[], add: (body: number, object: Object3D) => void): void {
-    const bodies = new Map(this.models(manifest).flatMap(({ name, model }) => model.links.map((link) => [`${name}::${link.name}`, link.body])));
+  private drawJoints(
+    manifest: Manifest,
+    models: readonly NamedModel[],
+    add: (body: number, object: Object3D) => void,
+  ): void {
+    const bodies = new Map(
+      this.models(manifest).flatMap(({ name, model }) =>
+        model.links.map((link) => [`${name}::${link.name}`, link.body]),
+      ),
+    );
     for (const { name, model } of models) {
       for (const joint of model.joints) {
         const body = bodies.get(`${name}::${joint.child}`);

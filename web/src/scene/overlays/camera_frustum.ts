@@ -15,10 +15,15 @@ export function drawFrustum(camera: CameraInfo): Object3D {
   const { horizontal_fov, width, height, near, far } = camera;
   const across = Math.tan(Math.min(horizontal_fov, WIDEST) / 2);
   const up = (across * height) / width;
-  const corner = (distance: number, i: number): number[] => [distance, (i === 0 || i === 3 ? 1 : -1) * across * distance, (i < 2 ? 1 : -1) * up * distance];
+  const corner = (distance: number, i: number): number[] => [
+    distance,
+    (i === 0 || i === 3 ? 1 : -1) * across * distance,
+    (i < 2 ? 1 : -1) * up * distance,
+  ];
   const end = Math.max(near, Math.min(far, LONGEST));
   const sides = [0, 1, 2, 3];
-  const ring = (distance: number): number[] => sides.flatMap((i) => [...corner(distance, i), ...corner(distance, (i + 1) % 4)]);
+  const ring = (distance: number): number[] =>
+    sides.flatMap((i) => [...corner(distance, i), ...corner(distance, (i + 1) % 4)]);
   const edges = sides.flatMap((i) => [0, 0, 0, ...corner(end, i)]);
   const group = new Group();
   place(group, camera.pose);

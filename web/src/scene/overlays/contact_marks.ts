@@ -44,12 +44,16 @@ export class ContactMarks {
     models: (manifest: Manifest) => readonly NamedModel[],
   ) {
     const { shown, manifest } = world;
-    this.chosen = computed(() => choose(manifest.value === null ? [] : models(manifest.value), (name) => shown.of("contacts", name)));
+    this.chosen = computed(() =>
+      choose(manifest.value === null ? [] : models(manifest.value), (name) => shown.of("contacts", name)),
+    );
     const isShown = computed(() => shown.any("contacts"));
     this.stop = effect(() => {
       if (!isShown.value) return;
       scene.world.add(this.balls, this.shafts, this.heads);
-      const subscription = untracked(() => connection.subscribeRaw("trundle/contacts", (payload) => this.draw(payload)));
+      const subscription = untracked(() =>
+        connection.subscribeRaw("trundle/contacts", (payload) => this.draw(payload)),
+      );
       return () => {
         subscription.close();
         for (const mesh of [this.balls, this.shafts, this.heads]) mesh.removeFromParent();
@@ -71,8 +75,16 @@ export class ContactMarks {
     for (let at = HEADER; at < HEADER + SIZE * rows; at += SIZE) {
       const [first, second] = [payload.getFloat64(at, true), payload.getFloat64(at + 8, true)];
       if (!shown.has(first) && !shown.has(second)) continue;
-      point.set(payload.getFloat64(at + 16, true), payload.getFloat64(at + 24, true), payload.getFloat64(at + 32, true));
-      force.set(payload.getFloat64(at + 40, true), payload.getFloat64(at + 48, true), payload.getFloat64(at + 56, true));
+      point.set(
+        payload.getFloat64(at + 16, true),
+        payload.getFloat64(at + 24, true),
+        payload.getFloat64(at + 32, true),
+      );
+      force.set(
+        payload.getFloat64(at + 40, true),
+        payload.getFloat64(at + 48, true),
+        payload.getFloat64(at + 56, true),
+      );
       if (still.has(second)) force.negate(); // drawn as it acts on what can move
       this.place(count, scale);
       count += 1;
@@ -92,15 +104,21 @@ export class ContactMarks {
     const headLength = Math.min(HEAD_WIDTH, length);
     if (newtons > 0) force.divideScalar(newtons);
     TURN.setFromUnitVectors(X, newtons > 0 ? force : X);
-    this.shafts.setMatrixAt(index, MATRIX.compose(point, TURN, size.set(length - headLength, SHAFT_WIDTH, SHAFT_WIDTH)));
+    this.shafts.setMatrixAt(
+      index,
+      MATRIX.compose(point, TURN, size.set(length - headLength, SHAFT_WIDTH, SHAFT_WIDTH)),
+    );
     head.copy(point).addScaledVector(force, length - headLength);
     this.heads.setMatrixAt(index, MATRIX.compose(head, TURN, size.set(headLength, HEAD_WIDTH, HEAD_WIDTH)));
   }
 }
 
 function choose(models: readonly NamedModel[], isShown: (name: string) => boolean): Chosen {
-  const bodies = (chosen: readonly NamedModel[]): ReadonlySet<number> => new Set(chosen.flatMap(({ model }) => model.links.map(({ body }) => body)));
-  const masses = models.filter(({ model }) => !model.static).map(({ model }) => model.links.reduce((sum, { mass }) => sum + mass, 0));
+  const bodies = (chosen: readonly NamedModel[]): ReadonlySet<number> =>
+    new Set(chosen.flatMap(({ model }) => model.links.map(({ body }) => body)));
+  const masses = models
+    .filter(({ model }) => !model.static)
+    .map(({ model }) => model.links.reduce((sum, { mass }) => sum + mass, 0));
   const mean = masses.reduce((sum, mass) => sum + mass, 0) / Math.max(1, masses.length);
   return {
     shown: bodies(models.filter(({ name }) => isShown(name))),

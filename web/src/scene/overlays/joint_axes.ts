@@ -48,7 +48,9 @@ function sector(axis: Vector3, lower: number | null, upper: number | null, radiu
   group.quaternion.setFromUnitVectors(Z, axis);
   const isLimited = lower !== null && upper !== null && upper - lower < TURN;
   const [from, length] = isLimited ? [lower, upper - lower] : [0, TURN];
-  const shape = isLimited ? new CircleGeometry(radius, SEGMENTS, from, length) : new RingGeometry(0.96 * radius, radius, SEGMENTS);
+  const shape = isLimited
+    ? new CircleGeometry(radius, SEGMENTS, from, length)
+    : new RingGeometry(0.96 * radius, radius, SEGMENTS);
   const mesh = area(shape, COLOURS.limit, isLimited ? 0.3 : 0.9);
   mesh.userData["ownGeometry"] = true;
   group.add(mesh);
@@ -67,6 +69,11 @@ function slide(axis: Vector3, lower: number | null, upper: number | null, size: 
   across.setLength(0.2 * size);
   const [from, to] = [axis.clone().multiplyScalar(lower), axis.clone().multiplyScalar(upper)];
   const tick = (at: Vector3): Vector3[] => [at.clone().add(across), at.clone().sub(across)];
-  group.add(lines([from, to, ...tick(from), ...tick(to)].flatMap((point) => point.toArray()), COLOURS.limit));
+  group.add(
+    lines(
+      [from, to, ...tick(from), ...tick(to)].flatMap((point) => point.toArray()),
+      COLOURS.limit,
+    ),
+  );
   return group;
 }

@@ -13,8 +13,10 @@ const LEAD = 11340;
 const SMALLEST = { radius: 0.008, side: 1e-3 };
 
 const CHECKERED = new ShaderMaterial({
-  vertexShader: "varying vec3 at; void main() { at = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
-  fragmentShader: "varying vec3 at; void main() { float side = at.x * at.y * at.z; gl_FragColor = vec4(vec3(side < 0.0 ? 0.02 : 0.96), 1.0); }",
+  vertexShader:
+    "varying vec3 at; void main() { at = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+  fragmentShader:
+    "varying vec3 at; void main() { float side = at.x * at.y * at.z; gl_FragColor = vec4(vec3(side < 0.0 ? 0.02 : 0.96), 1.0); }",
   transparent: true,
   depthTest: false,
   depthWrite: false,
@@ -54,4 +56,3 @@ export function place(object: Object3D, [x, y, z, roll, pitch, yaw]: SixNumbers)
   object.position.set(x, y, z);
   object.quaternion.setFromEuler(new Euler(roll, pitch, yaw, "ZYX"));
 }
-

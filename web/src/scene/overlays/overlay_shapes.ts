@@ -1,6 +1,17 @@
 /** Shapes of the drawings at bodies: in front of what they are in, not picked. */
 
-import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3, DoubleSide, Group, type Object3D } from "three";
+import {
+  BufferGeometry,
+  Float32BufferAttribute,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  Vector3,
+  DoubleSide,
+  Group,
+  type Object3D,
+} from "three";
 
 import { HEAD, SHAFT } from "../../shapes/solids";
 
@@ -9,13 +20,34 @@ const X = new Vector3(1, 0, 0);
 const [AREAS, SOLIDS] = [20, 21];
 
 /** Colours, the same in both themes as the world's own background lies behind them. */
-export const COLOURS = { x: 0xff5b52, y: 0x56cc40, z: 0x4f9dff, axis: 0xf2b134, limit: 0x3fbed0, inertia: 0xc06bff, frustum: 0x6fd3ff, force: 0x56cc40, contact: 0x4f9dff } as const;
+export const COLOURS = {
+  x: 0xff5b52,
+  y: 0x56cc40,
+  z: 0x4f9dff,
+  axis: 0xf2b134,
+  limit: 0x3fbed0,
+  inertia: 0xc06bff,
+  frustum: 0x6fd3ff,
+  force: 0x56cc40,
+  contact: 0x4f9dff,
+} as const;
 
 const materials = new Map<string, MeshBasicMaterial | LineBasicMaterial>();
 
 /** A flat material in front of what it is in; shared, so not to be disposed of. */
 export function flat(colour: number, opacity = 1): MeshBasicMaterial {
-  return shared(`${colour} ${opacity}`, () => new MeshBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false, side: DoubleSide }));
+  return shared(
+    `${colour} ${opacity}`,
+    () =>
+      new MeshBasicMaterial({
+        color: colour,
+        opacity,
+        transparent: true,
+        depthTest: false,
+        depthWrite: false,
+        side: DoubleSide,
+      }),
+  );
 }
 
 function shared<M extends MeshBasicMaterial | LineBasicMaterial>(key: string, make: () => M): M {
@@ -29,7 +61,10 @@ function shared<M extends MeshBasicMaterial | LineBasicMaterial>(key: string, ma
 /** Lines from each even point to the next. */
 export function lines(points: readonly number[], colour: number, opacity = 1): LineSegments {
   const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
-  const material = shared(`line ${colour} ${opacity}`, () => new LineBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false }));
+  const material = shared(
+    `line ${colour} ${opacity}`,
+    () => new LineBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false }),
+  );
   return inFront(new LineSegments(geometry, material));
 }
 
@@ -49,7 +84,9 @@ export function arrow(direction: Vector3, length: number, colour: number): Group
 export function triad(length: number): Group {
   const group = new Group();
   const colours = [COLOURS.x, COLOURS.y, COLOURS.z];
-  [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].forEach((axis, i) => group.add(arrow(axis, length, colours[i] ?? 0)));
+  [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].forEach((axis, i) =>
+    group.add(arrow(axis, length, colours[i] ?? 0)),
+  );
   return group;
 }
 

@@ -21,7 +21,9 @@ export class RangeLines {
       const draw = (payload: DataView): void => {
         const read = readLines(payload);
         if (read === null) return;
-        this.lines.show(read.filter(({ id }) => PARTS.some((part) => id.startsWith(`${part} `) && shown.of(part, modelOf(id)))));
+        this.lines.show(
+          read.filter(({ id }) => PARTS.some((part) => id.startsWith(`${part} `) && shown.of(part, modelOf(id)))),
+        );
         scene.invalidate();
       };
       const subscription = untracked(() => connection.subscribeRaw("trundle/ranges", draw));
@@ -41,5 +43,9 @@ export class RangeLines {
 
 /** The model in `rays model::link::sensor`. */
 function modelOf(id: string): string {
-  return id.slice(id.indexOf(" ") + 1).split("::").slice(0, -2).join("::");
+  return id
+    .slice(id.indexOf(" ") + 1)
+    .split("::")
+    .slice(0, -2)
+    .join("::");
 }

@@ -4,7 +4,19 @@ import { signal } from "@preact/signals";
 
 /** Parts of a model that can be shown, in the order of Gazebo's View menu. */
 export const PARTS = [
-  "visuals", "transparent", "wireframe", "collisions", "joints", "centres", "inertias", "contacts", "frames", "cameras", "rays", "points", "sonars",
+  "visuals",
+  "transparent",
+  "wireframe",
+  "collisions",
+  "joints",
+  "centres",
+  "inertias",
+  "contacts",
+  "frames",
+  "cameras",
+  "rays",
+  "points",
+  "sonars",
 ] as const;
 export type Part = (typeof PARTS)[number];
 

@@ -14,7 +14,10 @@ const AXES_GAP = 8;
 
 export class Pane {
   readonly camera = signal<PerspectiveCamera | OrthographicCamera>(new PerspectiveCamera());
-  readonly place = signal<PanePlace>({ area: { left: 0, top: 0, width: 1, height: 1 }, insets: { left: 0, right: 0, top: 0, bottom: 0 } });
+  readonly place = signal<PanePlace>({
+    area: { left: 0, top: 0, width: 1, height: 1 },
+    insets: { left: 0, right: 0, top: 0, bottom: 0 },
+  });
   /** The part that no panel covers, within the pane [px]. */
   readonly free: ReadonlySignal<Area> = computed(() => {
     const { area, insets } = this.place.value;
@@ -74,6 +77,9 @@ export class Pane {
     const px = (value: number): string => `${value}px`;
     Object.assign(this.labels.canvas.style, { left: px(left), top: px(top), width: px(width), height: px(height) });
     const { size } = ViewAxes;
-    Object.assign(this.axes.element.style, { left: px(left + width - insets.right - AXES_GAP - size), top: px(top + insets.top + AXES_GAP) });
+    Object.assign(this.axes.element.style, {
+      left: px(left + width - insets.right - AXES_GAP - size),
+      top: px(top + insets.top + AXES_GAP),
+    });
   }
 }

@@ -15,9 +15,20 @@ export interface PanePlace {
 /** Column and row of each pane; of four, the first is at the top right, with the views from top and front in one column. */
 const CELLS: Readonly<Record<PaneLayout, readonly (readonly [number, number])[]>> = {
   one: [[0, 0]],
-  beside: [[0, 0], [1, 0]],
-  stacked: [[0, 0], [0, 1]],
-  four: [[1, 0], [0, 0], [0, 1], [1, 1]],
+  beside: [
+    [0, 0],
+    [1, 0],
+  ],
+  stacked: [
+    [0, 0],
+    [0, 1],
+  ],
+  four: [
+    [1, 0],
+    [0, 0],
+    [0, 1],
+    [1, 1],
+  ],
 };
 
 /** Number of panes of a layout. */
@@ -30,11 +41,24 @@ export function paneCount(layout: PaneLayout): number {
  *
  * `head`: height that the tools cover at the top of several panes [px].
  */
-export function panePlaces(layout: PaneLayout, size: { readonly width: number; readonly height: number }, insets: Insets, head: number): readonly PanePlace[] {
+export function panePlaces(
+  layout: PaneLayout,
+  size: { readonly width: number; readonly height: number },
+  insets: Insets,
+  head: number,
+): readonly PanePlace[] {
   const free = freeArea(size.width, size.height, insets);
   const cells = CELLS[layout];
-  const xs = edges(size.width, Math.round(free.left + free.width / 2), cells.some(([column]) => column === 1));
-  const ys = edges(size.height, Math.round(free.top + free.height / 2), cells.some(([, row]) => row === 1));
+  const xs = edges(
+    size.width,
+    Math.round(free.left + free.width / 2),
+    cells.some(([column]) => column === 1),
+  );
+  const ys = edges(
+    size.height,
+    Math.round(free.top + free.height / 2),
+    cells.some(([, row]) => row === 1),
+  );
   return cells.map(([column, row]) => {
     const [left = 0, right = 0] = xs.slice(column);
     const [top = 0, bottom = 0] = ys.slice(row);

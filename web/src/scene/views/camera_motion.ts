@@ -41,7 +41,11 @@ function apply(motion: Motion, start: number | Triple, share: number): void {
   if (!("kind" in motion)) {
     if (typeof start === "number") return;
     const [x, y, z] = motion.to;
-    motion.property.value.value = [start[0] + share * (x - start[0]), start[1] + share * (y - start[1]), start[2] + share * (z - start[2])];
+    motion.property.value.value = [
+      start[0] + share * (x - start[0]),
+      start[1] + share * (y - start[1]),
+      start[2] + share * (z - start[2]),
+    ];
   } else if (typeof start === "number") {
     motion.property.value.value = between(motion.kind, start, motion.to, share);
   }

@@ -19,7 +19,9 @@ const LENS = new Quaternion().setFromEuler(new Euler(Math.PI / 2, 0, -Math.PI / 
 export class Fps extends View {
   readonly className: string = "rviz/FPS";
   readonly kind = "perspective";
-  readonly fieldOfView = this.add(new NumberProperty("Field of View", Math.PI / 4, { min: 0.05, max: 2.8, unit: "rad" }));
+  readonly fieldOfView = this.add(
+    new NumberProperty("Field of View", Math.PI / 4, { min: 0.05, max: 2.8, unit: "rad" }),
+  );
   readonly pitch = this.add(new NumberProperty("Pitch", 0.5, { min: -STEEPEST, max: STEEPEST, unit: "rad" }));
   readonly position = this.add(new VectorProperty("Position", [-5, -5, 5]));
   readonly roll = this.add(new NumberProperty("Roll", 0, { unit: "rad" }));
@@ -49,7 +51,9 @@ export class Fps extends View {
   }
 
   private turn(): Quaternion {
-    return new Quaternion().setFromEuler(new Euler(this.roll.value.peek(), this.pitch.value.peek(), this.yaw.value.peek(), "ZYX"));
+    return new Quaternion().setFromEuler(
+      new Euler(this.roll.value.peek(), this.pitch.value.peek(), this.yaw.value.peek(), "ZYX"),
+    );
   }
 
   private ahead(): Vector3 {
@@ -113,7 +117,6 @@ export class Fps extends View {
     this.yaw.value.value = Math.atan2(way.y, way.x);
     this.pitch.value.value = Math.min(STEEPEST, Math.max(-STEEPEST, -Math.atan2(way.z, Math.hypot(way.x, way.y))));
   }
-
 
   override centre(): Motion[] {
     return [{ property: this.position, to: triple(this.ahead().multiplyScalar(-AHEAD)) }];

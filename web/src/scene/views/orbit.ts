@@ -22,7 +22,9 @@ export class Orbit extends View {
   readonly className: string = "rviz/Orbit";
   readonly projection = this.add(new ProjectionProperty());
   readonly distance = this.add(new NumberProperty("Distance", 10, { min: NEAREST, unit: "m" }));
-  readonly fieldOfView = this.add(new NumberProperty("Field of View", Math.PI / 4, { min: 0.05, max: 2.8, unit: "rad" }));
+  readonly fieldOfView = this.add(
+    new NumberProperty("Field of View", Math.PI / 4, { min: 0.05, max: 2.8, unit: "rad" }),
+  );
   readonly focalPoint = this.add(new VectorProperty("Focal Point", [0, 0, 0]));
   readonly yaw = this.add(new NumberProperty("Yaw", Math.PI / 4, { unit: "rad" }));
   readonly pitch = this.add(new NumberProperty("Pitch", Math.PI / 4, { min: -STEEPEST, max: STEEPEST, unit: "rad" }));
@@ -90,7 +92,9 @@ export class Orbit extends View {
     const right = new Vector3(-Math.sin(yaw), Math.cos(yaw), 0);
     const up = new Vector3(-Math.cos(yaw) * Math.sin(pitch), -Math.sin(yaw) * Math.sin(pitch), Math.cos(pitch));
     const focus = new Vector3(...this.focalPoint.value.peek());
-    this.focalPoint.value.value = triple(focus.addScaledVector(right, -dx * perPixel).addScaledVector(up, dy * perPixel));
+    this.focalPoint.value.value = triple(
+      focus.addScaledVector(right, -dx * perPixel).addScaledVector(up, dy * perPixel),
+    );
   }
 
   override zoom(factor: number): void {
@@ -138,7 +142,6 @@ export class Orbit extends View {
     return [{ property: this.focalPoint, to: [0, 0, 0] }];
   }
 }
-
 
 function clampPitch(pitch: number): number {
   return Math.min(STEEPEST, Math.max(-STEEPEST, pitch));

@@ -7,7 +7,11 @@ import type { Views } from "../view_controller";
 /** How the scene is split, which pane is active, and the view of each. */
 export function savePanes({ layout, panes, active }: Pick<Views, "layout" | "panes" | "active">): YamlMapping {
   const shown = panes.value;
-  return { Layout: layout.value, Active: shown.indexOf(active.value), Panes: shown.map((pane) => pane.current.value.save()) };
+  return {
+    Layout: layout.value,
+    Active: shown.indexOf(active.value),
+    Panes: shown.map((pane) => pane.current.value.save()),
+  };
 }
 
 /** How the scene is split by what was saved; null: that is none. */

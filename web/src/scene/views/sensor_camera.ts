@@ -18,7 +18,9 @@ export class SensorCamera extends FrameAligned {
   override readonly className: string = "trundle/Camera";
   private readonly width = this.add(new NumberProperty("Width", 320, { min: 1, max: LARGEST, unit: "px" }));
   private readonly height = this.add(new NumberProperty("Height", 240, { min: 1, max: LARGEST, unit: "px" }));
-  private readonly horizontal = this.add(new NumberProperty(FIELD_OF_VIEW, 1, { min: 0.001, max: WIDEST, unit: "rad" }));
+  private readonly horizontal = this.add(
+    new NumberProperty(FIELD_OF_VIEW, 1, { min: 0.001, max: WIDEST, unit: "rad" }),
+  );
 
   /** Whether a file's view, of rviz's class, was a camera's. */
   static isSavedIn(yaml: YamlMapping): boolean {
@@ -58,7 +60,8 @@ export class SensorCamera extends FrameAligned {
 
   /** As a FrameAligned, which rviz has, with the properties by which it is a camera's again here. */
   override save(): YamlMapping {
-    const halfHeight = (Math.tan(this.horizontal.value.peek() / 2) * this.height.value.peek()) / this.width.value.peek();
+    const halfHeight =
+      (Math.tan(this.horizontal.value.peek() / 2) * this.height.value.peek()) / this.width.value.peek();
     return { ...super.save(), Class: "rviz/FrameAligned", "Field of View": 2 * Math.atan(halfHeight) };
   }
 

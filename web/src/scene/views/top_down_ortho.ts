@@ -36,7 +36,11 @@ export class TopDownOrtho extends View {
   }
 
   override focus(target: Transform): Vector3 {
-    return new Vector3(this.x.value.peek() + target.position.x, this.y.value.peek() + target.position.y, target.position.z);
+    return new Vector3(
+      this.x.value.peek() + target.position.x,
+      this.y.value.peek() + target.position.y,
+      target.position.z,
+    );
   }
 
   override rotate(dx: number): void {
@@ -60,7 +64,8 @@ export class TopDownOrtho extends View {
       { property: this.y, to: centre.y - target.position.y, kind: "length" },
     ];
     const free = Math.min(picture.free.width, picture.free.height);
-    if (radius > 0) motions.push({ property: this.scale, to: Math.max(MIN_SCALE, (FILL * free) / (2 * radius)), kind: "scale" });
+    if (radius > 0)
+      motions.push({ property: this.scale, to: Math.max(MIN_SCALE, (FILL * free) / (2 * radius)), kind: "scale" });
     return motions;
   }
 

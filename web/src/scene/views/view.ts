@@ -4,7 +4,16 @@ import { signal } from "@preact/signals";
 import { Quaternion, Vector3, type OrthographicCamera, type PerspectiveCamera } from "three";
 
 import type { Transform } from "../../frames/transform";
-import { FIXED_FRAME, FrameProperty, NumberProperty, type Property, type Triple, type VectorProperty, type Yaml, type YamlMapping } from "../../rviz/properties";
+import {
+  FIXED_FRAME,
+  FrameProperty,
+  NumberProperty,
+  type Property,
+  type Triple,
+  type VectorProperty,
+  type Yaml,
+  type YamlMapping,
+} from "../../rviz/properties";
 import type { Area } from "../free_area";
 import type { SixSides, ViewController } from "../view_controller";
 
@@ -32,7 +41,9 @@ export abstract class View implements ViewController {
   abstract readonly className: string;
   readonly name = signal("Current View");
   readonly properties: Property<unknown>[] = [];
-  readonly targetFrame = this.add(new FrameProperty("Target Frame", FIXED_FRAME, { description: "Frame that the view follows" }));
+  readonly targetFrame = this.add(
+    new FrameProperty("Target Frame", FIXED_FRAME, { description: "Frame that the view follows" }),
+  );
   readonly nearClip = this.add(new NumberProperty("Near Clip Distance", 0.01, { min: 0.001, max: 10, unit: "m" }));
   /** Keys of the file that are not ours, kept as they were. */
   private unknown: YamlMapping = {};

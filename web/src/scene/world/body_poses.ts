@@ -54,7 +54,8 @@ export class BodyPoses {
     for (let i = 0; i < count; i += 1) {
       const body = message.getUint32(HEADER + 4 * i, true);
       if (body >= this.isKnown.length) this.grow(body + 1);
-      for (let j = body * NUMBERS; j < (body + 1) * NUMBERS; j += 1, at += 4) this.numbers[j] = message.getFloat32(at, true);
+      for (let j = body * NUMBERS; j < (body + 1) * NUMBERS; j += 1, at += 4)
+        this.numbers[j] = message.getFloat32(at, true);
       this.isKnown[body] = 1;
       this.place(body);
     }

@@ -1,6 +1,17 @@
 /** A GLB file of the simulated world: its bodies, with materials that shade as Trundle's renderer does. */
 
-import { Group, Mesh, SkinnedMesh, type AnimationClip, type BufferGeometry, type Light, type MeshStandardMaterial, type Object3D, type ShaderMaterial, type Texture } from "three";
+import {
+  Group,
+  Mesh,
+  SkinnedMesh,
+  type AnimationClip,
+  type BufferGeometry,
+  type Light,
+  type MeshStandardMaterial,
+  type Object3D,
+  type ShaderMaterial,
+  type Texture,
+} from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import { sdfColours, sdfMaterial, sdfVariant } from "./sdf_material";
@@ -65,7 +76,12 @@ export class GlbModel {
   ) {}
 
   /** Read a file; `path`: where the files lie that it names. */
-  static async read(data: ArrayBuffer, path: string, lighting: WorldLighting, contents: SharedContents): Promise<GlbModel> {
+  static async read(
+    data: ArrayBuffer,
+    path: string,
+    lighting: WorldLighting,
+    contents: SharedContents,
+  ): Promise<GlbModel> {
     const loader = new GLTFLoader();
     const gltf = await loader.parseAsync(data, path);
     const model = new GlbModel(lighting, contents, gltf.animations);
@@ -144,7 +160,11 @@ function isLight(object: Object3D): boolean {
 }
 
 /** Bytes of a file, with the share that has arrived, 0…1. */
-export async function fetchBytes(url: string, onShare: (share: number) => void, signal: AbortSignal): Promise<ArrayBuffer> {
+export async function fetchBytes(
+  url: string,
+  onShare: (share: number) => void,
+  signal: AbortSignal,
+): Promise<ArrayBuffer> {
   const response = await fetch(url, { signal });
   if (!response.ok) throw new Error(`${url}: the server answered ${response.status}`);
   const total = Number(response.headers.get("content-length") ?? 0);

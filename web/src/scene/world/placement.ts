@@ -45,8 +45,12 @@ export class WorldPlacement {
   update(manifest: Manifest, fixedFrame: string): boolean {
     const found = this.find(manifest, fixedFrame.replace(/^\//, ""));
     if (found === null) return false;
-    const [x = 0, y = 0, z = 0] = [12, 13, 14].map((i) => (found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0));
-    const turned = [0, 1, 4, 5].some((i) => Math.abs((found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0)) > STILL);
+    const [x = 0, y = 0, z = 0] = [12, 13, 14].map(
+      (i) => (found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0),
+    );
+    const turned = [0, 1, 4, 5].some(
+      (i) => Math.abs((found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0)) > STILL,
+    );
     if (Math.hypot(x, y, z) < STILL && !turned) return false;
     found.decompose(this.group.position, this.group.quaternion, this.group.scale);
     this.group.updateMatrix();
@@ -69,7 +73,10 @@ export class WorldPlacement {
     return null;
   }
 
-  private set(matrix: Matrix4, { position, orientation }: { readonly position: Vector3; readonly orientation: Quaternion }): Matrix4 {
+  private set(
+    matrix: Matrix4,
+    { position, orientation }: { readonly position: Vector3; readonly orientation: Quaternion },
+  ): Matrix4 {
     return matrix.compose(position, orientation, ONE);
   }
 }

@@ -24,14 +24,20 @@ const GREY: Rgba = [0.7, 0.7, 0.7, 1];
 /** The colours of a GLB's material; of one that is not ours, its base colour. */
 export function sdfColours(material: Material): SdfColours {
   const found = material.userData["sdf"] as Partial<SdfColours> | undefined;
-  const base = "color" in material && material.color instanceof Color ? material.color.clone().convertLinearToSRGB() : null;
+  const base =
+    "color" in material && material.color instanceof Color ? material.color.clone().convertLinearToSRGB() : null;
   const plain: Rgba = base === null ? GREY : [base.r, base.g, base.b, material.opacity];
   const { diffuse = plain, specular = [0, 0, 0, 1], emissive = [0, 0, 0, 1], shininess = 16 } = found ?? {};
   return { ambient: found?.ambient ?? diffuse, diffuse, specular, emissive, shininess };
 }
 
 /** What a visual looks like; `isFlat`: its geometry has no normals. */
-export function sdfMaterial(colours: SdfColours, texture: Texture | null, isFlat: boolean, lighting: WorldLighting): ShaderMaterial {
+export function sdfMaterial(
+  colours: SdfColours,
+  texture: Texture | null,
+  isFlat: boolean,
+  lighting: WorldLighting,
+): ShaderMaterial {
   const { ambient, diffuse, specular, emissive, shininess } = colours;
   const own: ShaderMaterial["uniforms"] = {
     ambient: { value: new Color(...rgb(ambient)) },
@@ -72,7 +78,11 @@ export function sdfMaterial(colours: SdfColours, texture: Texture | null, isFlat
 const OPACITY = 0.5;
 
 /** The same look, half transparent or as its triangles' edges. */
-export function sdfVariant(plain: ShaderMaterial, { transparent, wireframe }: { readonly transparent: boolean; readonly wireframe: boolean }, lighting: WorldLighting): ShaderMaterial {
+export function sdfVariant(
+  plain: ShaderMaterial,
+  { transparent, wireframe }: { readonly transparent: boolean; readonly wireframe: boolean },
+  lighting: WorldLighting,
+): ShaderMaterial {
   const { uniforms, defines, vertexShader, side } = plain;
   const diffuse = (uniforms["diffuse"]?.value as Vector4).clone();
   if (transparent) diffuse.w *= OPACITY;
@@ -82,8 +92,17 @@ export function sdfVariant(plain: ShaderMaterial, { transparent, wireframe }: { 
   const isBlended = diffuse.w < 1;
   const { polygonOffset, polygonOffsetFactor, polygonOffsetUnits } = plain;
   const material = new ShaderMaterial({
-    polygonOffset, polygonOffsetFactor, polygonOffsetUnits, vertexShader, side,
-    fragmentShader: "", uniforms: own, defines: { ...defines }, wireframe, transparent: isBlended, depthWrite: !isBlended,
+    polygonOffset,
+    polygonOffsetFactor,
+    polygonOffsetUnits,
+    vertexShader,
+    side,
+    fragmentShader: "",
+    uniforms: own,
+    defines: { ...defines },
+    wireframe,
+    transparent: isBlended,
+    depthWrite: !isBlended,
   });
   lighting.light(material);
   return material;

@@ -126,7 +126,10 @@ export function fragmentShader(lights: readonly LightKind[], shadows: number): s
   return `
 #define LIGHTS ${lights.length}
 #define SHADOWS ${shadows}
-${HEAD}${FOG}${lights.slice(0, shadows).map((kind, i) => shadowFactor(i, kind)).join("\n")}
+${HEAD}${FOG}${lights
+  .slice(0, shadows)
+  .map((kind, i) => shadowFactor(i, kind))
+  .join("\n")}
 void main() {
 #ifdef FLAT
   vec3 n = normalize(cross(dFdx(point), dFdy(point)));

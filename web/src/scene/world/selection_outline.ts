@@ -5,8 +5,24 @@
 
 import { effect } from "@preact/signals";
 import {
-  Box2, Box3, BufferGeometry, Color, DoubleSide, Float32BufferAttribute, Mesh, MeshBasicMaterial, OrthographicCamera, Scene, ShaderMaterial,
-  Vector2, Vector3, Vector4, WebGLRenderTarget, type Camera, type Object3D, type WebGLRenderer,
+  Box2,
+  Box3,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  Float32BufferAttribute,
+  Mesh,
+  MeshBasicMaterial,
+  OrthographicCamera,
+  Scene,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  Vector4,
+  WebGLRenderTarget,
+  type Camera,
+  type Object3D,
+  type WebGLRenderer,
 } from "three";
 
 import type { SimulatedWorld } from "../simulated_world";
@@ -97,8 +113,20 @@ export class SelectionOutline {
   ) {
     this.style = getComputedStyle(scene.element);
     this.target = new WebGLRenderTarget(1, 1, { samples: scene.isSlow ? 0 : 4 });
-    const uniforms = { mask: { value: this.target.texture }, pixel: { value: new Vector2() }, widths: { value: new Vector2() }, colour: { value: new Color() } };
-    this.material = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, transparent: true, depthTest: false, depthWrite: false });
+    const uniforms = {
+      mask: { value: this.target.texture },
+      pixel: { value: new Vector2() },
+      widths: { value: new Vector2() },
+      colour: { value: new Color() },
+    };
+    this.material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      uniforms,
+      transparent: true,
+      depthTest: false,
+      depthWrite: false,
+    });
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
     const triangle = new Mesh(geometry, this.material);
@@ -135,7 +163,10 @@ export class SelectionOutline {
     const marked = outlined.slice(-MOST).map(({ thin, broad, colour }, index): Marked => {
       const layer = FIRST_LAYER + 2 * index;
       const objects: Object3D[] = [];
-      for (const [bodies, part] of [[thin, layer], [broad, layer + 1]] as const) {
+      for (const [bodies, part] of [
+        [thin, layer],
+        [broad, layer + 1],
+      ] as const) {
         for (const body of bodies) {
           const object = world.object(body);
           if (object === null) continue;

@@ -1,8 +1,20 @@
 /** Shadow map of a directional or spot light, fitted to what casts shadows, as in cpp/light.cc. */
 
 import {
-  Box3, DepthTexture, FloatType, LessEqualCompare, LinearFilter, Matrix4, MeshBasicMaterial, OrthographicCamera, PerspectiveCamera, Vector3,
-  WebGLRenderTarget, type Mesh, type Scene, type WebGLRenderer,
+  Box3,
+  DepthTexture,
+  FloatType,
+  LessEqualCompare,
+  LinearFilter,
+  Matrix4,
+  MeshBasicMaterial,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Vector3,
+  WebGLRenderTarget,
+  type Mesh,
+  type Scene,
+  type WebGLRenderer,
 } from "three";
 
 /** Layer of the objects that cast shadows. */
@@ -53,12 +65,25 @@ export class ShadowMap {
     const texel = extent / (size - MARGIN);
     camera.position.set((min.x + max.x) / 2, (min.y + max.y) / 2, max.z + 1).applyQuaternion(camera.quaternion);
     camera.right = (size / 2) * texel;
-    Object.assign(camera, { left: -camera.right, top: camera.right, bottom: -camera.right, near: 0, far: max.z - min.z + 2 });
+    Object.assign(camera, {
+      left: -camera.right,
+      top: camera.right,
+      bottom: -camera.right,
+      near: 0,
+      far: max.z - min.z + 2,
+    });
     this.draw(renderer, scene, camera, size, texel);
   }
 
   /** Draw what a spot light sees; `angle`: its whole cone [rad]. */
-  drawSpot(renderer: WebGLRenderer, scene: Scene, position: Vector3, direction: Vector3, angle: number, range: number): void {
+  drawSpot(
+    renderer: WebGLRenderer,
+    scene: Scene,
+    position: Vector3,
+    direction: Vector3,
+    angle: number,
+    range: number,
+  ): void {
     const camera = this.perspective;
     const half = Math.min(angle / 2, 1.4);
     camera.position.copy(position);
@@ -86,7 +111,13 @@ export class ShadowMap {
     return box;
   }
 
-  private draw(renderer: WebGLRenderer, scene: Scene, camera: OrthographicCamera | PerspectiveCamera, size: number, texel: number): void {
+  private draw(
+    renderer: WebGLRenderer,
+    scene: Scene,
+    camera: OrthographicCamera | PerspectiveCamera,
+    size: number,
+    texel: number,
+  ): void {
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     this.uniform.view.copy(camera.matrixWorldInverse);

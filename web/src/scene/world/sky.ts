@@ -30,7 +30,16 @@ export class Sky extends Mesh<BufferGeometry, ShaderMaterial> {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
     const uniforms = { horizon: { value: HORIZON }, zenith: { value: ZENITH }, up: { value: new Vector3(0, 0, 1) } };
-    super(geometry, new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms, depthTest: false, depthWrite: false }));
+    super(
+      geometry,
+      new ShaderMaterial({
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        uniforms,
+        depthTest: false,
+        depthWrite: false,
+      }),
+    );
     this.userData[NOT_PICKED] = true;
     this.frustumCulled = false;
     this.renderOrder = -1000;

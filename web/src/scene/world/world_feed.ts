@@ -153,7 +153,10 @@ export class WorldFeed implements SimulatedWorld {
     const background = scene.background.map((part) => Math.round(255 * part));
     this.scene.background.value = `rgb(${background.join(", ")})`;
     this.sky.visible = scene.sky;
-    this.files.show([...manifest.files.filter(({ id }) => id !== manifest.draft?.of), ...(manifest.draft?.files ?? [])]);
+    this.files.show([
+      ...manifest.files.filter(({ id }) => id !== manifest.draft?.of),
+      ...(manifest.draft?.files ?? []),
+    ]);
     this.lighting.setContents(this.scene.world, scene.shadows);
     this.scene.invalidate();
   }
@@ -185,7 +188,8 @@ export class WorldFeed implements SimulatedWorld {
 
   private hide(hidden: ReadonlySet<string>): void {
     this.scene.world.traverse((object) => {
-      if (typeof object.userData["body"] === "number") object.visible = !isHidden(String(object.userData["name"]), hidden);
+      if (typeof object.userData["body"] === "number")
+        object.visible = !isHidden(String(object.userData["name"]), hidden);
     });
     this.lighting.invalidate();
     this.scene.invalidate();
@@ -195,7 +199,11 @@ export class WorldFeed implements SimulatedWorld {
   private showParts(): void {
     const { shown } = this;
     for (const model of this.files.models) {
-      model.show((name) => ({ visuals: shown.of("visuals", name), transparent: shown.of("transparent", name), wireframe: shown.of("wireframe", name) }));
+      model.show((name) => ({
+        visuals: shown.of("visuals", name),
+        transparent: shown.of("transparent", name),
+        wireframe: shown.of("wireframe", name),
+      }));
     }
     for (const [body, shapes] of this.collisions?.model.bodies ?? []) {
       const object = this.object(body);
@@ -217,18 +225,23 @@ export class WorldFeed implements SimulatedWorld {
     if (url === null) return;
     const abort = new AbortController();
     this.collisionsAsked = abort;
-    void this.files.read(url, () => undefined, abort.signal).then((model) => {
-      if (abort.signal.aborted) return;
-      this.collisions = { url, model };
-      for (const shapes of model.bodies.values()) {
-        delete shapes.userData["body"]; // it belongs to the body that is there
-        shapes.position.set(0, 0, 0);
-        shapes.quaternion.identity();
-      }
-      this.showParts();
-    }, (error: unknown) => {
-      if (!abort.signal.aborted) this.files.fault("Collisions", error);
-    });
+    void this.files
+      .read(url, () => undefined, abort.signal)
+      .then(
+        (model) => {
+          if (abort.signal.aborted) return;
+          this.collisions = { url, model };
+          for (const shapes of model.bodies.values()) {
+            delete shapes.userData["body"]; // it belongs to the body that is there
+            shapes.position.set(0, 0, 0);
+            shapes.quaternion.identity();
+          }
+          this.showParts();
+        },
+        (error: unknown) => {
+          if (!abort.signal.aborted) this.files.fault("Collisions", error);
+        },
+      );
   }
 }
 

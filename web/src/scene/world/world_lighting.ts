@@ -1,6 +1,15 @@
 /** Lights, shadows, ambient light and fog of the simulated world. */
 
-import { Color, Object3D, Vector3, type Light, type Mesh, type Scene, type ShaderMaterial, type WebGLRenderer } from "three";
+import {
+  Color,
+  Object3D,
+  Vector3,
+  type Light,
+  type Mesh,
+  type Scene,
+  type ShaderMaterial,
+  type WebGLRenderer,
+} from "three";
 
 import type { Manifest } from "../simulated_world";
 import { FOG_KINDS, fragmentShader, type LightKind } from "./sdf_shader";
@@ -30,13 +39,25 @@ interface WorldLight {
 
 /** The sun of a world without lights, as in Trundle's renderer. */
 const DEFAULT_DIRECTION = new Vector3(-0.3, 0.5, -0.8);
-const DEFAULT_SUN: SdfLight = { diffuse: [0.8, 0.8, 0.8], specular: [0.1, 0.1, 0.1], attenuation: [1, 0, 0], cast_shadows: false };
+const DEFAULT_SUN: SdfLight = {
+  diffuse: [0.8, 0.8, 0.8],
+  specular: [0.1, 0.1, 0.1],
+  attenuation: [1, 0, 0],
+  cast_shadows: false,
+};
 
 function emptyUniform() {
   const [cosInner, cosOuter, falloff, range] = [1, 0, 1, 0] as number[];
   return {
-    range, cosInner, cosOuter, falloff,
-    position: new Vector3(), toLight: new Vector3(), diffuse: new Color(), specular: new Color(), attenuation: new Vector3(1, 0, 0),
+    range,
+    cosInner,
+    cosOuter,
+    falloff,
+    position: new Vector3(),
+    toLight: new Vector3(),
+    diffuse: new Color(),
+    specular: new Color(),
+    attenuation: new Vector3(1, 0, 0),
   };
 }
 
@@ -72,7 +93,13 @@ export class WorldLighting {
   setScene({ ambient, fog }: Manifest["scene"]): void {
     this.set("ambientLight", new Color(...ambient));
     const { start = 0, end = 1, density = 0, color = [0, 0, 0] as const } = fog ?? {};
-    this.set("fogOfWorld", { kind: FOG_KINDS[fog?.type ?? "none"] ?? 0, color: new Color(...color), start, end, density });
+    this.set("fogOfWorld", {
+      kind: FOG_KINDS[fog?.type ?? "none"] ?? 0,
+      color: new Color(...color),
+      start,
+      end,
+      density,
+    });
   }
 
   /** Take what is in the world: its lights and what casts shadows. */
@@ -108,7 +135,10 @@ export class WorldLighting {
   }
 
   private get shader(): string {
-    return fragmentShader(this.lights.map(({ kind }) => kind), this.lights.filter(({ shadow }) => shadow !== null).length);
+    return fragmentShader(
+      this.lights.map(({ kind }) => kind),
+      this.lights.filter(({ shadow }) => shadow !== null).length,
+    );
   }
 
   private setLights(found: readonly Light[], hasShadows = false): void {
@@ -121,15 +151,28 @@ export class WorldLighting {
       const isShadowed = hasShadows && sdf.cast_shadows && kind !== "point" && maps < MAX_SHADOWS;
       if (isShadowed) maps += 1;
       const distance = "distance" in light && typeof light.distance === "number" ? light.distance : 0;
-      return { object: light, kind, sdf, range: distance > 0 ? distance : 1e9, uniform: emptyUniform(), shadow: isShadowed ? new ShadowMap() : null };
+      return {
+        object: light,
+        kind,
+        sdf,
+        range: distance > 0 ? distance : 1e9,
+        uniform: emptyUniform(),
+        shadow: isShadowed ? new ShadowMap() : null,
+      };
     });
     if (lights.length === 0) lights.push(defaultSun());
     // those with shadow maps come first, as the shader has them
     lights.sort((a, b) => Number(b.shadow !== null) - Number(a.shadow !== null));
     this.lights = lights.slice(0, MAX_LIGHTS);
     for (const light of this.lights) setConstants(light);
-    this.set("lights", this.lights.map(({ uniform }) => uniform));
-    this.set("shadows", this.lights.flatMap(({ shadow }) => shadow?.uniform ?? []));
+    this.set(
+      "lights",
+      this.lights.map(({ uniform }) => uniform),
+    );
+    this.set(
+      "shadows",
+      this.lights.flatMap(({ shadow }) => shadow?.uniform ?? []),
+    );
     this.areShadowsStale = true;
     for (const material of this.materials) {
       material.fragmentShader = this.shader;

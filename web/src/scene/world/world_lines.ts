@@ -1,6 +1,17 @@
 /** Lines that plugins draw and rays of lidars, from `trundle/lines` and `trundle/ranges`. */
 
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, Line, LineBasicMaterial, LineSegments, Points, PointsMaterial, SRGBColorSpace } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DynamicDrawUsage,
+  Group,
+  Line,
+  LineBasicMaterial,
+  LineSegments,
+  Points,
+  PointsMaterial,
+  SRGBColorSpace,
+} from "three";
 
 import { NOT_PICKED } from "../picking";
 

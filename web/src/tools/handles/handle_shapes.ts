@@ -1,6 +1,16 @@
 /** Shapes of handles, along and about the z axis of their group: thin to the eye, broad to the pointer. */
 
-import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, PlaneGeometry, SphereGeometry, TorusGeometry, type BufferGeometry } from "three";
+import {
+  ConeGeometry,
+  CylinderGeometry,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  PlaneGeometry,
+  SphereGeometry,
+  TorusGeometry,
+  type BufferGeometry,
+} from "three";
 
 /** Sizes as shares of an arrow's length. */
 const LINE = 0.011;
@@ -21,13 +31,29 @@ export class HandleShape extends Group {
     super();
     switch (kind) {
       case "axis":
-        this.seen(new CylinderGeometry(LINE, LINE, 1 - HEAD.length).rotateX(Math.PI / 2).translate(0, 0, (1 - HEAD.length) / 2));
-        this.seen(new ConeGeometry(HEAD.radius, HEAD.length, 24).rotateX(Math.PI / 2).translate(0, 0, 1 - HEAD.length / 2));
+        this.seen(
+          new CylinderGeometry(LINE, LINE, 1 - HEAD.length).rotateX(Math.PI / 2).translate(0, 0, (1 - HEAD.length) / 2),
+        );
+        this.seen(
+          new ConeGeometry(HEAD.radius, HEAD.length, 24).rotateX(Math.PI / 2).translate(0, 0, 1 - HEAD.length / 2),
+        );
         this.met(new CylinderGeometry(GRASP, GRASP, 0.85).rotateX(Math.PI / 2).translate(0, 0, 0.6));
         break;
       case "plane":
-        this.seen(new PlaneGeometry(SQUARE.size, SQUARE.size).translate(SQUARE.from + SQUARE.size / 2, SQUARE.from + SQUARE.size / 2, 0));
-        this.met(new PlaneGeometry(SQUARE.size, SQUARE.size).translate(SQUARE.from + SQUARE.size / 2, SQUARE.from + SQUARE.size / 2, 0));
+        this.seen(
+          new PlaneGeometry(SQUARE.size, SQUARE.size).translate(
+            SQUARE.from + SQUARE.size / 2,
+            SQUARE.from + SQUARE.size / 2,
+            0,
+          ),
+        );
+        this.met(
+          new PlaneGeometry(SQUARE.size, SQUARE.size).translate(
+            SQUARE.from + SQUARE.size / 2,
+            SQUARE.from + SQUARE.size / 2,
+            0,
+          ),
+        );
         this.unseen.side = this.material.side = 2;
         break;
       case "ring":

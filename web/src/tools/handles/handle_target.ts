@@ -70,8 +70,14 @@ function modelTarget(editor: WorldEditor, name: string, linkName: string | null)
   const scope = nested === undefined ? name : [name, ...nested.name.split("::").slice(1)].join("::");
   const link = linkName === null ? nested?.model.links[0] : findLink(editor, name, linkName);
   if (link === undefined || link === null) return null;
-  const fields = (to: Transform): Fields => ({ model: linkName === null ? scope : name, link: link.name, ...poseFields(to.position, to.orientation) });
-  const outermost = allModels(editor.world.manifest.value?.models ?? []).find((each) => `${name}::`.startsWith(`${each.name}::`));
+  const fields = (to: Transform): Fields => ({
+    model: linkName === null ? scope : name,
+    link: link.name,
+    ...poseFields(to.position, to.orientation),
+  });
+  const outermost = allModels(editor.world.manifest.value?.models ?? []).find((each) =>
+    `${name}::`.startsWith(`${each.name}::`),
+  );
   return {
     title: `Pose of ${name}`,
     bodies: bodiesOf(outermost?.model ?? model),
@@ -86,8 +92,17 @@ function modelTarget(editor: WorldEditor, name: string, linkName: string | null)
 }
 
 function lightTarget(light: LightInfo): HandleTarget {
-  const place = (to: Transform): Asked => ({ request: "place_light", fields: { light: light.name, ...poseFields(to.position, to.orientation) } });
-  return { title: `Pose of ${light.name}`, bodies: [], axis: null, pose: () => transformOf(light.pose), begin: () => ({ move: place, release: null, place }) };
+  const place = (to: Transform): Asked => ({
+    request: "place_light",
+    fields: { light: light.name, ...poseFields(to.position, to.orientation) },
+  });
+  return {
+    title: `Pose of ${light.name}`,
+    bodies: [],
+    axis: null,
+    pose: () => transformOf(light.pose),
+    begin: () => ({ move: place, release: null, place }),
+  };
 }
 
 function jointTarget(editor: WorldEditor, model: string, name: string): HandleTarget | null {
@@ -102,7 +117,10 @@ function jointTarget(editor: WorldEditor, model: string, name: string): HandleTa
     const body = editor.world.pose(child.body);
     if (body === null) return null;
     const [x, y, z] = joint.pose;
-    return { position: new Vector3(x, y, z).applyQuaternion(body.orientation).add(body.position), orientation: body.orientation };
+    return {
+      position: new Vector3(x, y, z).applyQuaternion(body.orientation).add(body.position),
+      orientation: body.orientation,
+    };
   };
   return {
     title: `Joint ${name}`,
@@ -118,7 +136,12 @@ function jointTarget(editor: WorldEditor, model: string, name: string): HandleTa
         return within(joint, from + by);
       };
       const place = (to: Transform): Asked => ({ request, fields: { model, joint: name, position: positionAt(to) } });
-      return { move: place, release: null, place, describe: (to) => `${name} ${fixed(positionAt(to), 3)} ${turns ? "rad" : "m"}` };
+      return {
+        move: place,
+        release: null,
+        place,
+        describe: (to) => `${name} ${fixed(positionAt(to), 3)} ${turns ? "rad" : "m"}`,
+      };
     },
   };
 }

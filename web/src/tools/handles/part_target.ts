@@ -28,22 +28,34 @@ export function partTarget(editor: WorldEditor, path: PartPath): HandleTarget | 
       const object = first === undefined ? null : world.object(first);
       return object === null ? null : { position: object.position.clone(), orientation: object.quaternion.clone() };
     },
-    begin: () => drag(bodies.flatMap((body) => world.object(body) ?? []), part, part.length === 0 ? transformOf(draft.pose) : null),
+    begin: () =>
+      drag(
+        bodies.flatMap((body) => world.object(body) ?? []),
+        part,
+        part.length === 0 ? transformOf(draft.pose) : null,
+      ),
   };
 }
 
 /** Objects follow the pointer; the server hears of it at the end. */
 function drag(objects: readonly Object3D[], part: PartPath, whole: Transform | null): Drawn {
   const [first] = objects;
-  const from = whole ?? { position: first?.position.clone() ?? new Vector3(), orientation: first?.quaternion.clone() ?? new Quaternion() };
+  const from = whole ?? {
+    position: first?.position.clone() ?? new Vector3(),
+    orientation: first?.quaternion.clone() ?? new Quaternion(),
+  };
   const starts = objects.map((object) => matrixOf({ position: object.position, orientation: object.quaternion }));
-  const place = (to: Transform): Asked => ({ request: "draft_place", fields: { part, ...poseFields(to.position, to.orientation) } });
+  const place = (to: Transform): Asked => ({
+    request: "draft_place",
+    fields: { part, ...poseFields(to.position, to.orientation) },
+  });
   return {
     move: (to) => {
       const change = matrixOf(to).multiply(matrixOf(from).invert());
       objects.forEach((object, i) => {
         const start = starts[i];
-        if (start !== undefined) change.clone().multiply(start).decompose(object.position, object.quaternion, new Vector3());
+        if (start !== undefined)
+          change.clone().multiply(start).decompose(object.position, object.quaternion, new Vector3());
       });
       return null;
     },

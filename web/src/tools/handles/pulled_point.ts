@@ -28,7 +28,10 @@ export class PulledPoint {
   private pulled: Pulled | null = null;
   private stops: (() => void)[] = [];
   private readonly ends = new BufferAttribute(new Float32Array(6), 3);
-  private readonly line = new Line(new BufferGeometry().setAttribute("position", this.ends), new LineBasicMaterial({ depthTest: false }));
+  private readonly line = new Line(
+    new BufferGeometry().setAttribute("position", this.ends),
+    new LineBasicMaterial({ depthTest: false }),
+  );
   private readonly requests = new LatestRequest(() => this.end());
 
   constructor(
@@ -45,13 +48,16 @@ export class PulledPoint {
     const { scene, editor } = this;
     const pick = scene.pick(input.x, input.y);
     const selection = selectionOf(pick);
-    if (pick === null || selection?.kind !== "link" || findModel(editor, selection.model)?.static !== false) return false;
+    if (pick === null || selection?.kind !== "link" || findModel(editor, selection.model)?.static !== false)
+      return false;
     const body = bodyOf(pick.object);
     const pose = body === null ? null : editor.world.pose(body);
     if (body === null || pose === null) return false;
     const target = pick.point.clone().applyMatrix4(this.worldFromFixed());
     const point = target.clone().sub(pose.position).applyQuaternion(pose.orientation.clone().invert());
-    const back = new Vector3().setFromMatrixColumn(scene.camera.peek().matrixWorld, 2).transformDirection(this.worldFromFixed());
+    const back = new Vector3()
+      .setFromMatrixColumn(scene.camera.peek().matrixWorld, 2)
+      .transformDirection(this.worldFromFixed());
     const plane = new Plane().setFromNormalAndCoplanarPoint(back, target);
     this.pulled = { model: selection.model, link: selection.link, body, point, plane, target };
     scene.world.add(this.line);
@@ -64,7 +70,8 @@ export class PulledPoint {
   move({ x, y }: PointerInput): void {
     const { pulled, scene } = this;
     if (pulled === null) return;
-    if (scene.ray(x, y).applyMatrix4(this.worldFromFixed()).intersectPlane(pulled.plane, pulled.target) === null) return;
+    if (scene.ray(x, y).applyMatrix4(this.worldFromFixed()).intersectPlane(pulled.plane, pulled.target) === null)
+      return;
     this.ask(pulled);
     scene.invalidate();
   }

@@ -1,6 +1,15 @@
 /** The handles of what is selected: as large on the screen at any distance, in front of all else. */
 
-import { Group, OrthographicCamera, PerspectiveCamera, Quaternion, Raycaster, Vector3, type Camera, type Ray } from "three";
+import {
+  Group,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Quaternion,
+  Raycaster,
+  Vector3,
+  type Camera,
+  type Ray,
+} from "three";
 
 import type { Transform } from "../../frames/transform";
 import { NOT_PICKED } from "../../scene/picking";
@@ -57,7 +66,9 @@ export class SelectionHandles extends Group {
     if (!this.visible) return null;
     this.raycaster.ray.copy(ray);
     const order = { free: 0, axis: 1, ring: 2, plane: 3 };
-    const found = this.shapes.flatMap(({ handle, shape }) => this.raycaster.intersectObject(shape).map(({ point, distance }) => ({ handle, point, distance })));
+    const found = this.shapes.flatMap(({ handle, shape }) =>
+      this.raycaster.intersectObject(shape).map(({ point, distance }) => ({ handle, point, distance })),
+    );
     found.sort((a, b) => order[a.handle.kind] - order[b.handle.kind] || a.distance - b.distance);
     return found[0] ?? null;
   }
@@ -74,16 +85,24 @@ export class SelectionHandles extends Group {
     const style = getComputedStyle(document.documentElement);
     const token = (name: string): string => style.getPropertyValue(name).trim() || "#ffffff";
     for (const { handle, shape } of this.shapes) {
-      const own = handle.letter === undefined ? (handle.kind === "free" ? "#ffffff" : token("--accent")) : token(COLOURS[handle.letter]);
+      const own =
+        handle.letter === undefined
+          ? handle.kind === "free"
+            ? "#ffffff"
+            : token("--accent")
+          : token(COLOURS[handle.letter]);
       const isLit = handle === this.lit;
-      shape.paint(isLit ? token("--focus") : own, handle.kind === "plane" ? (isLit ? 0.7 : 0.35) : isLit || this.lit === null ? 1 : 0.55);
+      shape.paint(
+        isLit ? token("--focus") : own,
+        handle.kind === "plane" ? (isLit ? 0.7 : 0.35) : isLit || this.lit === null ? 1 : 0.55,
+      );
     }
   }
 }
 
 /** The turn after which x and y lie in the plane of a normal, towards the positive sides of the other axes. */
 function turnOfPlane(normal: Vector3): Quaternion {
-  const third = 2 * Math.PI / 3;
+  const third = (2 * Math.PI) / 3;
   const way = new Vector3(1, 1, 1).normalize();
   return new Quaternion().setFromAxisAngle(way, normal.z > 0.5 ? 0 : normal.x > 0.5 ? third : -third);
 }

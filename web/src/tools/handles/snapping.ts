@@ -7,7 +7,8 @@ import type { Transform } from "../../frames/transform";
 /** Move a place to the grid, in the directions in which it has moved. */
 export function snapToGrid(to: Transform, from: Transform, cell: number): void {
   for (const axis of ["x", "y", "z"] as const) {
-    if (Math.abs(to.position[axis] - from.position[axis]) > 1e-6) to.position[axis] = Math.round(to.position[axis] / cell) * cell;
+    if (Math.abs(to.position[axis] - from.position[axis]) > 1e-6)
+      to.position[axis] = Math.round(to.position[axis] / cell) * cell;
   }
 }
 

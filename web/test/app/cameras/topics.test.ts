@@ -24,14 +24,24 @@ it("lists enabled displays of pictures, those in groups too, instead of their to
   };
   const image = { Class: "rviz/Image", Name: "Front", Enabled: true, "Image Topic": "/usb_cam/image_raw" };
   const camera = { Class: "rviz/Camera", Name: "Overlay", Enabled: true, "Image Topic": "/usb_cam/image_raw" };
-  const group = make("rviz/Group", { Name: "Pictures", Enabled: true, Displays: [camera, { ...image, Name: "Off", Enabled: false }] });
-  const topics = cameraTopics({ images: ["/usb_cam/image_raw"] }, null, [make("rviz/Image", image), group, make("rviz/Axes", { Enabled: true })]);
+  const group = make("rviz/Group", {
+    Name: "Pictures",
+    Enabled: true,
+    Displays: [camera, { ...image, Name: "Off", Enabled: false }],
+  });
+  const topics = cameraTopics({ images: ["/usb_cam/image_raw"] }, null, [
+    make("rviz/Image", image),
+    group,
+    make("rviz/Axes", { Enabled: true }),
+  ]);
   expect(topics.map(({ name }) => name)).toEqual(["Front", "Overlay"]);
   expect(new Set(topics.map(tileKey)).size).toBe(2);
 });
 
 it("takes compressed pictures over a network only", () => {
-  const topics = new Map([["/c/compressed", { name: "/c/compressed", type: "sensor_msgs/CompressedImage", encoding: "ros1" }]]);
+  const topics = new Map([
+    ["/c/compressed", { name: "/c/compressed", type: "sensor_msgs/CompressedImage", encoding: "ros1" }],
+  ]);
   expect(streamedTopic("/c", topics, "192.168.1.7")).toBe("/c/compressed");
   expect(streamedTopic("/c", topics, "localhost")).toBe("/c");
   expect(streamedTopic("/d", topics, "192.168.1.7")).toBe("/d");

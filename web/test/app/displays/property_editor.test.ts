@@ -6,14 +6,19 @@ import { ColorProperty, NumberProperty } from "../../../src/rviz/properties";
 import { fakePage } from "../../fake_page";
 
 it("reads vectors and colours as people write them", () => {
-  expect([vectorOf("0; 1; −2.5"), vectorOf("0 1 2"), vectorOf("0; 1"), vectorOf("a;b;c")]).toEqual([[0, 1, -2.5], [0, 1, 2], null, null]);
-  expect([colourOf("255; 25; 0"), colourOf("255,25,0"), colourOf("#ff1900"), colourOf("256; 0; 0"), colourOf("red")]).toEqual([
-    "255; 25; 0",
-    "255; 25; 0",
-    "255; 25; 0",
+  expect([vectorOf("0; 1; −2.5"), vectorOf("0 1 2"), vectorOf("0; 1"), vectorOf("a;b;c")]).toEqual([
+    [0, 1, -2.5],
+    [0, 1, 2],
     null,
     null,
   ]);
+  expect([
+    colourOf("255; 25; 0"),
+    colourOf("255,25,0"),
+    colourOf("#ff1900"),
+    colourOf("256; 0; 0"),
+    colourOf("red"),
+  ]).toEqual(["255; 25; 0", "255; 25; 0", "255; 25; 0", null, null]);
   expect(hex([255, 25, 0])).toBe("#ff1900");
 });
 

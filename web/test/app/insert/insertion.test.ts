@@ -22,7 +22,11 @@ it("is what undo takes back, though the server has not answered yet", async () =
   const request = (_title: string, name: string): void => void asked.push(name);
   const insertion = new Insertion({ page, request, layout: {} } as unknown as Shell);
   expect(insertion.asked.value).toBeNull();
-  page.undo.record("Earlier", () => undefined, () => asked.push("earlier"));
+  page.undo.record(
+    "Earlier",
+    () => undefined,
+    () => asked.push("earlier"),
+  );
 
   tool.onPlace(BOX, new Vector3());
   page.undo.undo();

@@ -8,14 +8,29 @@ import { fakePane, FakeViews } from "../../fake_page";
 
 test("a link shows the view from which it was made", () => {
   const view = new Orbit();
-  view.load({ Distance: 3.25, "Focal Point": { X: 1, Y: -2, Z: 0.5 }, Yaw: 1.2345678, Pitch: 0.4, "Target Frame": "cart::chassis" });
-  const link = linkTo(Object.assign(new FakeViews(), { current: signal(view) }), "http://127.0.0.1:8080/?view_only#view=old", "abc");
+  view.load({
+    Distance: 3.25,
+    "Focal Point": { X: 1, Y: -2, Z: 0.5 },
+    Yaw: 1.2345678,
+    Pitch: 0.4,
+    "Target Frame": "cart::chassis",
+  });
+  const link = linkTo(
+    Object.assign(new FakeViews(), { current: signal(view) }),
+    "http://127.0.0.1:8080/?view_only#view=old",
+    "abc",
+  );
   const found = linkedView(new URL(link).hash);
 
   expect(link).toMatch(/^http:\/\/127\.0\.0\.1:8080\/\?token=abc#view=[^#]*$/);
   const shown = new Orbit();
   expect(shown.load(found ?? {})).toEqual([]);
-  expect(shown.save()).toMatchObject({ Distance: 3.25, "Focal Point": { X: 1, Y: -2, Z: 0.5 }, Yaw: 1.23457, "Target Frame": "cart::chassis" });
+  expect(shown.save()).toMatchObject({
+    Distance: 3.25,
+    "Focal Point": { X: 1, Y: -2, Z: 0.5 },
+    Yaw: 1.23457,
+    "Target Frame": "cart::chassis",
+  });
 });
 
 test.each(["", "#elsewhere", "#view=", "#view=%7B", "#view=%", "#view=3", "#view=null"])("%s is no view", (hash) => {

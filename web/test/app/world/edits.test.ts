@@ -18,7 +18,11 @@ function fakeShell(answer: () => Promise<unknown>): { shell: Shell; sent: object
   });
   expect(request).toBeDefined();
   const notices = new Notices(page);
-  const shell = { page, notices, request: (_: string, name: string, fields: object) => void page.connection.request(name, fields as never) };
+  const shell = {
+    page,
+    notices,
+    request: (_: string, name: string, fields: object) => void page.connection.request(name, fields as never),
+  };
   return { shell: shell as unknown as Shell, sent };
 }
 
@@ -41,7 +45,10 @@ it("leaves nothing to undo of what was refused, and says why", async () => {
 });
 
 it("has poses as the server takes them", () => {
-  expect(poseFields(new Vector3(1, 2, 3), new Quaternion(0, 0, 1, 0))).toEqual({ position: [1, 2, 3], orientation: [0, 0, 0, 1] });
+  expect(poseFields(new Vector3(1, 2, 3), new Quaternion(0, 0, 1, 0))).toEqual({
+    position: [1, 2, 3],
+    orientation: [0, 0, 0, 1],
+  });
   const angles = [0.3, -0.4, 2] as const;
   rollPitchYaw(orientationOf(angles)).forEach((angle, index) => expect(angle).toBeCloseTo(angles[index] ?? 0));
   expect(withNumber([1, 2, 3], 1, 7)).toEqual([1, 7, 3]);
