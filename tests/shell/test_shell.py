@@ -16,7 +16,7 @@ COMMANDS = """
     gazebo gzserver gzclient gz roscore roslaunch rosrun rostopic rosnode rosparam rosservice rosmsg rossrv rosbag
     rospack roscd rosls rosversion rosclean roswtf rostest rviz rqt rqt_graph rqt_plot rqt_image_view rqt_console xacro
     check_urdf urdf_to_graphiz tf_echo view_frames tf_monitor catkin_create_pkg catkin_init_workspace catkin_make
-    rosdep rosinstall wstool vcs apt apt-get sudo
+    rosdep rosinstall wstool vcs apt apt-get sudo xterm
 """.split()  # noqa: SIM905 - as the list is read
 
 
@@ -120,6 +120,31 @@ def test_a_python_of_the_users_own_has_rospy_and_what_it_needs(shell, tmp_path: 
     done = shell("own/bin/python -c 'import rospy, numpy; print(rospy.Time(2), numpy.__name__)'")
 
     assert done.stdout == "2000000000 numpy\n", done.stderr
+
+
+def test_scripts_that_open_windows_run_where_there_is_no_display(shell, tmp_path: Path) -> None:
+    """As `home_service.sh` of courses does, for every program of its own."""
+    (tmp_path / "home_service.sh").write_text(
+        "#!/bin/sh\nxterm -hold -e \"export POSE='-x 1' && env | grep ^POSE\" &\nwait\n"
+        "xterm -T title -e echo 'two  words'\nxterm\necho $?\n"
+    )
+
+    done = shell("sh home_service.sh", DISPLAY="", WAYLAND_DISPLAY="")
+
+    assert done.stdout.splitlines() == ["POSE=-x 1", "two  words", "1"], done.stderr
+    assert "xterm: no window can open here, so this terminal has: export POSE='-x 1' && " in done.stderr
+    assert "xterm needs a display, and there is none here" in done.stderr
+
+
+def test_xterm_is_the_machines_own_where_there_is_a_display(shell, tmp_path: Path) -> None:
+    own = tmp_path / "own/xterm"
+    own.parent.mkdir()
+    own.write_text('#!/bin/sh\necho "window: $@"\n')
+    own.chmod(0o755)
+
+    done = shell(f"PATH=$TRUNDLE_SHELL/bin:{own.parent}:/usr/bin:/bin; xterm -e ls", DISPLAY=":9")
+
+    assert done.stdout == "window: -e ls\n", done.stderr
 
 
 @pytest.mark.parametrize("shell_name", ["bash", "zsh", "sh"])

@@ -4,19 +4,15 @@
 """
 
 import argparse
-import os
 import re
-import shutil
-import sys
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 from trundle.checkouts import BUILT_IN
-from trundle.diagnostics import UsageError
 from trundle.packages import STOCK
 from trundle.repositories import ROSDISTROS, shipped_index
 
 from ..fetching import defaults, fetch_packages
+from .own_program import run_own
 
 EXAMPLES = """
   apt install ros-noetic-turtlebot3-gazebo
@@ -43,15 +39,15 @@ def main(args: argparse.Namespace) -> int:
         if own[:1] == ["rosdep"]:
             return int(args.run_command(["originals.rosdep"], own[1:]))
         if own[:1] not in (["apt"], ["apt-get"]) or not any(map(_NAME.fullmatch, own)):
-            return _run_own(program, words)
+            return run_own(program, words)
         program, *words = own
     ros = [match for match in map(_NAME.fullmatch, words) if match is not None]
     if "install" not in words or not ros:
-        return _run_own(program, words)
+        return run_own(program, words)
     code = fetch_packages(_package_names(match[2] for match in ros), _options(words, ros[0][1]))
     others = [word for word in words if not _NAME.fullmatch(word)]
     if any(not word.startswith("-") for word in others[others.index("install") + 1 :]):
-        return _run_own(args.program, [*(["apt-get"] if args.program == "sudo" else []), *others]) or code
+        return run_own(args.program, [*(["apt-get"] if args.program == "sudo" else []), *others]) or code
     return code
 
 
@@ -64,23 +60,3 @@ def _package_names(names: Iterable[str]) -> list[str]:
     """Return the names of packages, which apt writes with - for _."""
     known = {name.replace("_", "-"): name for name in (*shipped_index().names(), *STOCK, *BUILT_IN)}
     return [known.get(name, name.replace("-", "_")) for name in names]
-
-
-def _run_own(program: str, words: Sequence[str]) -> int:
-    """Become the machine's own program.
-
-    Raises:
-        UsageError: it has none.
-    """
-    folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
-    rest = os.pathsep.join(folder for folder in folders if not _is_ours(Path(folder or ".")))
-    found = shutil.which(program, path=rest)
-    if found is None:
-        raise UsageError(f"this machine has no {program}; only packages of ROS are installed here")
-    sys.stdout.flush()
-    os.execv(found, [program, *words])
-
-
-def _is_ours(folder: Path) -> bool:
-    """True for the folder of commands of `trundle shell`."""
-    return folder.name == "bin" and folder.parent.name.startswith("trundle-shell-")

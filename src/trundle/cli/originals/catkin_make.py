@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 from trundle.diagnostics import UsageError
 
+from .own_program import find_own
+
 if TYPE_CHECKING:
     from trundle.catkin import CppTarget, PackageBuild, Workspace
 
@@ -111,16 +113,9 @@ def _lines(build: "PackageBuild", workspace: "Workspace") -> list[str]:
 def _way_out(unbuilt: "list[CppTarget]") -> str:
     """Return a line on what is left out, and how it could be built here."""
     count = f"{len(unbuilt)} C++ target{'s are' if len(unbuilt) > 1 else ' is'} not built; all else runs as it is"
-    original = _original()
+    original = find_own("catkin_make")
     if original is not None:
         return f"-- {count}; {original} compiles them"
     compiler = next((found for name in _COMPILERS if (found := shutil.which(name))), None)
     has = f"there is a compiler, {compiler}, but no" if compiler else "there is neither a C++ compiler nor"
     return f"-- {count}; {has} catkin here, which ROS 1 brings"
-
-
-def _original() -> str | None:
-    """Return the path of an installed catkin_make, beside those of this shell."""
-    own = os.environ.get("TRUNDLE_SHELL", "")
-    folders = [f for f in os.environ.get("PATH", "").split(os.pathsep) if not own or not f.startswith(own)]
-    return shutil.which("catkin_make", path=os.pathsep.join(folders))

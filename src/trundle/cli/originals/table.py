@@ -44,6 +44,7 @@ ORIGINALS: dict[str, tuple[str, ...]] = {
     "view_frames": ("tf", "tree", "-o", "frames.svg"),
     "wstool": ("originals.wstool",),
     "xacro": ("xacro",),
+    "xterm": ("originals.xterm", "xterm"),
 }
 """Command → module in `trundle.cli` and the arguments before those given."""
 
