@@ -326,6 +326,17 @@ def test_a_name_with_a_slip_is_told_the_nearest(tmp_path: Path) -> None:
     )
     with pytest.raises(UsageError, match=r"no model 'rp2' \(did you mean 'rp2w'\?\); looked in "):
         packages.find_model("rp2")
+    assert "did you mean" not in packages.why_not_found("hunt"), "too different"
+
+
+def test_a_published_name_is_no_slip_of_another(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>hector_quadrotor_description</name></package>")
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=tmp_path)
+
+    why = packages.why_not_found("hector_sensors_description")
+
+    assert "did you mean" not in why
+    assert "it is published at https://github.com/tu-darmstadt-ros-pkg/hector_models" in why
 
 
 def test_a_files_own_workspace_wins_over_a_package_of_the_same_name_on_the_path(

@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError, nearest
+from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError, did_you_mean
 from trundle.files import is_stream
 from trundle.repositories import repository_hint
 
@@ -32,8 +32,6 @@ _LONGEST = 200
 _FUEL_MODEL = re.compile(r"/models/([^/]+)(?:/(?:\d+|tip)(?:/files(/.*[^/]))?)?/?$")
 """Path of a model on Fuel, or of a file of one of its versions."""
 _MAX_NAMED = 3
-_MAX_SLIP = 2
-"""Most letters by which a name that was meant is longer or shorter."""
 
 
 class Packages:
@@ -134,7 +132,9 @@ class Packages:
             rest = f" and {len(passed_over) - _MAX_NAMED} more" if len(passed_over) > _MAX_NAMED else ""
             where += f", but not in {', '.join(passed_over[:_MAX_NAMED])}{rest}"
         where += "; put the folder that holds it on ROS_PACKAGE_PATH"
-        return f"no package {_shown(name)!r}{_meant(name, self._ros.all())}; {where}{repository_hint(name)}"
+        hint = repository_hint(name)
+        near = "" if hint else did_you_mean(name, self._ros.all())
+        return f"no package {_shown(name)!r}{near}; {where}{hint}"
 
     def find_model(self, name: str) -> Path:
         """Return the folder of `model://name`.
@@ -144,7 +144,9 @@ class Packages:
         """
         folder = self._gazebo.find_model(name)
         if folder is None:
-            raise UsageError(f"no model {_shown(name)!r}{_meant(name, self.models())}; {self._where_models_are()}")
+            raise UsageError(
+                f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
+            )
         return folder
 
     def add_models(self, folder: Path) -> None:
@@ -281,7 +283,7 @@ class Packages:
         folder = package or self._gazebo.find_model(name) or self.find_package(name)
         if folder is not None:
             return folder, folder / inside
-        no_model = f"no model {_shown(name)!r}{_meant(name, self.models())}; {self._where_models_are()}"
+        no_model = f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
         looked = self.why_not_found(name) if scheme == "package" else no_model
         raise DescriptionError(at, f"{_shown(uri)}: {looked}")
 
@@ -302,11 +304,6 @@ class Packages:
     def _where_models_are(self) -> str:
         looked = ", ".join(map(str, self._gazebo.model_folders))
         return f"looked in {looked}; put its folder's parent on GAZEBO_MODEL_PATH"
-
-
-def _meant(name: str, known: Mapping[str, Path]) -> str:
-    near = nearest(name, known)
-    return "" if near is None or abs(len(near) - len(name)) > _MAX_SLIP else f" (did you mean {near!r}?)"
 
 
 def _shown(name: str) -> str:
