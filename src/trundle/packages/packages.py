@@ -13,6 +13,7 @@ from trundle.repositories import repository_hint
 
 from .configured_files import write_configured_files
 from .confinement import Confinement
+from .env_hooks import hook_variables
 from .gazebo_paths import SHIPPED, GazeboPaths, is_stand_in
 from .package_cache import PackageCache
 from .ros_packages import RosPackages
@@ -109,6 +110,14 @@ class Packages:
     def configured_files(self) -> list[Path]:
         """Files that `find_folder` wrote."""
         return [path for written in self._cache.configured.values() for path in written]
+
+    def hook_variables(self) -> dict[str, dict[str, str]]:
+        """Return the variables that environment hooks of packages set, and that the environment lacks, by package."""
+        found: dict[str, dict[str, str]] = {}
+        for name, folder in self.ros_packages().items():
+            if variables := hook_variables(name, folder, self.find_package, self._environment):
+                found[name] = variables
+        return found
 
     def skipped_folders(self) -> Mapping[Path, str]:
         """Return the folders skipped by the search, with the reason."""

@@ -68,6 +68,8 @@ def check_launch(
         files, texts = [], [(piped.name, text)]
     else:
         packages = packages.around(Path(file))
+        for variables in packages.hook_variables().values():
+            environment = {**environment, **variables}
         files, texts = [Path(file)], []
     plan = read_launch(
         files,

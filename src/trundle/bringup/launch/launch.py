@@ -70,6 +70,9 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     request = LaunchRequest() if options.core_only else read_request(words, packages)
     start = request.files[0] if request.files else Path.cwd()
     packages = packages.around(start)
+    for package, variables in packages.hook_variables().items():
+        env.update(variables)
+        show.line(f"set {', '.join(variables)} as the environment hooks of {package} do")
     if options.only == "arguments":
         for file in request.files:
             declared = read_arguments(file, packages=packages, report=report, arguments=request.arguments, env=env)
