@@ -124,6 +124,8 @@ def test_division_is_pythons_own_where_it_is_imported() -> None:
         ("import Tkinter\n", True),
         ("d = {}\nd.has_key(1)\n", True),
         ("#!/usr/bin/env python2.7\nprint('a')\n", True),
+        ("import time\nstart = time.clock()\n", True),
+        ("import time\ntry:\n    now = time.clock()\nexcept AttributeError:\n    now = time.perf_counter()\n", False),
         ("print('a', 7 / 2)\n", False),
         ("try:\n    import Queue\nexcept ImportError:\n    import queue\n", False),
         ("try:\n    import urllib.parse as urlparse\nexcept ImportError:\n    import urlparse\n", False),

@@ -14,7 +14,7 @@ from types import CodeType
 from trundle.files import read_file
 from trundle.ownership import home_folder, is_owned_by_user
 
-_VERSION = 2
+_VERSION = 3
 """Raised when the same file is translated otherwise."""
 _IS_PYTHON3 = b"3"
 """Kept for a file that needs no translation."""

@@ -8,9 +8,10 @@ _SHEBANG = re.compile(r"#!.*\bpython2(\.\d+)?\s*$", re.MULTILINE)
 _HINTS = re.compile(
     r"\b(?:raw_input|xrange|unicode|unichr|basestring|long|execfile|cmp|has_key|iter(?:items|keys|values)|__metaclass__"
     r"|setdefaultencoding|maxint|Tkinter|tkMessageBox|tkFileDialog|Queue|cPickle|StringIO|cStringIO|ConfigParser"
-    r"|urllib2|urlparse|httplib|thread|commands|__builtin__|SocketServer|BaseHTTPServer|reduce|reload|file)\b"
+    r"|urllib2|urlparse|httplib|thread|commands|__builtin__|SocketServer|BaseHTTPServer|reduce|reload|file"
+    r"|time\.clock)\b"
 )
-_BOTH = re.compile(r"\bversion_info\b|\bPY[23]\b|\bsix\b|\bfuture\.|\bbuiltins\b")
+_BOTH = re.compile(r"\bversion_info\b|\bPY[23]\b|\bsix\b|\bfuture\.|\bbuiltins\b|\bperf_counter\b|\bprocess_time\b")
 """Names in programs that are made for both."""
 _NAMES = frozenset(
     {"raw_input", "xrange", "unicode", "unichr", "basestring", "long", "execfile", "cmp", "reduce", "reload", "file"}
@@ -46,6 +47,8 @@ def _uses_python2(tree: ast.Module) -> bool:
             case ast.Import(names=aliases) if any(alias.name in _MODULES for alias in aliases):
                 return True
             case ast.ImportFrom(module=str(module), level=0) if module in _MODULES:
+                return True
+            case ast.Call(func=ast.Attribute(value=ast.Name(id="time"), attr="clock")):  # gone since Python 3.8
                 return True
             case ast.Attribute(attr=name) if name in _ATTRIBUTES:
                 names.add(name)
