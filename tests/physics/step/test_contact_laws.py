@@ -1,7 +1,8 @@
 """Contact laws: they act between collision detection and solver, in every step, in C."""
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import mujoco
@@ -13,6 +14,7 @@ from trundle.diagnostics import TrundleError
 from trundle.physics import _contact_laws
 from trundle.physics.step import contact_laws
 from trundle.simulation import Simulation
+from trundle.spatial import Twist
 
 BALL = """<model name="ball"><pose>{} 0 0.6 0 0 0</pose><link name="l"><inertial><mass>2</mass><inertia><ixx>0.01</ixx>
 <iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name="c"><geometry><sphere><radius>0.1</radius></sphere>
@@ -97,17 +99,14 @@ def test_a_bouncing_ball_falls_asleep_in_the_end(ball: Simulation) -> None:
     assert ball.engine.asleep == 1
 
 
-def _looks_ahead(model: mujoco.MjModel) -> bool:
-    return bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
+PLATE = """<model name="plate"><static>1</static><link name="l"><collision name="c"><geometry><box>
+<size>2 2 0.002</size></box></geometry></collision></link></model>"""
+SMALL_BALL = BALL.format(0, "").replace("<radius>0.1<", "<radius>0.005<")
 
 
-def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tmp_path: Path) -> None:
-    """Half thicknesses of 5 mm and 1 mm are gone through from 3.3 m/s on; half of that is reached after 0.167 s."""
-    plate = """<model name="plate"><static>1</static><link name="l"><collision name="c"><geometry><box>
-    <size>2 2 0.002</size></box></geometry></collision></link></model>"""
-    ball = BALL.format(0, "").replace("<radius>0.1<", "<radius>0.005<")
-    sim = _load(tmp_path, ball + plate)
-    model = sim.engine.compiled.model
+@contextmanager
+def _noted_steps() -> Generator[list[tuple[float, bool]]]:
+    """The time of each step, and whether it looks ahead."""
     steps: list[tuple[float, bool]] = []
 
     def note(model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -115,9 +114,21 @@ def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tm
 
     mujoco.set_mjcb_control(note)
     try:
-        sim.step(1000)
+        yield steps
     finally:
         mujoco.set_mjcb_control(None)
+
+
+def _looks_ahead(model: mujoco.MjModel) -> bool:
+    return bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
+
+
+def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tmp_path: Path) -> None:
+    """Half thicknesses of 5 mm and 1 mm are gone through from 3.3 m/s on; half of that is reached after 0.167 s."""
+    sim = _load(tmp_path, SMALL_BALL + PLATE)
+    model = sim.engine.compiled.model
+    with _noted_steps() as steps:
+        sim.step(1000)
 
     slow = {looks for at, looks in steps if 0.001 < at < 0.16}
     fast = {looks for at, looks in steps if 0.17 < at < 0.34}
@@ -125,6 +136,22 @@ def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tm
     assert sim["ball"].pose.position[2] == pytest.approx(0.006, abs=1e-4)
     assert not steps[-1][1], "it lies there"
     assert _looks_ahead(model), "for others that step this model"
+
+
+def test_a_world_with_something_thin_looks_ahead_after_its_state_was_written(tmp_path: Path) -> None:
+    sim = _load(tmp_path, SMALL_BALL + PLATE)
+    with _noted_steps() as steps:
+        for _ in range(20):
+            sim.step(1)
+        sim["ball"].set_twist(Twist(linear=(0.0, 0.0, -3.0)))
+        sim.step(2)
+        state = sim.save()
+        sim.step(1)
+        sim.restore(state)
+        sim.step(1)
+    assert [looks for _, looks in steps] == [True] + 19 * [False] + 4 * [True]
+    sim.run(0.5)
+    assert sim["ball"].pose.position[2] == pytest.approx(0.006, abs=1e-4)
 
 
 @pytest.mark.parametrize(

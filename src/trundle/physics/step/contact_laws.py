@@ -58,6 +58,8 @@ class ContactLaws:
         self._head[7] = data._address
         slides = bool((compiled.model.geom_bodyid > 0).any())
         decays = bool(find_table(compiled.model, "damping").any())
+        self._is_slow = False
+        """True if no step needs speculative contacts before the state is written again or a law asks for them."""
         self._always = slides or decays or bool(self._head[4:7].any())
 
     @property
@@ -75,11 +77,21 @@ class ContactLaws:
         _contact_laws.install()
 
     def look_ahead(self) -> None:
-        """Enable speculative contacts for the next step where the model needs them; the laws switch them while
+        """Enable speculative contacts, where the model needs them, for all who share it; the laws switch them while
         stepping.
         """
         if self._head[8] > 0.0:
+            self._is_slow = not self._model.opt.enableflags & _SPECULATIVE
             self._model.opt.enableflags |= _SPECULATIVE
+
+    def resume(self) -> None:
+        """Return to what the laws decided at the last step, before the next one."""
+        if self._is_slow:
+            self._model.opt.enableflags &= ~_SPECULATIVE
+
+    def expect_any_speed(self) -> None:
+        """Look ahead at the next step, because the state was written."""
+        self._is_slow = False
 
     def set_surface_motions(self, motions: "Mapping[int, LinkGrip]") -> None:
         """Set the surface motion of bodies by id; all others are ordinary."""

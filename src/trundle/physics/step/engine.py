@@ -77,7 +77,7 @@ class Engine:
         self._data = mujoco.MjData(compiled.model)
         self._sleep_policy = SleepPolicy(compiled, self._data)
         self.reader = StateReader(compiled, self._data)
-        self.writer = StateWriter(compiled, self._data, wake=self._sleep_policy.wake, changed=self.reader.invalidate)
+        self.writer = StateWriter(compiled, self._data, wake=self._sleep_policy.wake, changed=self._state_changed)
         self.motors = Motors(compiled, self._data)
         self._laws = ContactLaws(compiled, self._data)
         self.motors.enable(always=self._laws.is_active)
@@ -100,6 +100,11 @@ class Engine:
         self._steps = 0
         self.writer.was_teleported = True
         self.motors.switch_off()
+        self._state_changed()
+
+    def _state_changed(self) -> None:
+        """Forget what was derived from the state, which was written."""
+        self._laws.expect_any_speed()
         self.reader.invalidate()
 
     def step(self, count: int, each: EachStep | None = None) -> int:
@@ -117,6 +122,7 @@ class Engine:
             self._separate()
         if self._laws.is_active:
             self._laws.install()
+        self._laws.resume()
         efforts, first = self._data.qfrc_actuator.copy(), self._steps
         motors = self.motors.save() if each is not None and each.actions else None
         stepper = None if each is None else self._stepper(each)
@@ -176,7 +182,7 @@ class Engine:
         self._steps = first
         if motors is not None:
             self.motors.restore(motors)
-        self.reader.invalidate()
+        self._state_changed()
 
     def _find_divergence(self, count: int, stepper: Stepper | None, roll_back: Callable[[], None]) -> Divergence:
         """Go back, and repeat the steps one by one up to the bad one; afterwards the state is restored."""
@@ -271,7 +277,7 @@ class Engine:
         self._steps = old._steps
         self.writer.was_teleported = True
         self.motors.transfer_from(old.motors, actuators)
-        self.reader.invalidate()
+        self._state_changed()
 
     def save(self) -> EngineState:
         """Return the complete state."""
@@ -331,7 +337,7 @@ class Engine:
     def set_row_state(self, state: NDArray[np.float64]) -> None:
         """Show the state of a row of a batch (mjSTATE_INTEGRATION); the motors stay."""
         mujoco.mj_setState(self._model, self._data, state, STATE)
-        self.reader.invalidate()
+        self._state_changed()
 
     @property
     def checkpoint_bytes(self) -> int:
@@ -352,4 +358,4 @@ class Engine:
         self.writer.was_teleported = state.was_teleported
         self.motors.enable(always=self._laws.is_active)
         self.motors.restore(state.motors)
-        self.reader.invalidate()
+        self._state_changed()
