@@ -38,6 +38,8 @@ if TYPE_CHECKING:  # a world without belts, or alone, does not load these
 _DATA_BYTES = 450_000
 """Size of a copied `MjData` beside its buffer and arena, as measured: the struct with its statistics of the solver
 (160 kB in MuJoCo 4), and what the Python binding keeps."""
+_MANY_SPEEDS = 10_000
+"""Numbers from which on BLAS uses several threads, whose waiting for each other may take longer than a step."""
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 MAX_SPEED = 1e6
 """Speed [m/s or rad/s] from which on the physics is unstable; MuJoCo's own limit is 1e10."""
@@ -163,7 +165,9 @@ class Engine:
                 return True
         speeds = self._data.qvel
         # For most worlds the sum of squares decides, in a tenth of the time.
-        return not speeds.dot(speeds) < MAX_SPEED**2 and not bool((np.abs(speeds) < MAX_SPEED).all())
+        if len(speeds) < _MANY_SPEEDS and speeds.dot(speeds) < MAX_SPEED**2:
+            return False
+        return not bool((np.abs(speeds) < MAX_SPEED).all())
 
     def _separate(self) -> None:
         self.writer.was_teleported = False
