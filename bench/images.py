@@ -52,7 +52,7 @@ def _rate(file: str, renderer: RendererName) -> float:
         snapshot = sim.snapshot()
         start = time.perf_counter()
         for camera in cameras:
-            camera.prepare(snapshot)
+            camera.request(snapshot)
         for camera in cameras:
             camera.measure(snapshot)
         rates.append(len(cameras) / (time.perf_counter() - start))

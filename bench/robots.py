@@ -18,7 +18,9 @@ from msgspec.structs import replace
 import trundle
 from bench.loop import bare_loop, cpu_rate
 from bench.table import Row
+from trundle.bringup.renderers import RENDERERS
 from trundle.diagnostics import Diagnostics
+from trundle.sensors import MountedSensors
 from trundle.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -62,6 +64,7 @@ def run() -> list[Row]:
         ratio = cost / costs[what, 1]
         rows.append(Row(f"one of {count} RP2W {what}", cost, "µs a step", "one alone", ratio))
     most = _COUNTS[-1]
+    rows.append(_with_cameras(most))
     start = time.process_time()
     rolling_robots(most, rolling=0).step(1)
     took = time.process_time() - start
@@ -88,6 +91,18 @@ def _beside_loop(sim: Simulation, count: int, steps: int) -> Row:
     pairs = [(cpu_rate(sim.step, steps), cpu_rate(loop, steps)) for _ in range(_PAIRS)]
     value, ratio = statistics.median(a for a, _ in pairs), statistics.median(a / b for a, b in pairs)
     return Row(f"the same {count} (Gazebo 11: {_GAZEBO[count]:,})", value, "steps/s", "mj_step on the same", ratio)
+
+
+def _with_cameras(count: int) -> Row:
+    """Robots whose cameras are always on and that nobody reads."""
+    plain, equipped = rolling_robots(count, rolling=count), rolling_robots(count, rolling=count)
+    MountedSensors(equipped, RENDERERS["cpu"]).start()
+    for sim in (plain, equipped):
+        sim.step(1024)
+    pairs = [(cpu_rate(equipped.step, 200), cpu_rate(plain.step, 200)) for _ in range(_PAIRS)]
+    value, ratio = statistics.median(a for a, _ in pairs), statistics.median(a / b for a, b in pairs)
+    name = f"{count} RP2W rolling, {2 * count} cameras that nobody reads"
+    return Row(name, value, "steps/s", "the same without cameras", ratio)
 
 
 def rolling_robots(count: int, *, rolling: int) -> Simulation:

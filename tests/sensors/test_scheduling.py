@@ -112,10 +112,13 @@ def test_a_sensor_that_nobody_wants_measures_nothing_and_costs_no_stride(load: A
 
 
 @pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
-def test_a_sensor_that_is_always_on_measures_for_nobody(load: Any, type_: str) -> None:
+def test_a_sensor_that_is_always_on_keeps_its_schedule_and_measures_if_its_next_reading_needs_it(
+    load: Any, type_: str
+) -> None:
     sim, (mounted,) = load(of_type(type_, more="<always_on>1</always_on>"))
     taken: list[int] = []
     take = mounted.measure
+    mounted.listen(lambda _: None, enabled=lambda: sim.time_ns > 70 * MS)
 
     def counted(snapshot: Any) -> Any:
         taken.append(snapshot.time_ns // MS)
@@ -124,7 +127,8 @@ def test_a_sensor_that_is_always_on_measures_for_nobody(load: Any, type_: str) -
     mounted.measure = counted
     sim.run(0.1)
 
-    assert taken == [20, 40, 60, 80, 100]
+    assert taken == ([20, 40, 60, 80, 100] if mounted.has_history else [80, 100])
+    assert mounted.reading_count == 5
 
 
 @pytest.mark.parametrize("type_", UNHEARD)

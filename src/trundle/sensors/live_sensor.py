@@ -49,7 +49,10 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
 
 
 class LiveSensor(Generic[Reading]):
-    """Hook that measures when it is due and a listener is active; otherwise it costs nothing."""
+    """Hook that measures when it is due and a listener is active; otherwise it costs nothing.
+
+    An always-on sensor keeps its schedule without listeners: it counts what it does not measure.
+    """
 
     has_history: ClassVar[bool] = False
     """A reading depends on what was before it, and so on measuring all the time."""
@@ -74,7 +77,7 @@ class LiveSensor(Generic[Reading]):
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None
         self.reading_count = 0
-        """Readings taken."""
+        """Readings that were due, measured or not."""
         self._listeners: list[_Listener[Reading]] = []
 
     @property
@@ -131,15 +134,22 @@ class LiveSensor(Generic[Reading]):
         if all(listener.call != call for listener in self._listeners):
             self._listeners.append(_Listener(call, enabled))
 
+    @property
+    def has_listeners(self) -> bool:
+        """True if a listener is active."""
+        return any(listener.enabled() for listener in self._listeners)
+
     def enabled(self) -> bool:
         """True if the sensor is always on or a listener is active."""
-        asked = self.sensor.always_on or any(listener.enabled() for listener in self._listeners)
-        return asked and self._link_exists
+        return (self.sensor.always_on or self.has_listeners) and self._link_exists
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Measure and pass the reading to the listeners."""
-        reading = self.measure(snapshot)
         self.reading_count += 1
+        if not (self.has_history or self.has_listeners):
+            self.skip()
+            return
+        reading = self.measure(snapshot)
         profiler = None if self._simulation is None else self._simulation.profiler
         if profiler is not None:
             profiler.lap(self)
@@ -148,6 +158,9 @@ class LiveSensor(Generic[Reading]):
                 listener.call(reading)
         if profiler is not None:
             profiler.lap(StridePart.LISTENERS)
+
+    def skip(self) -> None:
+        """Leave out a reading that is due and has no listener."""
 
     def measure(self, snapshot: Snapshot) -> Reading:
         """Return a reading of the snapshot."""

@@ -387,13 +387,13 @@ def test_a_camera_is_drawn_only_while_it_is_watched(tmp_path: Path) -> None:
     shown = Shown(sim, sensors)
     shown.server.watched = set()
     sim.run(0.5)
-    assert sensors[0].image_count == 0
+    assert sensors[0].reading_count == 0
 
     shown.server.watched = {"/eye/l/cam/image_raw"}
     sim.run(0.5)
 
     assert {topic for topic, _, _ in shown.server.images} == shown.server.watched
-    assert len(shown.server.images) == sensors[0].image_count == 3
+    assert len(shown.server.images) == sensors[0].reading_count == 3
     assert shown.server.images[-1][2].shape == (6, 8, 3)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from trundle import sensors
 from trundle.diagnostics import Diagnostics, Source
-from trundle.model import CameraOptics, Inertial, Link, Model, PhysicsSettings, Sensor, World
+from trundle.model import CameraOptics, Inertial, Link, Model, Noise, PhysicsSettings, Sensor, World
 from trundle.render import Intrinsics, Picture, Scene
 from trundle.sensors import CameraReading, CameraSensor, mount_cameras
 from trundle.simulation import Simulation
@@ -69,6 +69,11 @@ def mounted(*sensors_: Sensor) -> tuple[Simulation, list[CameraSensor], Counting
     return sim, cameras, renderer
 
 
+def watch(cameras: Sequence[CameraSensor]) -> None:
+    for eye in cameras:
+        eye.listen(lambda _: None)
+
+
 def test_the_front_door_exports_in_order() -> None:
     assert sensors.__all__ == sorted(sensors.__all__)
     assert all(hasattr(sensors, name) for name in sensors.__all__)
@@ -86,14 +91,32 @@ def test_a_camera_nobody_looks_at_costs_nothing() -> None:
 
     sim.engine.step = counted  # type: ignore[method-assign]
     sim.run(1.0)
-    assert (eye.image_count, renderer.updates, renderer.views) == (0, [], [])
+    assert (eye.reading_count, renderer.updates, renderer.views) == (0, [], [])
     assert strides == [1000]
 
 
-def test_a_camera_that_is_always_on_takes_pictures_for_nobody() -> None:
-    sim, (eye,), _ = mounted(camera(always_on=True))
+def test_a_camera_that_is_always_on_counts_pictures_that_nobody_looks_at_and_draws_none() -> None:
+    sim, (eye,), renderer = mounted(camera(always_on=True))
+    eye.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
     sim.run(1.0)
-    assert eye.image_count == 30
+    assert (eye.reading_count, renderer.updates, renderer.views) == (30, [], [])
+
+
+def test_pictures_of_a_camera_that_is_always_on_do_not_depend_on_when_somebody_began_to_look() -> None:
+    """The same instants, with the same noise."""
+    noisy = replace(OPTICS, noise=Noise(stddev=0.1))
+    seen: list[list[tuple[int, bytes]]] = []
+    for start_s in (0.0, 0.15):
+        sim, (eye,), _ = mounted(camera(cameras=(noisy,), update_rate_hz=10.0, always_on=True))
+        taken: list[tuple[int, bytes]] = []
+        eye.listen(
+            lambda reading, taken=taken: taken.append((reading.time_ns, reading.rgb.tobytes())),
+            enabled=lambda sim=sim, start_s=start_s: sim.time_ns > start_s * 1e9,
+        )
+        sim.run(0.4)
+        seen.append(taken)
+    assert len(seen[0]) == 4
+    assert seen[0][1:] == seen[1]
 
 
 def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_instant() -> None:
@@ -101,7 +124,7 @@ def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_
     taken: list[CameraReading] = []
     eye.listen(taken.append)
     sim.run(10.0)
-    assert len(taken) == eye.image_count == len(renderer.views) == 300
+    assert len(taken) == eye.reading_count == len(renderer.views) == 300
     period_ns = 1e9 / 30
     assert all(0 <= reading.time_ns - (i + 1) * period_ns < 1.001 * MS for i, reading in enumerate(taken))
     assert all(reading.time_ns % MS == 0 for reading in taken)
@@ -125,7 +148,8 @@ def test_cameras_that_are_due_together_are_drawn_by_one_call_and_told_of_in_thei
 def test_large_pictures_are_not_all_kept_at_once() -> None:
     """Three of two million pixels each: a call draws two."""
     large = replace(OPTICS, width_px=2048, height_px=1024)
-    sim, _, renderer = mounted(*(camera(name, cameras=(large,), always_on=True) for name in "abc"))
+    sim, cameras, renderer = mounted(*(camera(name, cameras=(large,)) for name in "abc"))
+    watch(cameras)
     sim.run(0.04)
     assert renderer.calls == [2, 1]
     assert len(renderer.updates) == 1
@@ -134,7 +158,8 @@ def test_large_pictures_are_not_all_kept_at_once() -> None:
 def test_sizes_are_drawn_apart() -> None:
     wide = replace(OPTICS, width_px=9)
     kinds = {"a": OPTICS, "b": wide, "c": OPTICS}
-    sim, _, renderer = mounted(*(camera(name, cameras=(each,), always_on=True) for name, each in kinds.items()))
+    sim, cameras, renderer = mounted(*(camera(name, cameras=(each,)) for name, each in kinds.items()))
+    watch(cameras)
     sim.run(0.04)
     assert renderer.calls == [2, 1]
 
@@ -143,7 +168,7 @@ def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
     sim, cameras, renderer = mounted(camera("left"), camera("right"))
     sim.step()
     for eye in cameras:
-        eye.prepare(sim.snapshot())
+        eye.request(sim.snapshot())
     left, right = (eye.measure(sim.snapshot()) for eye in cameras)
     assert left.rgb.shape == right.rgb.shape == (6, 8, 3)
     assert renderer.calls == [1, 1]
@@ -152,7 +177,7 @@ def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
 def test_a_rate_of_zero_is_thirty() -> None:
     sim, (eye,), _ = mounted(camera(update_rate_hz=0.0, always_on=True))
     sim.run(1.0)
-    assert eye.image_count == 30
+    assert eye.reading_count == 30
 
 
 def test_a_camera_wakes_when_somebody_looks_and_sleeps_again() -> None:
@@ -176,16 +201,15 @@ def test_only_who_wants_a_picture_gets_it_and_it_is_taken_once() -> None:
     eye.listen(second.append)
     eye.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
     sim.run(0.5)
-    assert len(first) == eye.image_count == 5
+    assert len(first) == eye.reading_count == 5
     assert all(a is b for a, b in zip(first, second, strict=True))
 
 
 def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
     tilted = Pose.from_rpy(0.1, 0.0, 0.05, 0.0, 0.3, 0.0)
     optics = replace(OPTICS, sensor_from_camera=Pose((0.0, 0.02, 0.0)))
-    sim, (eye,), renderer = mounted(
-        camera(link_from_sensor=tilted, cameras=(optics,), update_rate_hz=10.0, always_on=True)
-    )
+    sim, (eye,), renderer = mounted(camera(link_from_sensor=tilted, cameras=(optics,), update_rate_hz=10.0))
+    watch([eye])
     sim.run(0.1)
     ((view, intrinsics),) = renderer.views
     expected = sim["m"].link("head").pose @ tilted @ Pose((0.0, 0.02, 0.0))
@@ -199,8 +223,10 @@ def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
 
 def test_taking_pictures_does_not_change_the_world() -> None:
     ends = []
-    for on in (False, True):
-        sim, _, _ = mounted(camera(always_on=on))
+    for is_watched in (False, True):
+        sim, cameras, _ = mounted(camera())
+        if is_watched:
+            watch(cameras)
         sim.run(1.0)
         ends.append(sim.snapshot())
     assert ends[0].poses.tobytes() == ends[1].poses.tobytes()

@@ -58,7 +58,7 @@ class Joint:
             name: of the sensor.
             settings: axes, direction and noise.
             update_rate: [Hz]; 0: at every step.
-            always_on: measure even without listeners.
+            always_on: keep the schedule of readings without listeners.
             topic: to publish on; empty: Gazebo's name.
 
         Raises:

@@ -73,7 +73,7 @@ class Link(ShapeAdder["Link"]):
             settings: of its type, from `trundle.model`: `CameraOptics`, `RangeScan`, `ImuNoise`, …; None: SDF's own.
             pose: in the link's frame.
             update_rate: [Hz]; 0: at every step.
-            always_on: measure even without listeners.
+            always_on: keep the schedule of readings without listeners.
             visualize: show its rays.
             topic: to publish on; empty: Gazebo's name.
 

@@ -81,8 +81,6 @@ class CameraSensor(LiveSensor[CameraReading]):
         )
         self.projection = projection_of(optics, self.intrinsics)
         self._spot = mount
-        self.image_count = 0
-        """Images rendered."""
         self.scene = scene
         self.multicamera: Sequence[CameraSensor] = (self,)
         """All cameras of its sensor, which share one clock."""
@@ -133,17 +131,25 @@ class CameraSensor(LiveSensor[CameraReading]):
         """Render an image."""
         return CameraReading(time_ns=snapshot.time_ns, rgb=self.noisy(self.render(snapshot).rgb))
 
+    def skip(self) -> None:
+        if self.optics.noise != Noise():
+            self.noise_seed()  # an image's noise depends on its number alone
+
     def prepare(self, snapshot: Snapshot) -> None:
-        """Request rendering, batched with the other cameras that are due."""
+        """Request rendering for listeners, batched with the other cameras that are due."""
+        if self.has_listeners:
+            self.request(snapshot)
+
+    def request(self, snapshot: Snapshot) -> None:
+        """Request rendering, batched with the requests of other cameras."""
         self._request = self.scene.request(
             snapshot, self._views(snapshot), depth=self.needs_depth, segmentation=self.needs_segmentation, camera=self
         )
 
     def render(self, snapshot: Snapshot) -> Picture:
         """Return the rendered image of the camera."""
-        self.image_count += 1
         if self._request is None or self._request.snapshot is not snapshot:
-            self.prepare(snapshot)
+            self.request(snapshot)
         assert self._request is not None
         request, self._request = self._request, None
         return self.projection.compose(self.scene.fetch(request))
