@@ -17,6 +17,7 @@ from trundle.spatial import (
     rotate,
     slerp,
 )
+from trundle.spatial.quaternions import rotated_axes
 
 _angle = st.floats(-math.pi, math.pi)
 _quaternions = st.builds(quaternion_from_rpy, _angle, _angle, _angle)
@@ -58,3 +59,9 @@ def test_an_axis_stays_where_it_is() -> None:
     assert turned == pytest.approx(axis)
     across = rotate(quaternion_from_axis_angle((0.0, 0.0, 1.0), 0.4), (1.0, 0.0, 0.0))
     assert math.acos(dot(across, (1.0, 0.0, 0.0))) == pytest.approx(0.4)
+
+
+@given(st.tuples(*[st.floats(-1, 1)] * 4))
+def test_axes_are_rotated_to_the_bit_as_other_vectors(q: Quaternion) -> None:
+    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    assert list(map(repr, rotated_axes(q))) == [repr(rotate(q, axis)) for axis in axes]

@@ -46,7 +46,8 @@ class RangeSensor(LiveSensor[RangeReading]):
 
     def measure(self, snapshot: Snapshot) -> RangeReading:
         """Cast the scan from the sensor's pose."""
-        return self.measure_from(self.world_from_link(snapshot), snapshot.time_ns, self._noise)
+        world_from_link = self.world_from_link(snapshot) if self._handle is None else self._handle.pose
+        return self.measure_from(world_from_link, snapshot.time_ns, self._noise)
 
     def measure_from(self, world_from_link: Pose, time_ns: int, noise: NoiseSource) -> RangeReading:
         """Cast the scan in the simulation's current state.
@@ -61,11 +62,12 @@ class RangeSensor(LiveSensor[RangeReading]):
         met = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
         found, retros = met.distances, met.retros
         far, near = found >= scan.max_m, found <= scan.min_m
-        found[far], found[near] = np.inf, -np.inf
-        retros[far | near] = 0.0
+        missed = far | near
         if not noise.is_silent:
-            seen = np.isfinite(found)
-            found[seen] = np.clip(noise.apply(found[seen], time_ns), scan.min_m, scan.max_m)
+            seen = ~missed
+            noisy = noise.apply(found[seen], time_ns)
+            found[seen] = np.minimum(np.maximum(noisy, scan.min_m), scan.max_m)  # np.clip takes twice as long
+        found[far], found[near], retros[missed] = np.inf, -np.inf, 0.0
         shape = (scan.vertical.values, scan.horizontal.values)
         return RangeReading(time_ns=time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape))
 

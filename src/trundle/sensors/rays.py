@@ -29,8 +29,6 @@ class RayHits(Struct, frozen=True, eq=False):
     """(rays,) Distance [m]; inf without a hit."""
     retros: _Array
     """(rays,) laser_retro of the surface; 0 without a hit."""
-    links: NDArray[np.intp]
-    """(rays,) Link hit; −1 without a hit."""
 
 
 class Rays(Protocol):
@@ -63,8 +61,14 @@ class RayCaster:
 
     def cast(self, origin: Vector3, directions: _Array, reach: float, exclude: int | None) -> RayHits:
         """See `Rays`."""
-        distances, shapes = self._renderer.cast(Pose(origin), directions, max_range_m=reach, exclude=exclude)
-        return RayHits(distances, self._retros[shapes], self._bodies[shapes])
+        distances, shapes = self._cast(origin, directions, reach, exclude)
+        return RayHits(distances, self._retros[shapes])
+
+    def _cast(
+        self, origin: Vector3, directions: _Array, reach: float, exclude: int | None = None
+    ) -> tuple[_Array, NDArray[np.int32]]:
+        """Return (rays,) distances [m] and shapes hit, −1 for none."""
+        return self._renderer.cast(Pose(origin), directions, max_range_m=reach, exclude=exclude)
 
     def cast_through(self, origin: Vector3, directions: _Array, reach: float, hidden: Sequence[int]) -> RayHits:
         """Cast rays that ignore some links."""
@@ -77,19 +81,17 @@ class RayCaster:
 
     def cast_from_distance(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> RayHits:
         """Cast rays that ignore links nearer than `nearest` [m], as a GPU's near clip plane does."""
-        found = self.cast(origin, directions, reach, None)
+        distances, shapes = self._cast(origin, directions, reach)
         poses = self._poses.copy()
         for _ in range(_LAYERS):
-            near = np.flatnonzero(found.distances < nearest)
+            near = np.flatnonzero(distances < nearest)
             if not len(near):
                 break
-            poses[found.links[near], :3] = _AWAY
+            poses[self._bodies[shapes[near]], :3] = _AWAY
             self._renderer.update(poses)
-            behind = self.cast(origin, directions[near], reach, None)
-            found.distances[near], found.retros[near] = behind.distances, behind.retros
-            found.links[near] = behind.links
+            distances[near], shapes[near] = self._cast(origin, directions[near], reach)
         self._renderer.update(self._poses)
-        return found
+        return RayHits(distances, self._retros[shapes])
 
 
 def _with_infinite_planes(scene: Scene) -> Scene:

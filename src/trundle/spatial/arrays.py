@@ -6,11 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .pose import Pose
-from .quaternions import Quaternion
-from .vectors import Vector3
+from .quaternions import Quaternion, rotated_axes
 
 _Array = NDArray[np.float64]
-_AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
@@ -62,7 +60,7 @@ def conjugate_rows(q: _Array) -> _Array:
 
 def rotate_vectors(a_from_b: Pose, directions: _Array) -> _Array:
     """Directions (…, 3) of frame b in frame a."""
-    return directions @ np.array([a_from_b.transform_vector(axis) for axis in _AXES])
+    return directions @ np.array(rotated_axes(a_from_b.quaternion))
 
 
 def transform_points(a_from_b: Pose, points: _Array) -> _Array:
