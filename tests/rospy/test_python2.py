@@ -1,6 +1,7 @@
 """Python 2 programs: what they print translated, that nothing else is touched, and a node of theirs on a graph."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -107,6 +108,25 @@ def test_a_traceback_shows_the_users_file_and_lines(tmp_path: Path) -> None:
         "    return c.missing",
         "AttributeError: 'int' object has no attribute 'missing'",
     ]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal there")
+def test_a_program_that_is_interrupted_while_it_is_translated_says_nothing(tmp_path: Path) -> None:
+    """Ctrl-C in a launch meets programs that are still translated."""
+    (tmp_path / "fissix.py").write_text("import os, time\nos.write(1, b'parsing')\ntime.sleep(100.0)\n")
+    (tmp_path / "old.py").write_text("print 'a'\n")
+    with subprocess.Popen(
+        [sys.executable, RUN_PYTHON2, tmp_path / "old.py"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        assert process.stdout.read(7) == b"parsing"
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE_S) == 130
+        assert process.stderr.read() == b""
 
 
 def test_division_is_pythons_own_where_it_is_imported() -> None:

@@ -5,7 +5,10 @@ Run by its path, as Python runs scripts: `sys.path` begins with the script's fol
 
 import os
 import sys
-from types import ModuleType, TracebackType
+from types import CodeType, ModuleType, TracebackType
+
+_INTERRUPTED = 130
+"""Exit code of programs that Ctrl-C ended."""
 
 
 def main() -> None:
@@ -13,6 +16,17 @@ def main() -> None:
     del sys.argv[0]
     script = sys.argv[0]
     sys.path[0] = os.path.dirname(os.path.realpath(script))
+    sys.excepthook = _show
+    try:
+        code, module = _load(script)
+    except KeyboardInterrupt:  # nothing of the script ran
+        os._exit(_INTERRUPTED)
+    sys.modules["__main__"] = module
+    exec(code, module.__dict__)
+
+
+def _load(script: str) -> tuple[CodeType, ModuleType]:
+    """Return the script's translation, and the module in which it runs."""
     from trundle.rospy.python2.cache import translated_code
     from trundle.rospy.python2.loader import install
     from trundle.rospy.python2.names import add_module_names, python2_builtins
@@ -21,10 +35,7 @@ def main() -> None:
     add_module_names()
     module = ModuleType("__main__")
     module.__dict__.update(__file__=script, __builtins__=python2_builtins())
-    sys.excepthook = _show
-    code = translated_code(script)
-    sys.modules["__main__"] = module
-    exec(code, module.__dict__)
+    return translated_code(script), module
 
 
 def _show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
