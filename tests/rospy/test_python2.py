@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from tests.graphs import PATIENCE_S, running_graph
 
-from trundle.rospy.environment import RUN_PYTHON2
+from trundle.rospy.environment import RUN_PYTHON2, with_finder
 from trundle.rospy.python2.detect import is_python2
 from trundle.rospy.python2.translate import show_changes, translate
 
@@ -107,6 +107,22 @@ def test_a_traceback_shows_the_users_file_and_lines(tmp_path: Path) -> None:
         f'  File "{script}", line 4, in f',
         "    return c.missing",
         "AttributeError: 'int' object has no attribute 'missing'",
+    ]
+
+
+def test_a_missing_module_of_a_translated_program_is_told_where_it_comes_from(tmp_path: Path) -> None:
+    script = tmp_path / "old.py"
+    script.write_text("print 'a'\nfrom PyQt4 import QtGui\n")
+
+    done = subprocess.run(
+        [sys.executable, RUN_PYTHON2, script], env=with_finder(os.environ), capture_output=True, text=True, check=False
+    )
+
+    assert done.stderr.splitlines()[-4:] == [
+        f'  File "{script}", line 2, in <module>',
+        "    from PyQt4 import QtGui",
+        "ModuleNotFoundError: No module named 'PyQt4'",
+        "trundle: no module 'PyQt4': it ended with Python 2; PyQt5 is its successor",
     ]
 
 

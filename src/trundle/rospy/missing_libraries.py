@@ -38,14 +38,17 @@ def advice(error: Exception) -> str | None:
     """Return how to go on after the error that ended a program; None if nothing is known."""
     from .python2.advice import python2_advice
 
-    if (line := python2_advice(error)) is not None:
-        return line
+    return python2_advice(error) or library_advice(error)
+
+
+def library_advice(error: BaseException) -> str | None:
+    """Return what brings the module that a program lacks; None if the error is another."""
     if not isinstance(error, ModuleNotFoundError) or not error.name:
         return None
     return missing_module_advice(error.name, has_messages=_is_imported_for_messages(error.name, error))
 
 
-def _is_imported_for_messages(module: str, error: Exception) -> bool:
+def _is_imported_for_messages(module: str, error: ModuleNotFoundError) -> bool:
     """True if the failing line imports the module's messages, services or options, which ROS packages have."""
     lines = (frame.line or "" for frame in traceback.extract_tb(error.__traceback__))
     wanted = re.compile(rf"\b{re.escape(module)}\.(?:msg|srv|cfg)\b")

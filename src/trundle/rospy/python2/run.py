@@ -39,10 +39,14 @@ def _load(script: str) -> tuple[CodeType, ModuleType]:
 
 
 def _show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-    """Print a traceback that begins in the script."""
+    """Print a traceback that begins in the script, and what brings a module that is missing."""
+    from trundle.rospy.missing_libraries import library_advice
+
     while trace is not None and trace.tb_frame.f_code.co_filename == __file__:
         trace = trace.tb_next
     sys.__excepthook__(kind, error.with_traceback(trace), trace)
+    if (line := library_advice(error)) is not None:
+        sys.stderr.write(f"{line}\n")
 
 
 if __name__ == "__main__":
