@@ -1,5 +1,7 @@
 """Test whether a closed mesh is convex, in a time that grows with its edges."""
 
+from collections.abc import Callable
+
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
@@ -10,8 +12,12 @@ _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 _DENT = 2e-3
 """Depth of a dent, relative to the size, up to which a mesh counts as convex."""
-_FEW = 256
-"""Faces that are tested at once."""
+_FEW = 64
+"""Faces whose planes are compared with every point."""
+_MANY = 4096
+"""Faces whose planes are compared with a hull at once."""
+_NEAR = 1e-6
+"""Distance of a face's plane from the middle, relative to the largest, up to which the middle is not inside."""
 _STARTS = 512
 """Corners of a hull from the best of which the highest is climbed to."""
 
@@ -69,7 +75,8 @@ def _fold_height(points: _Points, faces: _Faces, normals: _Points, offsets: _Poi
         offsets: (M,) distances of the faces from the origin along their normals [m].
         sides: (E, 2) of `_sides_by_edge`.
     """
-    if not np.abs(offsets).min() > 0:
+    heights = np.abs(offsets)
+    if heights.min() <= _NEAR * heights.max():
         return np.inf
     starts, ends = faces.ravel()[sides].T
     one, other = sides.T // 3
@@ -83,7 +90,7 @@ def _fold_height(points: _Points, faces: _Faces, normals: _Points, offsets: _Poi
     lengths = np.sqrt(np.einsum("ij,ij->i", across, across))
     folds = np.einsum("ij,ij->i", gradients[other] - gradients[one], across) / lengths
     excess = float(np.maximum(np.where(is_turned, -folds, folds), 0).sum())
-    return excess * float(np.sqrt(np.einsum("ij,ij->i", points, points).max()) * np.abs(offsets).max())
+    return excess * float(np.sqrt(np.einsum("ij,ij->i", points, points).max()) * heights.max())
 
 
 def _faces_on_a_ray(points: _Points, faces: _Faces) -> int:
@@ -98,24 +105,36 @@ def _faces_on_a_ray(points: _Points, faces: _Faces) -> int:
 
 def _are_heights_within(dent: float, normals: _Points, offsets: _Points, own: _Points) -> bool:
     """True if the points lie on one side of each face, but for a dent [m], and below at least one face."""
-    has_outside = False
-    rounds = -(-len(normals) // _FEW)
-    hull = None
-    for some in range(rounds):  # spread over the surface, as most dents are seen from many faces
-        if some == 1:
-            hull = _HullGraph.around(own)
-        n, d = normals[some::rounds], offsets[some::rounds]
-        above = (_highest(n, own) if hull is None else hull.highest(n)) - d
-        below = (_highest(-n, own) if hull is None else hull.highest(-n)) + d
-        if np.minimum(above, below).max() > dent:
+    step = -(-len(normals) // _FEW)
+    some = slice(None, None, step)  # spread over the surface, as most dents are seen from many faces
+    is_within, has_outside = _compare(dent, normals[some], offsets[some], lambda along: (along @ own.T).max(axis=1))
+    if not is_within or step == 1:
+        return is_within and has_outside
+    graph = _HullGraph.around(own)
+    if graph is None:  # flat: each face's plane is that of the others
+        return has_outside
+    for first in range(0, len(normals), _MANY):
+        some = slice(first, first + _MANY)
+        is_within, is_outside = _compare(dent, normals[some], offsets[some], graph.highest)
+        if not is_within:
             return False
-        has_outside = has_outside or bool((above <= dent).any())
+        has_outside = has_outside or is_outside
     return has_outside
 
 
-def _highest(directions: _Points, points: _Points) -> _Points:
-    """Return (D,) the largest heights of points (N, 3) along directions (D, 3) [m]."""
-    return (directions @ points.T).max(axis=1)
+def _compare(
+    dent: float, normals: _Points, offsets: _Points, highest: Callable[[_Points], _Points]
+) -> tuple[bool, bool]:
+    """Return if all points lie on one side of each face, and below any, but for a dent [m].
+
+    Args:
+        dent: tolerance [m].
+        normals: (F, 3) of the faces.
+        offsets: (F,) of the faces [m].
+        highest: returns (D,) the largest heights of the points along directions (D, 3) [m].
+    """
+    above, below = highest(normals) - offsets, highest(-normals) + offsets
+    return bool(np.minimum(above, below).max() <= dent), bool((above <= dent).any())
 
 
 class _HullGraph(Struct, frozen=True):
