@@ -12,7 +12,7 @@ from pathlib import Path
 import trundle
 from bench.loop import bare_loop, cpu_rate
 from bench.table import Row
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 _PAIRS = 5
 _FLOOR = """<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane><normal>0 0 1

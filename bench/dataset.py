@@ -9,8 +9,8 @@ import time
 from pathlib import Path
 
 from bench.table import Row
-from trundle.bringup.dataset.dataset_world import picture_maker
-from trundle.datasets import PictureMaker, draw_view, read_dataset_plan
+from trundle.studies.dataset.dataset_world import picture_maker
+from trundle.studies.datasets import PictureMaker, draw_view, read_dataset_plan
 
 _PICTURES, _ROUNDS = 30, 3
 _TABLE = """<sdf version="1.6"><world name="w">

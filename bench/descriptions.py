@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TypeAlias
 
 from bench.table import Row
-from trundle.description import load
-from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
 
 SHARED = Path(__file__).parents[2] / "shared"
 MODELS = SHARED / "corpus/repos/osrf+gazebo_models"

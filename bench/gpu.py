@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 import trundle
-import trundle.packages
 from bench.table import Row
-from trundle.physics import Batch, NoGpuError, find_gpu
+from trundle.assets import ASSETS
+from trundle.sim.physics import Batch, NoGpuError, find_gpu
 
 _WORLDS = 4096
 _STEPS = 100
@@ -21,7 +21,7 @@ _PAIRS = 5
 _ROBOTS = {
     "RP2W": (Path(__file__).parents[1] / "examples/rp2w", ("chassis_left_wheel", "chassis_right_wheel")),
     "differential robots": (
-        Path(trundle.packages.__file__).parent / "worlds/drive_to_goal.world",
+        ASSETS / "worlds/drive_to_goal.world",
         ("left_joint", "right_joint"),
     ),
 }

@@ -17,10 +17,10 @@ import mujoco
 
 import trundle
 from bench.table import Row
-from trundle.bringup.plugins import load_plugins
+from trundle.gazebo.model_plugins import load_plugins
 from trundle.ros import Core, GraphLoop, Node
-from trundle.sensors import mount_sensors
-from trundle.simulation import Simulation
+from trundle.sim.sensors import mount_sensors
+from trundle.sim.simulation import Simulation
 
 _PAIRS = 5
 _PATIENCE_S = 30.0

@@ -14,7 +14,7 @@ import trimesh
 import trundle
 from bench.loop import bare_loop, cpu_rate
 from bench.table import Row
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 _PAIRS = 5
 _STEPS = 2000

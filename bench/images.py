@@ -12,9 +12,9 @@ from pathlib import Path
 
 import trundle
 from bench.table import Row
-from trundle.bringup.renderers import RENDERERS, RendererName
-from trundle.diagnostics import UsageError
-from trundle.sensors import mount_cameras
+from trundle.base.diagnostics import UsageError
+from trundle.sim.renderers import RENDERERS, RendererName
+from trundle.sim.sensors import mount_cameras
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 _TURNS, _ROUNDS = 3, 10

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import mujoco
 
-from trundle.physics.compile.law_tables import disable_laws
-from trundle.simulation import Simulation
+from trundle.sim.physics.compile.law_tables import disable_laws
+from trundle.sim.simulation import Simulation
 
 
 def bare_loop(sim: Simulation) -> Callable[[int], None]:

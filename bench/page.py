@@ -19,8 +19,8 @@ from urllib.parse import urlsplit
 import numpy as np
 
 from bench.table import Row
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Core, GraphLoop
 
 _POINTS, _POINT_BYTES = 1_000_000, (16, 32)

@@ -12,12 +12,12 @@ from multiprocessing.connection import Connection
 from bench.page import process, subscribe
 from bench.robots import rolling_robots
 from bench.table import Row
-from trundle.bringup.realtime_pacer import RealtimePacer
-from trundle.bringup.shared_page import SharedPage
-from trundle.bringup.simulation_page.page import SimulationPage
+from trundle.base.http.page_address import PageAddress
 from trundle.page import POSES, PageServer, Session
-from trundle.page_address import PageAddress
-from trundle.simulation import Simulation
+from trundle.page.shared_page import SharedPage
+from trundle.page.simulated_world.page import SimulationPage
+from trundle.sim.realtime_pacer import RealtimePacer
+from trundle.sim.simulation import Simulation
 
 _ROBOTS = 50
 _CLIENTS = 10

@@ -12,11 +12,11 @@ import trundle
 from bench import scenes
 from bench.table import Row
 from bench.tiny_renderer import TinyRenderer
-from trundle.diagnostics import UsageError
-from trundle.physics import EglRenderer
-from trundle.physics.egl_renderer import model_from_scene
-from trundle.render import Intrinsics, NativeRenderer, Renderer, Scene
-from trundle.sensors import mount_cameras
+from trundle.base.diagnostics import UsageError
+from trundle.sim.physics import EglRenderer
+from trundle.sim.physics.egl_renderer import model_from_scene
+from trundle.sim.render import Intrinsics, NativeRenderer, Renderer, Scene
+from trundle.sim.sensors import mount_cameras
 from trundle.spatial import Pose
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"

@@ -18,10 +18,10 @@ from msgspec.structs import replace
 import trundle
 from bench.loop import bare_loop, cpu_rate
 from bench.table import Row
-from trundle.bringup.renderers import RENDERERS
-from trundle.diagnostics import Diagnostics
-from trundle.sensors import MountedSensors
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.sim.renderers import RENDERERS
+from trundle.sim.sensors import MountedSensors
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"

@@ -97,7 +97,7 @@ class OverModules(OverRospy):
 
     def __init__(self, role: str, queue_size: int | None) -> None:
         _add_site()
-        from trundle.rospy.finder import install
+        from trundle.ros.rospy.finder import install
 
         install()
         super().__init__(role, queue_size)

@@ -22,8 +22,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from trundle.ros import Core, GraphLoop, MasterProxy, RosError
-from trundle.rospy.environment import RUN_PYTHON2, with_finder
-from trundle.rospy.python2.cache import is_python2_file
+from trundle.ros.rospy.environment import RUN_PYTHON2, with_finder
+from trundle.ros.rospy.python2.cache import is_python2_file
 
 _NODE = re.compile(rb"^[^#\n]*rospy\.init_node\(|^[^#\n]*\binit_node\(", re.MULTILINE)
 _PYTHON = re.compile(rb"#!.*python")

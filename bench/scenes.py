@@ -8,9 +8,9 @@ import trimesh
 from msgspec.structs import replace
 from PIL import Image
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
-from trundle.render import Intrinsics, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.sim.render import Intrinsics, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 SUN = SceneLight(direction=(0.48, -0.36, -0.8), diffuse=(0.6, 0.6, 0.6, 1.0))

@@ -17,9 +17,9 @@ import mujoco
 
 import trundle
 from bench.table import Row
-from trundle.bringup.sweep.trial import TrialRunner, TrialSimulation
-from trundle.physics.step.sleeping import DECISION_PERIOD, SleepPolicy
-from trundle.trials import Rows, read_plan
+from trundle.sim.physics.step.sleeping import DECISION_PERIOD, SleepPolicy
+from trundle.studies.sweep.trial import TrialRunner, TrialSimulation
+from trundle.studies.trials import Rows, read_plan
 
 _RUNS = 1000
 """Rows of the table whose size is measured."""

@@ -9,9 +9,9 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Sphere
-from trundle.render import Intrinsics, Scene, Shape
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from trundle.sim.render import Intrinsics, Scene, Shape
 from trundle.spatial import Pose
 
 _GROUND_M = 20.0

@@ -223,7 +223,7 @@ void bind_actions(nb::module_& module) {
 }  // namespace trundle
 
 NB_MODULE(_servo, module) {
-  nb::module_::import_("trundle.physics._contact_laws");  // has the base classes
+  nb::module_::import_("trundle.sim.physics._contact_laws");  // has the base classes
   trundle::bind_joints(module);
   trundle::bind_laws(module);
   trundle::bind_gripper(module);

@@ -6,10 +6,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import trundle
-from trundle.bringup.check.check import check
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages, run_dependencies
-from trundle.render import Intrinsics, NativeRenderer, scene_from_world
+from trundle.base.diagnostics import Diagnostics
+from trundle.gazebo.check.check import check
+from trundle.robots.packages import Packages, run_dependencies
+from trundle.sim.render import Intrinsics, NativeRenderer, scene_from_world
 from trundle.spatial import Pose
 
 from .seeds import picture, seed

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from trundle.meshes import mean_colour, png_of, read_heights
-from trundle.nodes.map_server.occupancy_grid import read_cells
-from trundle.render import load_texture
+from trundle.gazebo.nodes.map_server.occupancy_grid import read_cells
+from trundle.robots.meshes import mean_colour, png_of, read_heights
+from trundle.sim.render import load_texture
 
 from .seeds import picture
 from .target import Open, Target, reads_file, try_each

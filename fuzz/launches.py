@@ -5,8 +5,8 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
-from trundle.bringup.check.check import check
-from trundle.nodes.map_server.occupancy_grid import read_map
+from trundle.gazebo.check.check import check
+from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 
 from .seeds import picture, seed
 from .target import Execute, Target, reads_file, write_file

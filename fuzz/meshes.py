@@ -12,9 +12,9 @@ import trimesh
 from PIL import Image
 from trimesh.visual import TextureVisuals
 
-from trundle.bringup.check.check import check
-from trundle.meshes import Mesh, load_mesh, load_motion, load_skin
-from trundle.render import Intrinsics, NativeRenderer, Scene, Shape
+from trundle.gazebo.check.check import check
+from trundle.robots.meshes import Mesh, load_mesh, load_motion, load_skin
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, Shape
 from trundle.spatial import Pose
 
 from .seeds import picture, seed

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from trundle.ros import MessagePrinter, Messages
-from trundle.rospy import finder
+from trundle.ros.rospy import finder
 
 from .seeds import seed
 from .target import Execute, Open, Target, try_each

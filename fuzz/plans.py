@@ -5,8 +5,8 @@ from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 
-from trundle.datasets import load_dataset_plan
-from trundle.trials import Rows, load_plan
+from trundle.studies.datasets import load_dataset_plan
+from trundle.studies.trials import Rows, load_plan
 
 from .seeds import seed
 from .target import Execute, Open, Target, write_file

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import trundle
-from trundle.bringup.convert import convert
-from trundle.bringup.state_logs import start_state_log
-from trundle.diagnostics import Diagnostics
+from trundle.app.convert import convert
+from trundle.base.diagnostics import Diagnostics
+from trundle.live.state_logs import start_state_log
 from trundle.ros import BagConnection, BagMessage, BagSummary, Messages, create_bag, open_bag, recover_messages
 
 from .seeds import seed

@@ -18,8 +18,8 @@ _FOLDER = ROOT / "build" / "sanitized"
 _FLAGS = "-fsanitize=address,undefined,fuzzer-no-link -fno-sanitize=vptr,function -fno-omit-frame-pointer"
 """fuzzer-no-link counts edges; vptr and function need what runtimes of other versions of clang do not have."""
 _MODULES = {
-    "trundle.render._native": "_native",
-    "trundle.physics._contact_laws": "_contact_laws",
+    "trundle.sim.render._native": "_native",
+    "trundle.sim.physics._contact_laws": "_contact_laws",
     "trundle.ros._message_codec": "_message_codec",
 }
 
@@ -37,7 +37,7 @@ def build() -> Path | None:
         command += ["--constraint", "constraints.txt", "--wheel-dir", str(_FOLDER), "-C", f"build-dir={built}"]
         command += ["-C", "cmake.build-type=RelWithDebInfo", "-C", f"cmake.define.CMAKE_CXX_FLAGS={_FLAGS}", "."]
         subprocess.run(command, cwd=ROOT, env={**os.environ, "CXX": "clang++"}, check=True)
-        shutil.copy(built / "sources.sha256", _FOLDER)  # where trundle.built looks for it
+        shutil.copy(built / "sources.sha256", _FOLDER)  # where trundle.base.built looks for it
         (built / "built").write_text(digest)
     return built
 

@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 
 ROOT = Path(__file__).parents[1]
 _CORPUS = ROOT.parent / "shared" / "corpus"

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from trundle.nodes import BuiltinReplacement, NodeHost, run_builtin_node
-from trundle.nodes.catalog import BUILTIN_NODES
+from trundle.base.http.page_address import PageAddress
+from trundle.gazebo.nodes import BuiltinReplacement, NodeHost, run_builtin_node
+from trundle.gazebo.nodes.catalog import BUILTIN_NODES
 from trundle.page import GraphAddress, Request, Session
 from trundle.page.http.listening import listen
 from trundle.page.server import _serve as serve_page  # pyright: ignore[reportPrivateUsage]  # its process in this one
 from trundle.page.wire import Respond, Start
-from trundle.page_address import PageAddress
 from trundle.ros import Core, GraphLoop, Node
 
 from .connection import SEPARATOR, exchange, send_only, send_web_socket

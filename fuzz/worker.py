@@ -66,7 +66,7 @@ class Worker:
 
     def _feed(self, data: bytes) -> float:
         """Return the processor time [s]."""
-        from trundle.diagnostics import TrundleError
+        from trundle.base.diagnostics import TrundleError
 
         start = time.process_time()
         try:

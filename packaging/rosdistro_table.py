@@ -1,4 +1,4 @@
-"""Writes src/trundle/repositories/rosdistro.tsv from a checkout of the published rosdistro index.
+"""Writes src/trundle/robots/repositories/rosdistro.tsv from a checkout of the published rosdistro index.
 
 python packaging/rosdistro_table.py FOLDER: the folder has noetic/distribution.yaml and so on (REP 143).
 """
@@ -8,9 +8,9 @@ from pathlib import Path
 
 import yaml
 
-from trundle.repositories import ROSDISTROS, read_distribution, write_table
+from trundle.robots.repositories import ROSDISTROS, read_distribution, write_table
 
-TABLE = Path(__file__).parents[1] / "src/trundle/repositories/rosdistro.tsv"
+TABLE = Path(__file__).parents[1] / "src/trundle/robots/repositories/rosdistro.tsv"
 
 
 def main(folder: Path) -> None:

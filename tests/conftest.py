@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
-from trundle import packages
+from trundle.robots import packages
 
 _SHARED = Path(__file__).resolve().parents[2] / "shared"
 _VARIABLES = ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", packages.ALLOW_OUTSIDE, packages.LENIENT)
 """A user's shell may have set them, and commands that run in this process set them."""
 _INSTALLED_PACKAGES = {
-    "trundle.packages.ros_packages._INSTALLED": Path("/nowhere"),
+    "trundle.robots.packages.ros_packages._INSTALLED": Path("/nowhere"),
     "trundle.ros.messages.definition_search.DEBIAN_SHARE": "",
 }
 """Folders of Debian's packages of ROS, which are searched last, and what hides them."""

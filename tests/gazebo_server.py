@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
-from trundle.bringup.gazebo.world import GazeboWorld
-from trundle.bringup.graph import Graph
-from trundle.diagnostics import Diagnostics
-from trundle.nodes import NodeHost
-from trundle.nodes.gazebo import GazeboServer
+from trundle.base.diagnostics import Diagnostics
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.gazebo import GazeboServer
+from trundle.live.gazebo.world import GazeboWorld
+from trundle.live.graph import Graph
 from trundle.ros import DISTROS, GraphLoop, Message, Node
 
 

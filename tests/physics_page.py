@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import trundle
-from trundle.bringup.plugins import load_plugins
-from trundle.simulation import ModelHandle, Simulation
+from trundle.gazebo.model_plugins import load_plugins
+from trundle.sim.simulation import ModelHandle, Simulation
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs/physics.md"

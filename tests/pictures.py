@@ -1,6 +1,6 @@
 """One camera's picture."""
 
-from trundle.render import Intrinsics, Picture, Renderer
+from trundle.sim.render import Intrinsics, Picture, Renderer
 from trundle.spatial import Pose
 
 

@@ -4,9 +4,9 @@ import socket
 
 import pytest
 
-from trundle.access import Access, PageRequest, without_tokens
-from trundle.diagnostics import UsageError
-from trundle.page_address import AllowedNames, is_loopback
+from trundle.base.diagnostics import UsageError
+from trundle.base.http.access import Access, PageRequest, without_tokens
+from trundle.base.http.page_address import AllowedNames, is_loopback
 
 HERE = "localhost:8080"
 EVIL = "http://evil.example"

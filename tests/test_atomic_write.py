@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.atomic_write import replaced_atomically, write_atomically
-from trundle.cli import main
-from trundle.diagnostics import UsageError
+from trundle.app.cli import main
+from trundle.base.atomic_write import replaced_atomically, write_atomically
+from trundle.base.diagnostics import UsageError
 
 MODEL = '<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>'
 DEV_FULL = Path("/dev/full")

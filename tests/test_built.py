@@ -5,8 +5,8 @@ from types import ModuleType
 
 import pytest
 
-from trundle import built
-from trundle.diagnostics import TrundleError
+from trundle.base import built
+from trundle.base.diagnostics import TrundleError
 
 
 @pytest.fixture
@@ -19,8 +19,8 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     (tmp_path / "cpp/notes.txt").write_text("not compiled")
     (tmp_path / "sources.sha256").write_text(built._digest(tmp_path / "cpp") or "")
     built._digest.cache_clear()
-    made = ModuleType("_native")
-    made.__file__ = str(tmp_path / "render/_native.so")
+    made = ModuleType("trundle.sim.render._native")
+    made.__file__ = str(tmp_path / "sim/render/_native.so")
     return made
 
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes.catalog import BUILTIN_NODES, NODELETS
-from trundle.packages import Packages
-from trundle.plugins.catalog import BUILTIN, SENSOR_PLUGINS
-from trundle.plugins.ros_control.catalog import CONTROLLERS
+from trundle.gazebo.nodes.catalog import BUILTIN_NODES, NODELETS
+from trundle.gazebo.plugins.catalog import BUILTIN, SENSOR_PLUGINS
+from trundle.gazebo.plugins.ros_control.catalog import CONTROLLERS
+from trundle.robots.packages import Packages
 
 _CATALOGS = (BUILTIN, SENSOR_PLUGINS, CONTROLLERS, BUILTIN_NODES, NODELETS)
 _TARGETS = sorted({target for catalog in _CATALOGS for target in catalog.values()})

@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError, coloured
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError, coloured
 
 
 def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:

@@ -14,7 +14,7 @@ SOURCE = Path(trundle.__file__).parent
 ASKING = {"find", "all", "attribute", "string", "number", "integer", "flag", "vector", "required_attribute"}
 
 
-@pytest.mark.parametrize(("kind", "readers"), [("sdf", "description/sdf"), ("urdf", "robot")])
+@pytest.mark.parametrize(("kind", "readers"), [("sdf", "robots/description/sdf"), ("urdf", "robots/robot")])
 def test_every_element_that_a_reader_names_is_in_the_reference(
     kind: str, readers: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -58,7 +58,7 @@ def test_its_references_name_what_there_is(site: Path) -> None:
     assert "trundle topic echo" in page("cli")
     assert re.search(r"mu2.*description/sdf/surface\.py", page("sdf"))
     assert "leaves no freedom; rigid" in page("diagnostics")
-    assert 'id="trundle.simulation.Simulation.run"' in page("python")
+    assert 'id="trundle.sim.simulation.Simulation.run"' in page("python")
 
 
 @pytest.mark.browser

@@ -11,16 +11,16 @@ from pathlib import Path
 
 import pytest
 
-from trundle.atomic_write import replaced_atomically, write_atomically
-from trundle.cli import main
-from trundle.diagnostics import UsageError
-from trundle.file_lock import FileLock
-from trundle.simulation import read_state_log
+from trundle.app.cli import main
+from trundle.base.atomic_write import replaced_atomically, write_atomically
+from trundle.base.diagnostics import UsageError
+from trundle.base.file_lock import FileLock
+from trundle.sim.simulation import read_state_log
 
 _HOLD = """
 import sys
 from pathlib import Path
-from trundle.file_lock import FileLock
+from trundle.base.file_lock import FileLock
 with FileLock(Path(sys.argv[1])):
     print("held", flush=True)
     sys.stdin.read()
@@ -65,7 +65,7 @@ def test_one_of_many_holds_a_file_at_a_time(tmp_path: Path) -> None:
     code = f"""
 import os
 from pathlib import Path
-from trundle.file_lock import FileLock
+from trundle.base.file_lock import FileLock
 for i in range(300):
     try:
         lock = FileLock(Path({str(tmp_path / "a")!r}))

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle import files
-from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError, UsageError
+from trundle.base import files
+from trundle.base.diagnostics import DescriptionError, Diagnostics, TrundleError, UsageError
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs, /dev or /proc")
 
@@ -106,7 +106,7 @@ class TestEveryReader:
     SAID = "it is a pipe, not a regular file"
 
     def test_of_meshes(self, fifo: Path) -> None:
-        from trundle.meshes import load_mesh, load_motion, load_skin
+        from trundle.robots.meshes import load_mesh, load_motion, load_skin
 
         fifo = fifo.rename(fifo.with_name("fifo.dae"))
         for reader in (load_mesh, load_skin, load_motion):
@@ -114,8 +114,8 @@ class TestEveryReader:
                 reader(fifo)
 
     def test_of_images(self, fifo: Path) -> None:
-        from trundle.meshes import png_of, read_heights
-        from trundle.render.textures import load_texture
+        from trundle.robots.meshes import png_of, read_heights
+        from trundle.sim.render.textures import load_texture
 
         assert png_of(fifo) is None
         assert load_texture(fifo) == self.SAID
@@ -123,7 +123,7 @@ class TestEveryReader:
             read_heights(fifo)
 
     def test_of_maps(self, fifo: Path) -> None:
-        from trundle.nodes.map_server.occupancy_grid import read_map
+        from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 
         keys = "resolution: 1, origin: [0, 0, 0], negate: 0, occupied_thresh: 1, free_thresh: 0"
         described = fifo.with_name("map.yaml")
@@ -133,22 +133,22 @@ class TestEveryReader:
                 read_map(file)
 
     def test_of_rviz_configurations(self, fifo: Path) -> None:
-        from trundle.bringup.graph_page import read_rviz_file
+        from trundle.page.graph_page import read_rviz_file
 
         with pytest.raises(DescriptionError, match=self.SAID):
             read_rviz_file(fifo)
 
     def test_of_recordings(self, fifo: Path) -> None:
         from trundle.ros import RosError, open_bag
-        from trundle.simulation import read_state_log
+        from trundle.sim.simulation import read_state_log
 
         with pytest.raises(RosError, match=self.SAID):
             open_bag(fifo)
         assert refused(lambda: read_state_log(fifo)) == self.SAID
 
     def test_of_launch_files(self, fifo: Path) -> None:
-        from trundle.launch import read_launch_text
-        from trundle.packages import Packages
+        from trundle.robots.launch import read_launch_text
+        from trundle.robots.packages import Packages
 
         def read(tag: str) -> None:
             text = f"<launch>\n{tag}</launch>"

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image, ImageSequence
 from tests.docs_blocks import ROOT
 
-from trundle.bringup.realtime_pacer import RealtimePacer
+from trundle.sim.realtime_pacer import RealtimePacer
 
 pytestmark = pytest.mark.skipif(not (ROOT / "docs/generate").is_dir(), reason="no documentation in the sdist")
 STRIDE_NS = 20_000_000

@@ -14,7 +14,7 @@ from fuzz.mutate import Pool, mutate
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 
 SERVERS = [name for name, family in TARGETS.items() if family in ("graph", "web")]
 FILES = [name for name in TARGETS if name not in SERVERS]

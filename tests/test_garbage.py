@@ -2,7 +2,7 @@
 
 import gc
 
-from trundle.garbage import no_garbage
+from trundle.base.garbage import no_garbage
 
 
 def test_nothing_is_searched_while_things_are_made_nor_are_they_later() -> None:

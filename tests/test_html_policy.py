@@ -13,7 +13,7 @@ from tests.bringup.replay import test_replay_page as replay
 from tests.bringup.sweep import test_sweep as sweep
 from tests.page.built_client import needs_client
 
-from trundle.html_policy import policy_of_viewer
+from trundle.base.http.html_policy import policy_of_viewer
 
 INJECTED = (
     '<img src="x" onerror="window.ran = 1"><script>window.ran = 1</script>'

@@ -4,20 +4,14 @@ Names that come through a room's front door count as imports of the module that 
 """
 
 import ast
-import tomllib
 from collections.abc import Iterator
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
-import pytest
-
 import trundle
 
 _ROOT = Path(trundle.__file__).parent
-_PROJECT = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())
-_CONTRACTS = _PROJECT["tool"]["importlinter"]["contracts"]
-_DOORS = [contract for contract in _CONTRACTS if contract["name"].startswith("One door to ")]
 
 
 def _name(path: Path) -> str:
@@ -73,11 +67,3 @@ def test_no_module_imports_itself_in_a_circle() -> None:
         circle = error.args[1]
 
     assert circle == []
-
-
-@pytest.mark.parametrize("contract", _DOORS, ids=lambda contract: contract["name"])
-def test_one_room_alone_may_import_what_has_one_door(contract: dict[str, list[str]]) -> None:
-    """A new room is named in each of these contracts, or it would be free to import the library."""
-    rooms = {".".join(name.split(".")[:2]) for name in _FILES if "." in name}
-
-    assert len(rooms - set(contract["source_modules"])) == 1

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from trundle.interrupts import ONE_PRESS_S, PRESS, interrupt
+from trundle.base.interrupts import ONE_PRESS_S, PRESS, interrupt
 
 
 @pytest.fixture(autouse=True)

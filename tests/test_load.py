@@ -27,7 +27,8 @@ def test_a_push_rolls_the_robot_or_not(shared: Path, force: float, distance: flo
 
 def test_importing_it_loads_nothing_heavy() -> None:
     """Light commands must answer at once."""
-    code = "import sys, trundle, trundle.cli; print(*sorted({'numpy', 'mujoco', 'aiohttp', 'lxml'} & set(sys.modules)))"
+    heavy = {"numpy", "mujoco", "aiohttp", "lxml"}
+    code = f"import sys, trundle, trundle.app.cli; print(*sorted({heavy} & set(sys.modules)))"
 
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
@@ -51,22 +52,21 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
     others = {
         "numpy.random",
         "secrets",
-        "trundle.access",
-        "trundle.meshes.load",
-        "trundle.model.actor",
-        "trundle.model.instrument",
-        "trundle.model.measuring",
-        "trundle.physics.convex.mesh_decomposition",
-        "trundle.physics.step.surface_motion",
-        "trundle.render.actor_skins",
-        "trundle.sensors.cameras.depth",
-        "trundle.sensors.imu",
-        "trundle.sensors.mount_instruments",
-        "trundle.simulation.state_log",
+        "trundle.base.http.access",
+        "trundle.robots.meshes.load",
+        "trundle.robots.model.actor",
+        "trundle.robots.model.instrument",
+        "trundle.robots.model.measuring",
+        "trundle.sim.physics.convex.mesh_decomposition",
+        "trundle.sim.physics.step.surface_motion",
+        "trundle.sim.render.actor_skins",
+        "trundle.sim.sensors.cameras.depth",
+        "trundle.sim.sensors.imu",
+        "trundle.sim.sensors.mount_instruments",
+        "trundle.sim.simulation.state_log",
     }
-    code = (
-        f"import sys, trundle.cli as c; c.main({words}); print(*sorted({others} & set(sys.modules)), file=sys.stderr)"
-    )
+    loaded = f"print(*sorted({others} & set(sys.modules)), file=sys.stderr)"
+    code = f"import sys, trundle.app.cli as c; c.main({words}); {loaded}"
 
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
@@ -78,7 +78,7 @@ def test_the_simulator_makes_no_dataclass_at_its_start() -> None:
     words = ["run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001"]
     rooms = ["spatial", "model", "meshes", "description", "physics", "render", "simulation", "sensors", "control"]
     code = (
-        f"import dataclasses, sys, trundle.cli as c; c.main({words});"
+        f"import dataclasses, sys, trundle.app.cli as c; c.main({words});"
         f"modules = [m for name, m in sys.modules.items() if name.split('.')[:1] == ['trundle']"
         f" and name.split('.')[1:2] and name.split('.')[1] in {rooms}];"
         "classes = {c for m in modules for c in vars(m).values() if dataclasses.is_dataclass(c)};"

@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 from tests.graphs import running_graph
 
-from trundle.atomic_write import write_atomically
-from trundle.bringup.launch.logs import log_folder
-from trundle.meshes import RawPart, load_parts, save_parts
-from trundle.ownership import home_folder, is_owned_by_user
+from trundle.base.atomic_write import write_atomically
+from trundle.base.ownership import home_folder, is_owned_by_user
+from trundle.live.launch.logs import log_folder
 from trundle.page.mailbox import Mailbox
+from trundle.robots.meshes import RawPart, load_parts, save_parts
 from trundle.ros import blocking_call
 from trundle.ros.transport.unix_sockets import UNIXROS, connect_unix
 

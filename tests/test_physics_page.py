@@ -7,7 +7,7 @@ import pytest
 from tests.physics_page import PAGE, WORLDS, Row, measure, read_rows
 
 import trundle
-from trundle.cli.main import main
+from trundle.app.cli.main import main
 
 ROWS = read_rows()
 

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from trundle.cli.bag import play
-from trundle.nodes.keyboard import Keyboard
+from trundle.app.cli.bag import play
+from trundle.gazebo.nodes.keyboard import Keyboard
 
 MODULES_OF_POSIX = (
     "crypt",
@@ -39,9 +39,9 @@ NEED_A_GPU = ("mujoco_warp", "warp")
 """Modules that `pip install` brings on request only."""
 IMPORT_ALL = f"""
 NEED_A_GPU = {NEED_A_GPU!r}
-import importlib, pkgutil, trundle, trundle.rospy.finder
+import importlib, pkgutil, trundle, trundle.ros.rospy.finder
 
-trundle.rospy.finder.install()
+trundle.ros.rospy.finder.install()
 found = [module.name for module in pkgutil.walk_packages(trundle.__path__, "trundle.")]
 for name in found:
     try:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.extras import rospy_requirements
+from trundle.base.extras import rospy_requirements
 
 ROOT = Path(__file__).parents[1]
 CITATION = ROOT / "CITATION.cff"

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.shortage import shortage
+from trundle.app.cli import main
+from trundle.base.shortage import shortage
 
 _FEW_THREADS = """
 import sys, threading
@@ -46,7 +46,7 @@ def test_a_command_that_runs_out_of_something_ends_in_one_sentence(
     def fail(_: object) -> int:
         raise error
 
-    monkeypatch.setattr("trundle.cli.check.main", fail)
+    monkeypatch.setattr("trundle.app.cli.check.main", fail)
     assert main(["check", "w.sdf"]) == 1
     out, said = capsys.readouterr()
     assert (out, said.count("\n")) == ("", 1)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from trundle import waiting
-from trundle.waiting import WaitNotice
+from trundle.base import waiting
+from trundle.base.waiting import WaitNotice
 
 
 def test_a_long_wait_says_every_few_seconds_what_it_is_for(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from trundle.diagnostics import UsageError
-from trundle.nodes.map_server.occupancy_grid import read_map
-from trundle.yaml_loader import BoundedLoader, load_yaml, one_line
+from trundle.base.diagnostics import UsageError
+from trundle.base.yaml_loader import BoundedLoader, load_yaml, one_line
+from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 
 
 def billions(first: str, again: str) -> str:
@@ -45,7 +45,7 @@ def test_what_cannot_be_loaded_is_a_sentence(text: str, words: str) -> None:
 
 
 def test_many_values_are_refused_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.yaml_loader._MAX_NODES", 100)
+    monkeypatch.setattr("trundle.base.yaml_loader._MAX_NODES", 100)
     with pytest.raises(yaml.YAMLError, match="more than 100 values"):
         load_yaml("[" + "0, " * 200 + "0]")
 

@@ -1,6 +1,6 @@
 """Where tests of Warp run: on a GPU where there is one."""
 
-from trundle.physics import NoGpuError, find_gpu
+from trundle.sim.physics import NoGpuError, find_gpu
 
 
 def warp_device() -> str:

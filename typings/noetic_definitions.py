@@ -1,4 +1,4 @@
-"""Makes src/trundle/rospy/definitions: the message types of rosbags as text, one file per package, without comments.
+"""Makes src/trundle/assets/messages/standard: the message types of rosbags as text, one file per package, no comments.
 
     python typings/noetic_definitions.py
 
@@ -12,7 +12,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from trundle.ros import Messages
 
-TARGET = Path(__file__).parents[1] / "src/trundle/rospy/definitions"
+TARGET = Path(__file__).parents[1] / "src/trundle/assets/messages/standard"
 SEPARATOR = "=" * 80
 
 

@@ -2,7 +2,7 @@
 
 PUBLIC: dict[str, tuple[str, ...]] = {
     "trundle": ("load",),
-    "trundle.simulation": (
+    "trundle.sim.simulation": (
         "Simulation",
         "ModelHandle",
         "LinkHandle",
@@ -15,11 +15,18 @@ PUBLIC: dict[str, tuple[str, ...]] = {
         "read_state_log",
     ),
     "trundle.spatial": ("Pose", "Twist", "Wrench"),
-    "trundle.diagnostics": ("TrundleError", "UsageError", "DescriptionError", "Diagnostics", "Diagnostic", "Source"),
-    "trundle.plugins": ("Plugin", "WorldPlugin", "VisualPlugin", "Hooks"),
-    "trundle.parameters": ("TagParameters", "Parameters"),
-    "trundle.model": ("World", "Model", "Link", "Joint", "JointAxis", "Inertial", "Surface", "Sensor"),
-    "trundle.physics": ("Contact", "SimulationUnstableError"),
+    "trundle.base.diagnostics": (
+        "TrundleError",
+        "UsageError",
+        "DescriptionError",
+        "Diagnostics",
+        "Diagnostic",
+        "Source",
+    ),
+    "trundle.gazebo.plugins": ("Plugin", "WorldPlugin", "VisualPlugin", "Hooks"),
+    "trundle.robots.parameters": ("TagParameters", "Parameters"),
+    "trundle.robots.model": ("World", "Model", "Link", "Joint", "JointAxis", "Inertial", "Surface", "Sensor"),
+    "trundle.sim.physics": ("Contact", "SimulationUnstableError"),
     "trundle.ros": ("Node", "Publisher", "Subscription", "Transform", "TransformBroadcaster"),
 }
 """Room → names."""

@@ -5,9 +5,9 @@ import inspect
 from collections.abc import Iterable, Mapping
 from types import FunctionType
 
-from trundle.nodes import BUILTIN_NODES
-from trundle.nodes.catalog import NODELETS
-from trundle.plugins import BUILTIN, SENSOR_PLUGINS
+from trundle.gazebo.nodes import BUILTIN_NODES
+from trundle.gazebo.nodes.catalog import NODELETS
+from trundle.gazebo.plugins import BUILTIN, SENSOR_PLUGINS
 
 from .markdown import cell
 

@@ -3,7 +3,7 @@
 import argparse
 import re
 
-from trundle.cli.main import COMMANDS, make_parser
+from trundle.app.cli.main import COMMANDS, make_parser
 
 from .markdown import cell, code
 

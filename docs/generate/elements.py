@@ -7,12 +7,12 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from unittest.mock import patch
 
-from trundle.description import load_text
-from trundle.description.sdf.context import Context, warn_ignored
-from trundle.description.urdf.gazebo_tags import GazeboTags
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
-from trundle.xmlnode import XmlNode
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import XmlNode
+from trundle.robots.description import load_text
+from trundle.robots.description.sdf.context import Context, warn_ignored
+from trundle.robots.description.urdf.gazebo_tags import GazeboTags
+from trundle.robots.packages import Packages
 
 from .markdown import cell
 
@@ -123,7 +123,9 @@ def _reader() -> str | None:
     frame = sys._getframe(2)
     while frame is not None:
         name = frame.f_globals.get("__name__", "")
-        if name.startswith(("trundle.description", "trundle.robot")) and not name.endswith(("context", "values")):
+        if name.startswith(("trundle.robots.description", "trundle.robots.robot")) and not name.endswith(
+            ("context", "values")
+        ):
             return f"{name.removeprefix('trundle.').replace('.', '/')}.py"
         frame = frame.f_back
     return None
@@ -147,7 +149,7 @@ def _recording(inventory: Inventory) -> Generator[None]:
         warn_ignored(node, tags, why, context)
 
     all_blocks = GazeboTags._all
-    readers = [module for name, module in sys.modules.items() if name.startswith("trundle.description.sdf.")]
+    readers = [module for name, module in sys.modules.items() if name.startswith("trundle.robots.description.sdf.")]
     readers = [module for module in readers if hasattr(module, "warn_ignored")]
     with ExitStack() as patches:
         for name, table in (("find", "children"), ("all", "children"), ("attribute", "attributes")):

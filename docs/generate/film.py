@@ -13,9 +13,9 @@ from unittest.mock import patch
 
 from PIL import Image
 
-from trundle.bringup import realtime_pacer
-from trundle.bringup.run import run as run_module
-from trundle.bringup.run.run_options import RunOptions
+from trundle.live.run import run as run_module
+from trundle.live.run.run_options import RunOptions
+from trundle.sim import realtime_pacer
 from trundle.spatial import NS_PER_S
 
 from .film_clock import FilmClock

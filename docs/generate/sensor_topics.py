@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import groupby
 from pathlib import Path
 
-from trundle.bridge import SENSOR_TOPICS
+from trundle.ros.bridge import SENSOR_TOPICS
 
 PAGE = Path(__file__).parents[1] / "sensors.md"
 _HEAD = '| `<sensor type="…">` | topic | message |'

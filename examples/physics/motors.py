@@ -8,10 +8,10 @@ does the rest: nothing here runs at a step.
 import math
 
 from trundle import ros
-from trundle.model import PluginTag
-from trundle.parameters import TagParameters
-from trundle.plugins import Plugin
-from trundle.simulation import ModelHandle, Simulation
+from trundle.gazebo.plugins import Plugin
+from trundle.robots.model import PluginTag
+from trundle.robots.parameters import TagParameters
+from trundle.sim.simulation import ModelHandle, Simulation
 
 
 class Motors(Plugin):

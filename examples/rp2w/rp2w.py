@@ -15,12 +15,13 @@ Forward is the model's +y, where both cameras look. Parameters, all optional, in
 
 import math
 
-from trundle import bridge, ros
-from trundle.control import DifferentialDrive, WheelOdometry, step_towards
-from trundle.model import PluginTag
-from trundle.parameters import TagParameters
-from trundle.plugins import Plugin
-from trundle.simulation import ModelHandle, Simulation, Snapshot
+from trundle import ros
+from trundle.gazebo.plugins import Plugin
+from trundle.robots.model import PluginTag
+from trundle.robots.parameters import TagParameters
+from trundle.ros import bridge
+from trundle.sim.control import DifferentialDrive, WheelOdometry, step_towards
+from trundle.sim.simulation import ModelHandle, Simulation, Snapshot
 
 PERIOD_S = 0.02
 TURNING_ACCELERATION = 2.0

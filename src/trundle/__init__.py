@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from os import PathLike
     from typing import Literal
 
-    from trundle.bringup.dataset.dataset import DatasetResult
-    from trundle.bringup.loaded_simulation import LoadedSimulation
-    from trundle.bringup.sweep.sweep import SweepResult
-    from trundle.description import Model, World
+    from trundle.live.loaded_simulation import LoadedSimulation
+    from trundle.robots.description import Model, World
+    from trundle.studies.dataset.dataset import DatasetResult
+    from trundle.studies.sweep.sweep import SweepResult
 
 __version__ = "0.1.0"
 __all__ = ["Model", "World", "__version__", "dataset", "load", "sweep"]
@@ -39,7 +39,7 @@ def load(
     """
     from os import PathLike, fspath
 
-    from trundle.bringup.loaded_simulation import load_simulation
+    from trundle.live.loaded_simulation import load_simulation
 
     read = fspath(file) if isinstance(file, str | PathLike) else file
     return load_simulation(read, seed=seed, plugins=plugins, ros=ros)
@@ -72,7 +72,7 @@ def sweep(
     """
     from pathlib import Path
 
-    from trundle.bringup.sweep.sweep import sweep_plan
+    from trundle.studies.sweep.sweep import sweep_plan
 
     folder = None if output is None else Path(output)
     return sweep_plan(plan, output=folder, workers=workers, address=address, device=device)
@@ -101,7 +101,7 @@ def dataset(
     """
     from pathlib import Path
 
-    from trundle.bringup.dataset.dataset import make_planned
+    from trundle.studies.dataset.dataset import make_planned
 
     return make_planned(plan, output=None if output is None else Path(output), workers=workers, address=address)
 
@@ -109,7 +109,7 @@ def dataset(
 def __getattr__(name: str) -> object:
     """`Model` and `World`, imported on first use."""
     if name in ("Model", "World"):
-        from trundle import description
+        from trundle.robots import description
 
         return getattr(description, name)
     raise AttributeError(f"module 'trundle' has no attribute {name!r}")

@@ -17,8 +17,8 @@ def main() -> int:
             signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # blocked by cpp/launcher.cc
     except KeyboardInterrupt:
         return 130
-    from trundle.cli import main as command
-    from trundle.interrupts import interrupt, keep_interrupts
+    from trundle.app.cli import main as command
+    from trundle.base.interrupts import interrupt, keep_interrupts
 
     keep_interrupts()
     signal.signal(signal.SIGINT, interrupt if before in (signal.default_int_handler, signal.SIG_IGN) else before)

@@ -9,11 +9,11 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
 import trundle
-from trundle.bridge import FrameNames, make_camera_topics, make_sensor_topics
-from trundle.render import NativeRenderer
 from trundle.ros import StaticTransformBroadcaster, Transform
-from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation
+from trundle.ros.bridge import FrameNames, make_camera_topics, make_sensor_topics
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras, mount_sensors
+from trundle.sim.simulation import Simulation
 
 
 @pytest.fixture

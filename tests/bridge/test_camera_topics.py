@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
-from trundle.bridge import CameraTopics, FrameNames
-from trundle.bridge.camera_topics import CAMERA_FROM_OPTICAL
-from trundle.diagnostics import Diagnostics, Source
-from trundle.model import CameraOptics, Link, Model, Sensor, World
-from trundle.render import Intrinsics, Picture
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.robots.model import CameraOptics, Link, Model, Sensor, World
 from trundle.ros import StaticTransformBroadcaster
-from trundle.sensors import CameraScene, CameraSensor, SensorMount
-from trundle.simulation import Simulation, Snapshot
+from trundle.ros.bridge import CameraTopics, FrameNames
+from trundle.ros.bridge.camera_topics import CAMERA_FROM_OPTICAL
+from trundle.sim.render import Intrinsics, Picture
+from trundle.sim.sensors import CameraScene, CameraSensor, SensorMount
+from trundle.sim.simulation import Simulation, Snapshot
 from trundle.spatial import Pose
 
 AT = Source("robot.sdf", 1)

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.description import write_sdf, written_uri
-from trundle.diagnostics import Diagnostics
-from trundle.sensors import mount_sensors
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import write_sdf, written_uri
+from trundle.sim.sensors import mount_sensors
 from trundle.spatial import Twist, quaternion_from_rpy
 
 MASS = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"

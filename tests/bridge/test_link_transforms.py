@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.bridge import FrameNames, link_frames
-from trundle.bridge.link_transforms import relative_poses
-from trundle.diagnostics import Source
-from trundle.model import Joint, JointAxis, JointType, Link, Model, Sensor, World
-from trundle.robot import Robot, RobotLink
+from trundle.base.diagnostics import Source
+from trundle.robots.model import Joint, JointAxis, JointType, Link, Model, Sensor, World
+from trundle.robots.robot import Robot, RobotLink
+from trundle.ros.bridge import FrameNames, link_frames
+from trundle.ros.bridge.link_transforms import relative_poses
 from trundle.spatial import Pose
 
 AT = Source("test.sdf", 1)

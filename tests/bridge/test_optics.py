@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.description import write_sdf, written_uri
-from trundle.diagnostics import Diagnostics
-from trundle.model import Lens
-from trundle.parameters import TagParameters
-from trundle.plugins.gazebo_ros.camera import read_border_crop
-from trundle.render import NativeRenderer
-from trundle.sensors import mount_cameras
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.gazebo.plugins.gazebo_ros.camera import read_border_crop
+from trundle.robots.description import write_sdf, written_uri
+from trundle.robots.model import Lens
+from trundle.robots.parameters import TagParameters
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras
 
 from .test_cameras import IMAGE, INFO, WALL, F, eye
 

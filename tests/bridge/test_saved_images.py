@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from trundle.render import NativeRenderer
-from trundle.sensors import mount_cameras
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras
 
 from .test_cameras import WALL, eye
 
@@ -88,7 +88,7 @@ def test_no_link_leads_them_elsewhere(described: Any, tmp_path: Path, link: str)
 def test_they_end_with_a_sentence_where_they_are_too_many(
     described: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bound: str
 ) -> None:
-    monkeypatch.setattr(f"trundle.sensors.cameras.image_saver.{bound}", 1)
+    monkeypatch.setattr(f"trundle.sim.sensors.cameras.image_saver.{bound}", 1)
 
     sim = saved(described, "saved_images/shots")
 
@@ -98,7 +98,7 @@ def test_they_end_with_a_sentence_where_they_are_too_many(
 
 
 def test_the_bound_can_be_lifted(described: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.sensors.cameras.image_saver._MAX_IMAGES", 1)
+    monkeypatch.setattr("trundle.sim.sensors.cameras.image_saver._MAX_IMAGES", 1)
     monkeypatch.setenv("TRUNDLE_SAVE_ALL", "1")
 
     assert saved(described, "saved_images/shots").report.warnings == []

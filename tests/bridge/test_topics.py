@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from trundle.bridge.frame_names import sensor_topic
-from trundle.diagnostics import Source
-from trundle.model import Model, Sensor
+from trundle.base.diagnostics import Source
+from trundle.robots.model import Model, Sensor
+from trundle.ros.bridge.frame_names import sensor_topic
 
 AT = Source("w.sdf", 1)
 

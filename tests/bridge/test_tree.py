@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 import trundle
-from trundle.bridge import FrameNames, LinkTransforms, make_camera_topics, make_sensor_topics
-from trundle.render import NativeRenderer
 from trundle.ros import Transform, TransformBuffer
-from trundle.sensors import (
+from trundle.ros.bridge import FrameNames, LinkTransforms, make_camera_topics, make_sensor_topics
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import (
     SIMULATED_CAMERAS,
     CameraSensor,
     ForceTorqueSensor,
@@ -18,7 +18,7 @@ from trundle.sensors import (
     mount_cameras,
     mount_sensors,
 )
-from trundle.simulation import Simulation, Snapshot
+from trundle.sim.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, Twist, quaternion_from_rpy
 
 MASS = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"

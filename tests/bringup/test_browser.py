@@ -12,9 +12,9 @@ import pytest
 from tests.graphs import until
 from tests.shell.terminal import Terminal
 
-from trundle.bringup.browser import announce_page, has_browser
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
+from trundle.page.browser import announce_page, has_browser
 
 RUN = (sys.executable, "-m", "trundle", "run", "model://rp2w", "--no-ros", "--no-sensors", "--port", "0")
 SHORT = ("--duration", "0.2", "--speed", "max")

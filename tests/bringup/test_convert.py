@@ -14,15 +14,15 @@ import trimesh
 from numpy.typing import NDArray
 from PIL import Image
 
-from trundle.cli import main
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.model import MeshFile, flattened
-from trundle.packages import Packages
-from trundle.physics import compile_mjcf, compile_world
-from trundle.physics.compile.inertia import possible_moments
-from trundle.physics.compile.law_tables import find_table
-from trundle.render import scene_from_world
+from trundle.app.cli import main
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load
+from trundle.robots.model import MeshFile, flattened
+from trundle.robots.packages import Packages
+from trundle.sim.physics import compile_mjcf, compile_world
+from trundle.sim.physics.compile.inertia import possible_moments
+from trundle.sim.physics.compile.law_tables import find_table
+from trundle.sim.render import scene_from_world
 
 MESH = "<visual name='v'><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>"
 MODEL = """<sdf version='1.6'><model name='cart'><link name='base'>{visuals}

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from tests.graphs import Graph, running_graph
 
-from trundle.bringup.doctor.check import Check, table
-from trundle.bringup.doctor.environment_checks import environment_checks
-from trundle.bringup.doctor.graph_faults import graph_faults
-from trundle.bringup.doctor.machine import machine_checks
-from trundle.cli import main
+from trundle.app.cli import main
+from trundle.app.doctor.check import Check, table
+from trundle.app.doctor.environment_checks import environment_checks
+from trundle.app.doctor.graph_faults import graph_faults
+from trundle.app.doctor.machine import machine_checks
 from trundle.ros import MasterProxy
 
 
@@ -36,7 +36,7 @@ def test_the_machine_has_what_tests_need() -> None:
 
 
 def test_the_full_mujoco_beside_mujoco_core_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.bringup.doctor.machine.version", "4.0.1".format)
+    monkeypatch.setattr("trundle.app.doctor.machine.version", "4.0.1".format)
 
     checks = {check.name: check for check in machine_checks({"PATH": ""})}
 

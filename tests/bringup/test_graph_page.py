@@ -14,11 +14,11 @@ import aiohttp
 import pytest
 from tests.page_client import page_url
 
-from trundle.bringup.graph_page import GraphPage
-from trundle.bringup.shared_page import SharedPage
-from trundle.nodes import Slider
+from trundle.base.http.page_address import PageAddress
+from trundle.gazebo.nodes import Slider
 from trundle.page import GraphAddress
-from trundle.page_address import PageAddress
+from trundle.page.graph_page import GraphPage
+from trundle.page.shared_page import SharedPage
 from trundle.ros import Core, GraphLoop, Node
 
 _PATIENCE_S = 60.0

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 
 _XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
 <xacro:property name="marker" value="{marker}"/>

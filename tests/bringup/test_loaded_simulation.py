@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.graph import Graph
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
+from trundle.live.graph import Graph
 
 WORLD = """<sdf version="1.6"><world name="w"><plugin name="blower" filename="libblower.so"/>
 <model name="m"><link name="l"/><plugin name="pusher" filename="libpusher.so"/></model></world></sdf>"""
 PUSHER = """
-from trundle.plugins import Plugin
+from trundle.gazebo.plugins import Plugin
 from trundle.spatial import Wrench
 
 class Pusher(Plugin):

@@ -11,9 +11,9 @@ import pytest
 from tests.graphs import PATIENCE_S, running_graph
 
 import trundle
-from trundle.bringup import lockstep
-from trundle.bringup.gazebo.stepper import GazeboStepper
-from trundle.bringup.lockstep import Lockstep
+from trundle.live import lockstep
+from trundle.live.gazebo.stepper import GazeboStepper
+from trundle.live.lockstep import Lockstep
 from trundle.ros import GraphLoop
 
 

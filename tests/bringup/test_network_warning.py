@@ -2,7 +2,7 @@
 
 import pytest
 
-from trundle.bringup.network_warning import warn_of_network
+from trundle.page.network_warning import warn_of_network
 
 
 @pytest.mark.parametrize(

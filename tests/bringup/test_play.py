@@ -8,11 +8,11 @@ import pytest
 from tests.bringup.simulation_page.fake_server import FakeServer
 
 import trundle
-from trundle.bringup.play import LogPage, PlayOptions, play
-from trundle.bringup.state_logs import start_state_log
-from trundle.diagnostics import DescriptionError
+from trundle.app.play import LogPage, PlayOptions, play
+from trundle.base.diagnostics import DescriptionError
+from trundle.live.state_logs import start_state_log
 from trundle.page import PageServer, Pause, RenderView, Seek, SetSpeed
-from trundle.simulation import Simulation, read_state_log
+from trundle.sim.simulation import Simulation, read_state_log
 
 PENDULUM = """<sdf version="1.6"><world name="w"><model name="m"><link name="arm"><pose>0 0 1 0 0 0</pose>
 <inertial><pose>0.5 0 0 0 0 0</pose></inertial></link>

@@ -9,12 +9,12 @@ from msgspec.structs import replace
 from tests.bringup.simulation_page.fake_server import shared_page
 
 import trundle
-from trundle.bringup.ray_overlay import RayOverlay
-from trundle.bringup.realtime_pacer import RealtimePacer
-from trundle.bringup.simulation_page.page import SimulationPage
-from trundle.render import NativeRenderer
-from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation
+from trundle.page.ray_overlay import RayOverlay
+from trundle.page.simulated_world.page import SimulationPage
+from trundle.sim.realtime_pacer import RealtimePacer
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras, mount_sensors
+from trundle.sim.simulation import Simulation
 
 _SCAN = """<ray><scan><horizontal><samples>{}</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>
 </horizontal></scan><range><min>0.1</min><max>9</max></range></ray>"""

@@ -2,7 +2,7 @@
 
 import pytest
 
-from trundle.bringup.realtime_pacer import RealtimePacer
+from trundle.sim.realtime_pacer import RealtimePacer
 
 MS = 1_000_000
 

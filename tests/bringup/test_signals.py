@@ -7,12 +7,12 @@ import sys
 
 import pytest
 
-from trundle.bringup.signals import StopFlag, stop_flag
-from trundle.interrupts import PRESS
+from trundle.base.interrupts import PRESS
+from trundle.base.signals import StopFlag, stop_flag
 
 _HAMMERED = """
 import signal
-from trundle.bringup.signals import StopFlag
+from trundle.base.signals import StopFlag
 flag, looks = StopFlag(), 0
 signal.signal(signal.SIGALRM, lambda *_: flag.set())
 signal.setitimer(signal.ITIMER_REAL, 1e-3, 1e-3)

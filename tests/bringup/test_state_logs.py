@@ -6,11 +6,11 @@ import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
 import trundle
-from trundle.bringup.state_logs import PageRecording
-from trundle.diagnostics import UsageError
-from trundle.nodes.gazebo import GazeboServer
+from trundle.base.diagnostics import UsageError
+from trundle.gazebo.nodes.gazebo import GazeboServer
+from trundle.live.state_logs import PageRecording
 from trundle.ros import Node
-from trundle.simulation import read_state_log
+from trundle.sim.simulation import read_state_log
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="l"><pose>0 0 9 0 0 0</pose>
 <inertial><mass>1</mass></inertial></link></model></sdf>"""

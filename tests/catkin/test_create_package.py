@@ -7,9 +7,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from trundle.catkin import NewPackage, create_package, package_warnings
-from trundle.diagnostics import UsageError
-from trundle.packages import run_dependencies
+from trundle.base.diagnostics import UsageError
+from trundle.robots.packages import run_dependencies
+from trundle.ros.catkin import NewPackage, create_package, package_warnings
 
 _ORIGINAL = Path("/usr/bin/catkin_create_pkg")
 

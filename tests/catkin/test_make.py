@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.catkin import NewPackage, create_package
-from trundle.cli import main
+from trundle.app.cli import main
+from trundle.ros.catkin import NewPackage, create_package
 
 _ORIGINAL = Path("/usr/bin/catkin_make")
 _VARIABLES = ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")

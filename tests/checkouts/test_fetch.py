@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from tests.git_server import GitServer, git_server, manifest
 
-from trundle.checkouts import Fetcher
-from trundle.diagnostics import UsageError
-from trundle.packages import Packages
-from trundle.repositories import Checkout, Entry, Index
+from trundle.base.diagnostics import UsageError
+from trundle.robots.checkouts import Fetcher
+from trundle.robots.packages import Packages
+from trundle.robots.repositories import Checkout, Entry, Index
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ import pytest
 from tests import graphs
 from tests.graphs import PATIENCE_S as PATIENCE_S
 
-from trundle.cli import main
+from trundle.app.cli import main
 
 
 @dataclass

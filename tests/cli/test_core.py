@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 from trundle.ros import MasterError, MasterProxy
 
 
@@ -67,7 +67,7 @@ def test_listening_beyond_this_machine_is_warned_of(tmp_path: Path) -> None:
 
 def test_an_address_that_leads_elsewhere_is_one_sentence(capfd: pytest.CaptureFixture[str], monkeypatch: Any) -> None:
     """192.0.2.1 is unassigned (RFC 5737): nothing answers there."""
-    monkeypatch.setattr("trundle.cli.core._CONNECT_S", 0.5)
+    monkeypatch.setattr("trundle.app.cli.core._CONNECT_S", 0.5)
     monkeypatch.setattr("signal.signal", lambda *_: None)
     monkeypatch.setenv("ROS_IP", "192.0.2.1")
     assert main(["core", "-p", "0", "--host", "0.0.0.0"]) == 1

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 from trundle.ros import Messages
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from tests.git_server import GitServer, git_server, manifest
 
-from trundle.cli.main import main
+from trundle.app.cli.main import main
 
 LAUNCH = """<launch>
   <include file="$(find arm_bringup)/arm.launch"/>
@@ -101,11 +101,11 @@ def test_a_launch_offers_to_fetch_on_a_terminal(
     """Asked for each round: the xacro file is read once the includes are there."""
     here, there = pty.openpty()
     code = (
-        "import sys; from trundle import repositories; from trundle.repositories import Entry, Index\n"
+        "import sys; from trundle.robots import repositories; from trundle.robots.repositories import Entry, Index\n"
         f"index = Index([Entry('{server.address}/me/' + r, {{}}, (p,)) for r, p in "
         "(('arm', 'arm_bringup'), ('arm_msgs', 'arm_msgs'), ('hand', 'hand'))])\n"
         "repositories.shipped_index = lambda: index\n"
-        "from trundle.cli.main import main; sys.exit(main(['launch', 'my_robot', 'my.launch', '--dump-params']))"
+        "from trundle.app.cli.main import main; sys.exit(main(['launch', 'my_robot', 'my.launch', '--dump-params']))"
     )
     os.write(here, b"\ny\n")
     words = [sys.executable, "-c", code]
@@ -137,9 +137,9 @@ def test_apt_fetches_packages_of_ros(index: Path, workspace: Path, tmp_path: Pat
     (programs / "apt-get").write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/own\n')
     (programs / "apt-get").chmod(0o755)
     code = (
-        "import sys; from trundle import repositories; from trundle.repositories import read_index\n"
+        "import sys; from trundle.robots import repositories; from trundle.robots.repositories import read_index\n"
         f"index = read_index({str(index)!r}, 'noetic'); repositories.shipped_index = lambda: index\n"
-        "from trundle.cli.main import main; sys.exit(main(sys.argv[1:]))"
+        "from trundle.app.cli.main import main; sys.exit(main(sys.argv[1:]))"
     )
 
     def apt(*words: str) -> int:

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
-from trundle.cli import main
-from trundle.drawing import Item, NodeGraph, graph_svg
+from trundle.app.cli import main
+from trundle.base.drawing import Item, NodeGraph, graph_svg
+from trundle.base.xmlnode import parse_xml
 from trundle.ros import WallClock
-from trundle.xmlnode import parse_xml
 
 STRING = "std_msgs/String"
 
@@ -219,7 +219,7 @@ def test_gazebo_is_started_as_rosrun_starts_it(graph: Any, tmp_path: Path, monke
 def test_light_commands_load_nothing_heavy(graph: Any, command: str) -> None:
     """They answer as fast as the interpreter starts: no asyncio, no numpy."""
     code = (
-        f"import sys; from trundle.cli import main; assert main({command.split()!r}) == 0;"
+        f"import sys; from trundle.app.cli import main; assert main({command.split()!r}) == 0;"
         "print([name for name in ('asyncio', 'numpy', 'rosbags', 'yaml', 'lxml') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)

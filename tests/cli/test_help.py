@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from trundle.cli.main import COMMANDS, make_parser
+from trundle.app.cli.main import COMMANDS, make_parser
 
 WITHOUT = {"trundle bag decrypt", "trundle bag encrypt"}
 """Subcommands that are not supported."""

@@ -13,7 +13,7 @@ REFUSED = {"encrypt", "decrypt"}
 @pytest.mark.parametrize("command", ["topic", "node", "param", "service", "msg", "srv", "bag", "tf", "pack"])
 def test_every_subcommand_is_in_the_matrix(command: str) -> None:
     parser = argparse.ArgumentParser()
-    importlib.import_module(f"trundle.cli.{command}").configure(parser)
+    importlib.import_module(f"trundle.app.cli.{command}").configure(parser)
     (choices,) = (action.choices for action in parser._actions if isinstance(action.choices, dict))
     names = {id(choice): name for name, choice in reversed(choices.items())}.values()  # aliases count once
 

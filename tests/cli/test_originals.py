@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 
 URDF = """<robot name="arm">
   <link name="base"/><link name="upper"/><link name="lower"/><link name="camera"/>

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 
 
 def test_values_are_set_and_printed_as_yaml(graph: Any) -> None:

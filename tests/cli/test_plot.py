@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from trundle.drawing import Curve, curves_svg, curves_text
+from trundle.base.drawing import Curve, curves_svg, curves_text
+from trundle.base.xmlnode import parse_xml
 from trundle.ros import WallClock
-from trundle.xmlnode import parse_xml
 
 
 @pytest.fixture

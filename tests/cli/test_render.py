@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageSequence
 from tests.video_file import read_video
 
-from trundle.cli import main
+from trundle.app.cli import main
 
 BOX = """<sdf version="1.6"><model name="m"><static>true</static><link name="l">
 <visual name="v"><pose>3 1 0.5 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry>

@@ -59,7 +59,7 @@ def test_ctrl_c_is_let_through_afterwards() -> None:
 )
 def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> None:
     waits = """
-        import os, signal, sys, threading, time, types, weakref, trundle.cli, trundle.__main__
+        import os, signal, sys, threading, time, types, weakref, trundle.app.cli, trundle.__main__
         start = threading.Thread.start
         interrupt = lambda: os.kill(os.getpid(), signal.SIGINT)
         Thing = type("Thing", (), {})
@@ -73,7 +73,7 @@ def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> No
             except KeyboardInterrupt:
                 print("interrupted", flush=True)
             return 0
-        trundle.cli.main = command
+        trundle.app.cli.main = command
         sys.exit(trundle.__main__.main())
     """
 
@@ -85,11 +85,11 @@ def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> No
 
 def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
     lingers = """
-        import sys, threading, time, trundle.cli, trundle.__main__
+        import sys, threading, time, trundle.app.cli, trundle.__main__
         def command():
             threading.Thread(target=time.sleep, args=(100,)).start()
             return 0
-        trundle.cli.main = command
+        trundle.app.cli.main = command
         code = trundle.__main__.main()
         print("done", flush=True)
         sys.exit(code)
@@ -106,7 +106,7 @@ def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
 def test_a_command_in_a_scripts_background_is_ended_by_sigint_as_are_its_children() -> None:
     """A shell without job control starts `trundle … &` with SIGINT ignored."""
     waits = """
-        import subprocess, sys, time, trundle.cli, trundle.__main__
+        import subprocess, sys, time, trundle.app.cli, trundle.__main__
         def command():
             try:
                 child = subprocess.Popen(["/bin/sh", "-c", "kill -INT $$"], start_new_session=True)
@@ -114,7 +114,7 @@ def test_a_command_in_a_scripts_background_is_ended_by_sigint_as_are_its_childre
                 time.sleep(20)
             except KeyboardInterrupt:
                 return 130
-        trundle.cli.main = command
+        trundle.app.cli.main = command
         sys.exit(trundle.__main__.main())
     """
     words = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", sys.executable, "-c", textwrap.dedent(waits)]

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.control import JointSegment, JointState, ToolboxPid
+from trundle.sim.control import JointSegment, JointState, ToolboxPid
 
 number = st.floats(-10.0, 10.0)
 

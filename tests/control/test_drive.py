@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-import trundle.control
-from trundle.control import DifferentialDrive, WheelOdometry, step_towards
+import trundle.sim.control
+from trundle.sim.control import DifferentialDrive, WheelOdometry, step_towards
 
 DRIVE = DifferentialDrive(wheel_radius=0.0635, separation=0.3048)
 
@@ -47,5 +47,5 @@ def test_an_approach_is_no_faster_than_allowed(value: float, target: float, expe
 
 
 def test_the_front_door_is_what_it_says() -> None:
-    assert trundle.control.__all__ == sorted(trundle.control.__all__)
-    assert all(hasattr(trundle.control, name) for name in trundle.control.__all__)
+    assert trundle.sim.control.__all__ == sorted(trundle.sim.control.__all__)
+    assert all(hasattr(trundle.sim.control, name) for name in trundle.sim.control.__all__)

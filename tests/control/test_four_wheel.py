@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.control import FourWheelSteering, axle_angle
+from trundle.sim.control import FourWheelSteering, axle_angle
 
 LAW = FourWheelSteering(track=0.4, offset=0.05, radius=0.1, base=0.6)
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.control import MecanumDrive
+from trundle.sim.control import MecanumDrive
 
 LAW = MecanumDrive(radius=0.1, reach=0.3 + 0.2)
 _CORNERS = ((0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.2))

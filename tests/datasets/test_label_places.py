@@ -2,7 +2,7 @@
 
 from random import Random
 
-from trundle.datasets.label_places import is_beside, place_labels
+from trundle.studies.datasets.label_places import is_beside, place_labels
 
 BOUNDS = (400.0, 300.0)
 

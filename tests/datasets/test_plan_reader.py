@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from trundle.datasets import read_dataset_plan
-from trundle.diagnostics import DescriptionError
+from trundle.base.diagnostics import DescriptionError
+from trundle.studies.datasets import read_dataset_plan
 
 PLAN = """\
 world: table.world

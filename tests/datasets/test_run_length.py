@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from trundle.datasets.annotation import Box2d, Mask
-from trundle.datasets.object_pixels import find_pixels
-from trundle.datasets.run_length import decode_mask, encode_mask
+from trundle.studies.datasets.annotation import Box2d, Mask
+from trundle.studies.datasets.object_pixels import find_pixels
+from trundle.studies.datasets.run_length import decode_mask, encode_mask
 
 MASKS = arrays(np.bool_, array_shapes(min_dims=2, max_dims=2, max_side=40), elements=st.booleans())
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from trundle.base.xmlnode import XmlNode
 from trundle.spatial import Pose
-from trundle.xmlnode import XmlNode
 
 _UNLIMITED = 1e16
 _LIMITS = (("axis", "lower", "upper"), ("axis2", "lower2", "upper2"))

@@ -6,8 +6,8 @@ from typing import Any
 
 from msgspec import Struct
 
+from trundle.base.xmlnode import XmlNode
 from trundle.spatial import Pose
-from trundle.xmlnode import XmlNode
 
 _WHERE = ("at", "sdf_version")
 _CLOSE = 1e-9

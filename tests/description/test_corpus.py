@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 from tests.description.compare import close, differences, same_pose, shape_of
 
-from trundle.bringup.check.json_output import description_json
-from trundle.description import expand_xacro, load, load_urdf
-from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.model import Model
-from trundle.packages import Packages
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.base.xmlnode import parse_xml
+from trundle.gazebo.check.json_output import description_json
+from trundle.robots.description import expand_xacro, load, load_urdf
+from trundle.robots.model import Model
+from trundle.robots.packages import Packages
 
 TOLERANCE = 1e-6
 """libsdformat 12 prints every digit."""

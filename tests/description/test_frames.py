@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Model, World, flattened, model_from_joint
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import load
+from trundle.robots.model import Model, World, flattened, model_from_joint
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
 QUARTER = "1.5707963267948966"

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.packages import Packages
-from trundle.physics import compile_world
+from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
+from trundle.sim.physics import compile_world
 
 
 @pytest.mark.parametrize("kind", ["sdf", "urdf", "xacro"])

@@ -8,9 +8,9 @@ from xml.etree import ElementTree as Xml
 import pytest
 from tests.description.plain import plain
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
 
 _HERE = "here"
 _NOISE = "<noise here=''><stddev>1</stddev></noise>"

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.description import expand_xacro, load, load_text
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.packages import Packages, model_file
+from trundle.app.cli import main
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import expand_xacro, load, load_text
+from trundle.robots.packages import Packages, model_file
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs")
 
@@ -165,7 +165,7 @@ class TestPipeOnTheCommandLine:
     def test_a_pipe_without_a_writer_ends_with_an_error(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ) -> None:
-        monkeypatch.setattr("trundle.files._TIMEOUT_S", 0.01)
+        monkeypatch.setattr("trundle.base.files._TIMEOUT_S", 0.01)
         os.mkfifo(tmp_path / "robot.urdf")
 
         assert main(["check", str(tmp_path / "robot.urdf")]) == 1

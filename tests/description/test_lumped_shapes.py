@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load_text, write_sdf, write_urdf, written_uri
-from trundle.diagnostics import Diagnostics
-from trundle.model import Collision, Model, Surface
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load_text, write_sdf, write_urdf, written_uri
+from trundle.robots.model import Collision, Model, Surface
+from trundle.robots.packages import Packages
 
 HERE = Path(__file__).parent
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import expand_xacro, load
-from trundle.diagnostics import Diagnostics, Source
-from trundle.launch import read_launch
-from trundle.packages import Packages
-from trundle.xmlnode import ReadBudget, ReadBudgetError
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.base.xmlnode import ReadBudget, ReadBudgetError
+from trundle.robots.description import expand_xacro, load
+from trundle.robots.launch import read_launch
+from trundle.robots.packages import Packages
 
 _XACRO = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">{}</robot>'
 _SDF = '<sdf version="1.7"><model name="m"><link name="l"/>{}</model></sdf>'

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from trundle.description import load
-from trundle.description.ogre.script import parse_script
-from trundle.description.ogre.surface import OgreSurface, name_of, parent_of, read_surface
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import GREY, Material
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import load
+from trundle.robots.description.ogre.script import parse_script
+from trundle.robots.description.ogre.surface import OgreSurface, name_of, parent_of, read_surface
+from trundle.robots.model import GREY, Material
+from trundle.robots.packages import Packages
 
 PLAIN = """
 // the plain one

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.model import Model, Sphere
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load
+from trundle.robots.model import Model, Sphere
+from trundle.robots.packages import Packages
 
 ARM = """<sdf version="1.9"><model name="arm">
   <link name="upper"><inertial><mass>2</mass></inertial>

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from tests.description.compare import shape_of
 
-from trundle.description import LoadedDescription, expand_xacro, load
-from trundle.diagnostics import Diagnostics
-from trundle.model import Box, model_from_joint
-from trundle.packages import Packages
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.robots.description import LoadedDescription, expand_xacro, load
+from trundle.robots.model import Box, model_from_joint
+from trundle.robots.packages import Packages
 
 
 @pytest.fixture

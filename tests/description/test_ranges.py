@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.check.check import check
-from trundle.description import expand_xacro
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import read_launch_text
-from trundle.meshes import MeshError, load_mesh
-from trundle.packages import Packages
-from trundle.parameters import TagParameters
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.gazebo.check.check import check
+from trundle.robots.description import expand_xacro
+from trundle.robots.launch import read_launch_text
+from trundle.robots.meshes import MeshError, load_mesh
+from trundle.robots.packages import Packages
+from trundle.robots.parameters import TagParameters
 
 _BEYOND = ["3e38", "-3e38", "1e300", "1e19"]
 _SDF = """<sdf version="1.7"><model name="m"><link name="l">

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
 
 LINK = '<link name="l"/>'
 BALL = "<geometry><sphere><radius>1</radius></sphere></geometry>"

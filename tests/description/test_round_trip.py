@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 from tests.description.plain import plain, unlike
 
-from trundle.description import LoadedDescription, load, load_text, load_urdf, write_sdf, write_urdf, written_uri
-from trundle.diagnostics import DescriptionError, Diagnostics, TrundleError
-from trundle.model import MeshFile, Model, flattened, model_from_joint
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics, TrundleError
+from trundle.robots.description import LoadedDescription, load, load_text, load_urdf, write_sdf, write_urdf, written_uri
+from trundle.robots.model import MeshFile, Model, flattened, model_from_joint
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
 KNOWN = {

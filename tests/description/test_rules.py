@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import LoadedDescription, expand_xacro, load
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Cylinder, MeshFile, Model
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import LoadedDescription, expand_xacro, load
+from trundle.robots.model import Cylinder, MeshFile, Model
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
 TURNED = '<link name="a"/><link name="b"><pose>0 0 0 0 0 1.5707963267948966</pose></link>'

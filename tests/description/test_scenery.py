@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load, load_text, write_sdf, written_uri
-from trundle.description.sdf.kmeans import kmeans_centers
-from trundle.diagnostics import Diagnostics
-from trundle.model import Box, Cylinder, World
-from trundle.packages import Packages
-from trundle.render import scene_from_world
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load, load_text, write_sdf, written_uri
+from trundle.robots.description.sdf.kmeans import kmeans_centers
+from trundle.robots.model import Box, Cylinder, World
+from trundle.robots.packages import Packages
+from trundle.sim.render import scene_from_world
 from trundle.spatial import Pose
 
 CAN = "<model name='can'><pose>7 7 7 0 0 0</pose><link name='l'/></model>"

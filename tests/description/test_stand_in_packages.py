@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Model, Sensor
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import load
+from trundle.robots.model import Model, Sensor
+from trundle.robots.packages import Packages
 
 BODY = '<inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 FIXED = '<joint name="fix" type="fixed"><parent link="base_link"/><child link="{}"/></joint>'

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.description import load
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Model
-from trundle.packages import Packages
+from trundle.app.cli import main
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import load
+from trundle.robots.model import Model
+from trundle.robots.packages import Packages
 
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 

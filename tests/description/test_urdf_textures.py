@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from trundle.cli import main
-from trundle.description import load, load_text, write_urdf, written_uri
-from trundle.diagnostics import Diagnostics
-from trundle.model import GREY
-from trundle.packages import Packages
+from trundle.app.cli import main
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load, load_text, write_urdf, written_uri
+from trundle.robots.model import GREY
+from trundle.robots.packages import Packages
 
 INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 BOX = '<geometry><box size="1 1 1"/></geometry>'

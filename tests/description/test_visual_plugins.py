@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from trundle.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
-from trundle.diagnostics import Diagnostics
-from trundle.model import Visual
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
+from trundle.robots.model import Visual
+from trundle.robots.packages import Packages
 
 HERE = Path(__file__).parent
 DRAW = '<plugin name="draw" filename="libdraw.so"><topicName>t</topicName></plugin>'

@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from trundle.bringup.check.json_output import description_json
-from trundle.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
-from trundle.description.writing.tag import Tag
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.model import Joint, Link, Model, Surface, model_from_joint
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.gazebo.check.json_output import description_json
+from trundle.robots.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
+from trundle.robots.description.writing.tag import Tag
+from trundle.robots.model import Joint, Link, Model, Surface, model_from_joint
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose, quaternion_from_rpy
-from trundle.xmlnode import parse_xml
 
 HERE = Path(__file__).parent
 PACKAGES = Packages({"HOME": "/nobody"}, start=HERE)

@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import pytest
 
-from trundle import drawing as room
-from trundle.drawing import Item, NodeGraph, graph_svg
-from trundle.drawing.layered_layout import layered_layout
-from trundle.xmlnode import XmlNode, parse_xml
+from trundle.base import drawing as room
+from trundle.base.drawing import Item, NodeGraph, graph_svg
+from trundle.base.drawing.layered_layout import layered_layout
+from trundle.base.xmlnode import XmlNode, parse_xml
 
 
 def test_the_front_door_exports_in_order() -> None:

@@ -1,7 +1,7 @@
 """Trees as text and as pictures."""
 
-from trundle.drawing.tree import TreeNode, tree_svg, tree_text
-from trundle.xmlnode import parse_xml
+from trundle.base.drawing.tree import TreeNode, tree_svg, tree_text
+from trundle.base.xmlnode import parse_xml
 
 BASE = TreeNode(
     "base",

@@ -10,8 +10,8 @@ from typing import Any
 
 from tests.expressions.names import NAMES
 
-from trundle.expressions.functions import GUARDED
-from trundle.expressions.methods import METHODS_OF
+from trundle.base.expressions.functions import GUARDED
+from trundle.base.expressions.methods import METHODS_OF
 
 _KEYS = (
     "i",

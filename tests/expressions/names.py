@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from trundle.expressions import MATH_NAMES, Interpreter
-from trundle.expressions.functions import GUARDED
+from trundle.base.expressions import MATH_NAMES, Interpreter
+from trundle.base.expressions.functions import GUARDED
 
 NAMES: dict[str, Any] = {**MATH_NAMES, **{each.__name__: each for each in GUARDED}}
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.expressions.names import NAMES, evaluate
 
-import trundle.expressions as room
+import trundle.base.expressions as room
 
 _VALUES: dict[str, Any] = {"x": 3, "y": 0.25, "s": "a_b", "items": [3, 1, 2], "d": {"a": 1, "b": [2]}, "f": float}
 

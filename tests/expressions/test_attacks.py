@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from tests.expressions.names import evaluate
 
-from trundle.expressions import ExpressionError, Function, wrap_function
+from trundle.base.expressions import ExpressionError, Function, wrap_function
 
 _NO_SUCH_NAME = "is not defined"
 _NO_ATTRIBUTE = "has no attribute"

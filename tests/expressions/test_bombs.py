@@ -10,7 +10,7 @@ import tracemalloc
 import pytest
 from tests.expressions.names import NAMES, evaluate
 
-from trundle.expressions import Budget, ExpressionError, Interpreter
+from trundle.base.expressions import Budget, ExpressionError, Interpreter
 
 _STEPS = r"may take at most \d+ steps"
 _MEMORY = r"may make at most \d+ MiB of values"

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 import pytest
 from tests.expressions.made_up import made_up, names
 
-from trundle.expressions import Budget, Interpreter
+from trundle.base.expressions import Budget, Interpreter
 
 _ENDINGS = (ValueError, TypeError, LookupError, ArithmeticError, AttributeError, NameError, SyntaxError, RuntimeError)
 _OCTETS = 2_000_000
 _MEASURE = """
 import sys, time
 from tests.expressions.made_up import made_up, names
-from trundle.expressions import Budget, Interpreter
+from trundle.base.expressions import Budget, Interpreter
 values = names()  # seconds of the processor, which were measured as the first expression's
 for number in range(int(sys.argv[1]), int(sys.argv[2])):
     text, start_s = made_up(number), time.thread_time()

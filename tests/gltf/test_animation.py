@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 from tests.gltf.glb import Glb
 
-from trundle.gltf import animated_glb
-from trundle.model import Box
-from trundle.render import Scene, Shape
+from trundle.robots.model import Box
+from trundle.sim.gltf import animated_glb
+from trundle.sim.render import Scene, Shape
 from trundle.spatial import quaternion_from_rpy
 
 TIMES = np.array([5.0, 5.5, 6.0, 6.5])

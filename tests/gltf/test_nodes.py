@@ -12,10 +12,10 @@ import trimesh
 from PIL import Image
 from tests.gltf.glb import Glb
 
-from trundle.gltf import Document, add_scene, glb_from_scene
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
-from trundle.render import Scene, SceneLight, Shape
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.sim.gltf import Document, add_scene, glb_from_scene
+from trundle.sim.render import Scene, SceneLight, Shape
 from trundle.spatial import Pose, quaternion_from_rpy, rows_from_poses
 
 SOLIDS = {

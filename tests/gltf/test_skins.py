@@ -10,10 +10,10 @@ from tests.gltf.glb import Glb
 from tests.skinned import bending_column
 
 import trundle
-from trundle.diagnostics import Diagnostics
-from trundle.gltf import Document, add_scene
-from trundle.model import AnimationState
-from trundle.render import Scene, scene_from_world
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.model import AnimationState
+from trundle.sim.gltf import Document, add_scene
+from trundle.sim.render import Scene, scene_from_world
 from trundle.spatial import compose_rows, pose_from_row
 
 _WORLD = """<sdf version="1.6"><world name="w"><actor name="bender"><pose>1 2 0 0 0 0.5</pose>

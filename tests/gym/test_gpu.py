@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from tests.warp_device import warp_device
 
-from trundle.bringup.loaded_simulation import load_simulation
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.gym.ready_tasks import READY
 from trundle.gym.vector_env import SimulationVectorEnv
 from trundle.gym.worlds import Task, Worlds
+from trundle.live.loaded_simulation import load_simulation
 
 NAME = "Trundle/CartPole-v0"
 

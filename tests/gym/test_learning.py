@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from trundle import gym
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 _JUDGED = 10_000
 """Seed of the first of the episodes that no training saw."""

@@ -10,7 +10,7 @@ from gymnasium.utils.env_checker import check_env
 
 import trundle
 from trundle import gym
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.spatial import Pose
 
 URDF = """

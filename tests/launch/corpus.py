@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from trundle.diagnostics import Diagnostics
-from trundle.launch import LaunchNode, LaunchPlan, ParamCommand, read_launch
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.launch import LaunchNode, LaunchPlan, ParamCommand, read_launch
+from trundle.robots.packages import Packages
 
 _ANONYMOUS = re.compile(r"_[A-Za-z0-9.-]+_\d+_\d+|_[a-z0-9-]*_\d+_\d{10,}")
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import read_launch_text, resolve_params
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.launch import read_launch_text, resolve_params
 
 
 class NoPackages:
@@ -93,7 +93,7 @@ def test_a_command_that_fails_ends_the_launch_with_a_sentence(command: str, mess
 def test_a_slow_command_is_waited_for_and_named(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("trundle.waiting.PERIOD_S", 0.0)
+    monkeypatch.setattr("trundle.base.waiting.PERIOD_S", 0.0)
 
     assert resolve(f"{PYTHON} -c 'import time; time.sleep(1)'") == ""
 
@@ -111,7 +111,7 @@ def test_ctrl_c_ends_a_command_that_hangs(monkeypatch: pytest.MonkeyPatch, tmp_p
         if number.is_file() and number.read_text():
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("trundle.launch.run_command.WaitNotice.poll", press)
+    monkeypatch.setattr("trundle.robots.launch.run_command.WaitNotice.poll", press)
     with pytest.raises(KeyboardInterrupt):
         resolve(f"{PYTHON} {program}")
 

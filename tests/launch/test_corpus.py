@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.launch.corpus import Case, cases, differences
 
-from trundle.diagnostics import DescriptionError, Diagnostics
+from trundle.base.diagnostics import DescriptionError, Diagnostics
 
 _NO_PACKAGE = re.compile(r": ([\w-]+)\s*ROS path")
 # roslaunch's message, and Trundle's of the same fault.

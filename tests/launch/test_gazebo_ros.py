@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import Diagnostics
-from trundle.launch import LaunchPlan, read_launch
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.launch import LaunchPlan, read_launch
+from trundle.robots.packages import Packages
 
 _LOUD = {"paused": "true", "recording": "true", "verbose": "true", "physics": "bullet", "world_name": "/w.world"}
 _ODD = {"gui": "false", "use_sim_time": "false", "debug": "true", "use_clock_frequency": "true"}

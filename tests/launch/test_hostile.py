@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchPlan, read_launch, read_launch_text
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.launch import LaunchPlan, read_launch, read_launch_text
 
 
 class OnePackage:

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.launch.request import read_request
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchNode, read_launch, resolve_params
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.live.launch.request import read_request
+from trundle.robots.launch import LaunchNode, read_launch, resolve_params
+from trundle.robots.packages import Packages
 
 REAL_PYTHON = "/usr/bin/python3"
 _LINES = Path(__file__).with_name("language.txt").read_text().splitlines()

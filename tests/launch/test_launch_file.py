@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from tests.launch.test_reader import Folders
 
-from trundle.cli import main
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchPlan, read_launch, read_launch_text
+from trundle.app.cli import main
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.launch import LaunchPlan, read_launch, read_launch_text
 
 
 def read(file: Path, text: str) -> LaunchPlan:

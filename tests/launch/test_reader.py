@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.launch import LaunchPlan, ParamCommand, read_launch, read_launch_text
 
 
 class Folders:

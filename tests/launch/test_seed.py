@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.launch import LaunchPlan, ParamCommand, read_launch, resolve_params
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.launch import LaunchPlan, ParamCommand, read_launch, resolve_params
 
 
 class OneFolder:

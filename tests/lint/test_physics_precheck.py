@@ -11,12 +11,12 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from trundle.description import load, load_text
-from trundle.diagnostics import Diagnostics, TrundleError
-from trundle.lint.physics_precheck import _eigenvalues, physics_accepts
-from trundle.model import Inertial, World, flattened
-from trundle.packages import Packages
-from trundle.physics import compile_world
+from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.robots.description import load, load_text
+from trundle.robots.lint.physics_precheck import _eigenvalues, physics_accepts
+from trundle.robots.model import Inertial, World, flattened
+from trundle.robots.packages import Packages
+from trundle.sim.physics import compile_world
 
 INERTIAL = (
     "<inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz><ixy>0.01</ixy></inertia></inertial>"
@@ -95,7 +95,7 @@ def test_checking_a_plain_robot_loads_no_engine(tmp_path: Path) -> None:
     car = CART.replace("</link>\n<joint", wheel).replace("<limit><lower>-1</lower><upper>1</upper></limit>", "")
     (tmp_path / "x.sdf").write_text(f"<sdf version='1.7'><world name='w'>{car}</world></sdf>")
     code = (
-        "import sys; from trundle.cli import main; main(['check', 'x.sdf']);"
+        "import sys; from trundle.app.cli import main; main(['check', 'x.sdf']);"
         "print(sorted({'mujoco', 'numpy', 'aiohttp', 'PIL'} & set(sys.modules)))"
     )
     done = subprocess.run(

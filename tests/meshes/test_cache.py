@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from trundle.meshes import Mesh, cache, load, load_mesh
+from trundle.robots.meshes import Mesh, cache, load, load_mesh
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from trundle.meshes import MeshError, load_mesh, mean_colour, read_heights
+from trundle.robots.meshes import MeshError, load_mesh, mean_colour, read_heights
 
 from .test_parts import MTL, OBJ, collada
 

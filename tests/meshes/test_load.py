@@ -11,8 +11,8 @@ import trimesh
 from collada import geometry, scene, source  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
-from trundle import meshes
-from trundle.meshes import Mesh, MeshError, load_mesh
+from trundle.robots import meshes
+from trundle.robots.meshes import Mesh, MeshError, load_mesh
 
 SIZE = (0.4, 0.6, 0.8)
 CENTRE = np.array([1.0, 2.0, 3.0])
@@ -232,7 +232,7 @@ def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
 
 def test_what_the_reader_mutters_to_its_log_does_not_reach_the_user() -> None:
     # trimesh logs a traceback for each missing bump map.
-    code = "import logging, trundle.meshes.glb; logging.getLogger('trimesh').warning('no texture')"
+    code = "import logging, trundle.robots.meshes.glb; logging.getLogger('trimesh').warning('no texture')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
     assert (done.stdout, done.stderr) == ("", "")
 

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from trundle.meshes import MeshError, load_mesh
+from trundle.robots.meshes import MeshError, load_mesh
 
 TWO_NODES = """<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from trundle.meshes import Mesh, strip_mesh
+from trundle.robots.meshes import Mesh, strip_mesh
 
 
 def area(mesh: Mesh) -> tuple[float, bool]:

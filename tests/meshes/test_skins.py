@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from tests.skinned import bending_column
 
-from trundle.meshes import MeshError, Motion, Skin, load_motion, load_skin, match_bones
+from trundle.robots.meshes import MeshError, Motion, Skin, load_motion, load_skin, match_bones
 
 HALF = math.sqrt(0.5)
 

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from trundle.meshes import Mesh, MeshError, cone_mesh, prism_mesh, read_heights, terrain_mesh
+from trundle.robots.meshes import Mesh, MeshError, cone_mesh, prism_mesh, read_heights, terrain_mesh
 
 
 def solid(mesh: Mesh) -> trimesh.Trimesh:

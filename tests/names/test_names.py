@@ -2,7 +2,7 @@
 
 import pytest
 
-from trundle.names import (
+from trundle.robots.names import (
     anonymous_name,
     canonical_name,
     is_legal_base_name,

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 from tests.graphs import PATIENCE_S, running_graph, until
 
-from trundle.names import parse_arguments
-from trundle.nodes import BuiltinReplacement, NodeHost, run_builtin_node
-from trundle.nodes.catalog import BUILTIN_NODES
+from trundle.base.supervisor import ProcessTree
+from trundle.gazebo.nodes import BuiltinReplacement, NodeHost, run_builtin_node
+from trundle.gazebo.nodes.catalog import BUILTIN_NODES
+from trundle.robots.names import parse_arguments
 from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
-from trundle.supervisor import ProcessTree
 
 _FAREWELL_S = 0.1
 """Time for the last connections of ended processes [s]: one accepted by half would leak when the loop ends."""

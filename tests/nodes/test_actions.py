@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from trundle.nodes.arbotix.gripper_controller import read_gripper
-from trundle.parameters import ParamError, RosParameters
+from trundle.gazebo.nodes.arbotix.gripper_controller import read_gripper
+from trundle.robots.parameters import ParamError, RosParameters
 
 SUCCEEDED, ABORTED, PREEMPTED = 3, 4, 2
 ARBOTIX: dict[str, Any] = {

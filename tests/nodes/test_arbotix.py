@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
-from trundle.nodes import NodeHost
-from trundle.nodes.arbotix import ArbotixDriver
-from trundle.nodes.arbotix.diff_controller import Unicycle
-from trundle.nodes.arbotix.servo_controller import HobbyServo
-from trundle.parameters import RosParameters
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.arbotix import ArbotixDriver
+from trundle.gazebo.nodes.arbotix.diff_controller import Unicycle
+from trundle.gazebo.nodes.arbotix.servo_controller import HobbyServo
+from trundle.robots.parameters import RosParameters
 
 S = 1_000_000_000
 SMARTCAR: dict[str, Any] = {

@@ -5,9 +5,9 @@ from typing import Any
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes import NodeHost
-from trundle.nodes.twist_mux import TopicHandle, find_active_topic, read_topic_handles
-from trundle.parameters import ParamError
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.twist_mux import TopicHandle, find_active_topic, read_topic_handles
+from trundle.robots.parameters import ParamError
 from trundle.ros import Node
 
 TWIST = "geometry_msgs/Twist"

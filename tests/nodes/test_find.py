@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import BUILTIN_NODES, BuiltinReplacement, Executable, MissingNode, find_node, program_names
+from trundle.gazebo.nodes import BUILTIN_NODES, BuiltinReplacement, Executable, MissingNode, find_node, program_names
 
 
 def program(path: Path, mode: int = 0o755) -> Path:
@@ -74,7 +74,7 @@ def test_a_type_may_name_a_folder_but_never_leave_the_package(tmp_path: Path) ->
 @pytest.mark.parametrize("name", ["arbotix_driver", "arbotix_driver.py", "driver.py"])
 def test_old_names_of_the_arbotix_driver_lead_to_it(name: str) -> None:
     found = find_node("arbotix_python", name, lambda _: None, env={})
-    assert found == BuiltinReplacement("trundle.nodes.arbotix:ArbotixDriver")
+    assert found == BuiltinReplacement("trundle.gazebo.nodes.arbotix:ArbotixDriver")
 
 
 def test_what_is_missing_is_named(tmp_path: Path) -> None:
@@ -102,7 +102,7 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The tutorials clone arbotix_ros into the workspace."""
-    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "none"))
+    monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "none"))
     path = program(tmp_path / "bin/arbotix_driver")
     path.write_text("#!/usr/bin/env python\n\nimport rospy\n")
     (tmp_path / "ros/rospy").mkdir(parents=True)
@@ -113,12 +113,12 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     own.write_text("import rospy\n")
     assert find_node("p", "talk.py", lambda _: tmp_path, env={}) == Executable(own)
     found = find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env={})
-    assert found == BuiltinReplacement("trundle.nodes.arbotix:ArbotixDriver")
+    assert found == BuiltinReplacement("trundle.gazebo.nodes.arbotix:ArbotixDriver")
 
 
 def test_so_does_one_whose_messages_nobody_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Debian has rospy, but no ros_control, whose sources may lie in the workspace."""
-    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "modules"))
+    monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "modules"))
     (tmp_path / "modules/rospy").mkdir(parents=True)
     path = program(tmp_path / "scripts/spawner")
     path.write_text("import rospy\nfrom controller_manager_msgs.srv import *\n")

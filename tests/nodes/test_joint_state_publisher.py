@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
 
-from trundle.diagnostics import Diagnostics
-from trundle.nodes import NodeHost, Slider
-from trundle.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
-from trundle.parameters import RosParameters
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.gazebo.nodes import NodeHost, Slider
+from trundle.gazebo.nodes.joint_state_publisher import JointSet, JointStatePublisher, JointStatePublisherGui
+from trundle.robots.parameters import RosParameters
 from trundle.ros import NOETIC
-from trundle.xmlnode import parse_xml
 
 S = 1_000_000_000
 

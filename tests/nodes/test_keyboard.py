@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from trundle.nodes.keyboard import split_keys
+from trundle.gazebo.nodes.keyboard import split_keys
 
 
 def test_arrows_are_keys_of_their_own() -> None:

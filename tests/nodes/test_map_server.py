@@ -7,8 +7,8 @@ import pytest
 from PIL import Image
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.diagnostics import UsageError
-from trundle.nodes.map_server.occupancy_grid import read_cells, read_map
+from trundle.base.diagnostics import UsageError
+from trundle.gazebo.nodes.map_server.occupancy_grid import read_cells, read_map
 
 _KEYS = "resolution: 0.05\norigin: [-1.0, -2.0, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
 

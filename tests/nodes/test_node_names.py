@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from trundle.nodes import default_name
+from trundle.gazebo.nodes import default_name
 
 
 @pytest.mark.parametrize(

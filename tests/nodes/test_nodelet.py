@@ -4,8 +4,8 @@ from pathlib import Path
 
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes import BuiltinReplacement, MissingNode, find_node
-from trundle.nodes.catalog import NODELETS
+from trundle.gazebo.nodes import BuiltinReplacement, MissingNode, find_node
+from trundle.gazebo.nodes.catalog import NODELETS
 
 
 def test_every_nodelet_of_the_list_is_there() -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import lacks_rospy, missing_ros_module, start_words
-from trundle.nodes.python_interpreter import interpreter
+from trundle.gazebo.nodes import lacks_rospy, missing_ros_module, start_words
+from trundle.gazebo.nodes.python_interpreter import interpreter
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's first line")
 
@@ -17,8 +17,8 @@ def debian(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A machine whose own Python has rospy; its `bin` is returned."""
     python = _program(tmp_path / "usr" / "bin" / "python3")
     (tmp_path / "usr" / "modules" / "rospy").mkdir(parents=True)
-    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_PYTHON", str(python))
-    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "usr" / "modules"))
+    monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_PYTHON", str(python))
+    monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "usr" / "modules"))
     return python.parent
 
 
@@ -88,7 +88,7 @@ def test_a_script_of_a_package_gets_rospy_whatever_its_own_lines_import(
     tmp_path: Path, venv: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
     """Catkin's layout: a thin script, and rospy in its package's module or a file beside it."""
-    monkeypatch.setattr("trundle.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "nothing"))
+    monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "nothing"))
     package = tmp_path / "src" / "talking"
     script = _program(package / "scripts" / "node.py", f"#!/usr/bin/env python3\n{text}\n")
     (package / "package.xml").write_text("<package><name>talking</name></package>")

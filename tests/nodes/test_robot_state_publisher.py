@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
-from trundle.nodes import NodeHost
-from trundle.nodes.robot_state_publisher import RobotStatePublisher, StatePublisher
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.robot_state_publisher import RobotStatePublisher, StatePublisher
 
 S = 1_000_000_000
 

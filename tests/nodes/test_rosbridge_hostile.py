@@ -6,10 +6,10 @@ import random
 import pytest
 from tests.nodes.bridge_client import connected, port_of
 
-from trundle.nodes.rosbridge.errors import RosbridgeError
-from trundle.nodes.rosbridge.fragments import Reassembly
-from trundle.nodes.rosbridge.object_splitter import ObjectSplitter
-from trundle.page import SendBuffer
+from trundle.base.http.send_buffer import SendBuffer
+from trundle.gazebo.nodes.rosbridge.errors import RosbridgeError
+from trundle.gazebo.nodes.rosbridge.fragments import Reassembly
+from trundle.gazebo.nodes.rosbridge.object_splitter import ObjectSplitter
 
 STRING = "std_msgs/String"
 OPS = (

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.nodes.depthimage_to_laserscan import Pinhole, read_depths, scan_from_depths
-from trundle.nodes.pointcloud_to_laserscan import Slice, read_points
+from trundle.gazebo.nodes.depthimage_to_laserscan import Pinhole, read_depths, scan_from_depths
+from trundle.gazebo.nodes.pointcloud_to_laserscan import Slice, read_points
 
 WALL_M = 2.0
 CAMERA = Pinhole(focal_px=100.0, center_x_px=50.0, center_y_px=20.0)

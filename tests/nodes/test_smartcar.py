@@ -20,14 +20,14 @@ import pytest
 import yaml
 from tests.graphs import until
 
-from trundle.description import expand_xacro
-from trundle.diagnostics import Diagnostics
-from trundle.launch import LaunchNode, LaunchPlan, read_launch, resolve_params
-from trundle.nodes import BuiltinReplacement, NodeHost, find_node, run_builtin_node
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.supervisor import Event, Supervisor, TaskJob
+from trundle.base.xmlnode import XmlNode, parse_xml
+from trundle.gazebo.nodes import BuiltinReplacement, NodeHost, find_node, run_builtin_node
+from trundle.robots.description import expand_xacro
+from trundle.robots.launch import LaunchNode, LaunchPlan, read_launch, resolve_params
+from trundle.robots.packages import Packages
 from trundle.ros import Core, GraphLoop, MasterProxy, Message, Node
-from trundle.supervisor import Event, Supervisor, TaskJob
-from trundle.xmlnode import XmlNode, parse_xml
 
 TIMEOUT_S = 30.0
 

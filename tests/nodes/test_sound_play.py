@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from trundle.nodes import NodeHost
+from trundle.gazebo.nodes import NodeHost
 
 REQUEST = "sound_play/SoundRequest"
 SAY, FILE, ALL = -3, -2, -1

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from tests.nodes.fakes import FakeClock, FakeNode, run_to_end
 
-from trundle.nodes import NodeHost
-from trundle.nodes.static_transform_publisher import Tf2StaticTransformPublisher, TfStaticTransformPublisher
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.static_transform_publisher import Tf2StaticTransformPublisher, TfStaticTransformPublisher
 
 S = 1_000_000_000
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 from tests.nodes.conftest import PATIENCE_S
 
-from trundle.nodes.topic_tools.throttle import BandwidthLimiter, MessageRateLimiter
+from trundle.gazebo.nodes.topic_tools.throttle import BandwidthLimiter, MessageRateLimiter
 
 STRING = "std_msgs/String"
 

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from trundle.nodes import NodeHost
-from trundle.nodes.turtlesim.turtle import Turtle
-from trundle.nodes.turtlesim.turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.turtlesim.turtle import Turtle
+from trundle.gazebo.nodes.turtlesim.turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
 from trundle.ros import Node
 
 

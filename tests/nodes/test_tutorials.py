@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.nodes.catalog import BUILTIN_NODES
-from trundle.packages import Packages
+from trundle.app.cli import main
+from trundle.gazebo.nodes.catalog import BUILTIN_NODES
+from trundle.robots.packages import Packages
 from trundle.ros import TransformListener
 
 STRING = "std_msgs/String"

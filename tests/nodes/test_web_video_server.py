@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 from tests.nodes.bridge_client import port_of
 
-from trundle.nodes.web_video_server.pictures import Encoding, PictureError, encode_picture
+from trundle.gazebo.nodes.web_video_server.pictures import Encoding, PictureError, encode_picture
 from trundle.ros import Messages
 
 RED = {"header": {"stamp": 1_500_000_000}, "width": 4, "height": 2, "encoding": "rgb8", "step": 12}

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from trundle.packages import CMakeProgram, cmake_libraries, cmake_programs
+from trundle.robots.packages import CMakeProgram, cmake_libraries, cmake_programs
 
 TEXT = """cmake_minimum_required(VERSION 3.0)
 project(my_robot)  # add_executable(not_this src/no.cpp)

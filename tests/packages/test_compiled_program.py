@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.nodes import Executable, MissingNode, find_node
-from trundle.packages import compiled_fault
+from trundle.gazebo.nodes import Executable, MissingNode, find_node
+from trundle.robots.packages import compiled_fault
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ELF is the format of Linux's programs")
 _REAL = Path("/proc/self/exe").resolve()

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.packages import write_configured_files
+from trundle.app.cli import main
+from trundle.robots.packages import write_configured_files
 
 CMAKE = """project(copter)
 option(WITH_CAMERA "camera" ON)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from trundle import packages as room
-from trundle.description import expand_xacro
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.packages import Packages
-from trundle.packages.confinement import WideFolders
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.robots import packages as room
+from trundle.robots.description import expand_xacro
+from trundle.robots.packages import Packages
+from trundle.robots.packages.confinement import WideFolders
 
 AT = Source("robot.urdf", 7)
 REFUSED = "reads only below its own folders"

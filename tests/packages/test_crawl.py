@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.packages import Packages
+from trundle.app.cli import main
+from trundle.robots.packages import Packages
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links take a right of their own there")
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 
 HOOK = """# Set some sane defaults
 : ${ROVER_BASE:=tracks}         # wheels, tracks

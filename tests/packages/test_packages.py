@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from trundle import packages as room
-from trundle.cli import main
-from trundle.description import expand_xacro
-from trundle.diagnostics import DescriptionError, Diagnostics, Source, UsageError
-from trundle.packages import Packages
+from trundle.app.cli import main
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError
+from trundle.robots import packages as room
+from trundle.robots.description import expand_xacro
+from trundle.robots.packages import Packages
 
 AT = Source("robot.urdf", 7)
 XACRO = "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>{}</robot>"
@@ -88,7 +88,7 @@ def test_an_ignored_folder_holds_no_packages(tmp_path: Path) -> None:
 def test_packages_of_the_system_are_found_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Debian's rospack searches /usr/share, which ROS_PACKAGE_PATH does not name."""
     share, own = tmp_path / "share", tmp_path / "ws"
-    monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", share)
+    monkeypatch.setattr("trundle.robots.packages.ros_packages._INSTALLED", share)
     package(share / "hand")
     package(share / "arm")
     package(share / "gazebo_ros")

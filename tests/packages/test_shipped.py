@@ -6,18 +6,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.launch import read_launch
-from trundle.meshes import load_mesh
-from trundle.model import Box, Cylinder, MeshFile, Model
-from trundle.nodes import catalog
-from trundle.packages import Packages, model_file, refuse_template
-from trundle.plugins.ros_control.catalog import CONTROLLERS
+from trundle.assets import ASSETS
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.gazebo.nodes import catalog
+from trundle.gazebo.plugins.ros_control.catalog import CONTROLLERS
+from trundle.robots.description import load
+from trundle.robots.launch import read_launch
+from trundle.robots.meshes import load_mesh
+from trundle.robots.model import Box, Cylinder, MeshFile, Model
+from trundle.robots.packages import Packages, model_file, refuse_template
 
 HERE = Path(__file__).parent
 PACKAGES = Packages({"HOME": "/nobody"}, start=HERE)
-STAND_INS = Path(load.__code__.co_filename).parents[1] / "packages/stand_ins"
+STAND_INS = ASSETS / "stand_ins"
 
 
 @pytest.mark.parametrize("name", PACKAGES.worlds())
@@ -200,7 +201,7 @@ def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installe
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """An unused argument's default must not stop a launch; a file that is used and missing is named."""
-    monkeypatch.setattr("trundle.packages.ros_packages._INSTALLED", tmp_path / "none")
+    monkeypatch.setattr("trundle.robots.packages.ros_packages._INSTALLED", tmp_path / "none")
     packages = Packages({"HOME": "/nobody"}, start=HERE)
     plugins = {"gazebo_plugins", "gazebo_ros_control", "hector_gazebo_plugins", "velodyne_gazebo_plugins"}
     nodes = {package for package, _ in catalog.BUILTIN_NODES}

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.packages import Packages
+from trundle.app.cli import main
+from trundle.robots.packages import Packages
 
 ROBOT = (
     "<robot name='arm'><link name='base'><inertial><mass value='1'/>"

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import pytest
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,8 @@ from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.scene_user import rviz_text
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import TERMINAL, GraphAddress, JointSlider, NodeTerminal, PageServer, RvizFile, Session
-from trundle.page_address import PageAddress
 
 AXE = Path(__file__).parents[2] / "web/node_modules/axe-core/axe.min.js"
 PANELS = ("Plots", "Topics", "Log", "Graph", "Timeline", "Nodes", "Parameters", "Services", "TF tree", "Images")

@@ -11,8 +11,8 @@ import pytest
 from tests.graphs import until
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 CONNECTIONS = 300
 REQUEST = (

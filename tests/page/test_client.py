@@ -10,8 +10,8 @@ import pytest
 from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 ROOT = Path(__file__).parents[2]
 AXE = ROOT / "web/node_modules/axe-core/axe.min.js"

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from tests.graphs import running_graph
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 CLIENT = """
 const { FoxgloveClient } = require('@foxglove/ws-protocol');

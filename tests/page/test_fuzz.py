@@ -10,8 +10,8 @@ from fuzz.mutate import Pool, mutate
 from tests.graphs import running_graph
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 pytestmark = pytest.mark.slow
 MESSAGES = 10_000

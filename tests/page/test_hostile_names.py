@@ -15,8 +15,8 @@ from tests.page.panel_user import PanelUser
 from tests.page.scene_user import rviz_text
 from tests.system.browser import running_page
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import TERMINAL, GraphAddress, JointSlider, NodeTerminal, PageServer, RvizFile, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Node
 
 pytestmark = [needs_client, pytest.mark.slow]

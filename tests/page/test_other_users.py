@@ -13,10 +13,10 @@ from urllib.parse import urlsplit
 import pytest
 from tests.page.uploads.test_uploads import CONFIG, zipped
 
-from trundle.cli.main import main
-from trundle.ownership import runtime_folders
+from trundle.app.cli.main import main
+from trundle.base.http.page_address import PageAddress
+from trundle.base.ownership import runtime_folders
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 NOBODY = 65534
 PATHS = (

@@ -13,9 +13,9 @@ from urllib.parse import urlsplit
 import pytest
 from tests.page_client import ProtocolClient, page_url
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 SESSION = Session(title="test", kind="graph")
 
@@ -62,7 +62,8 @@ def test_a_server_that_is_killed_is_not_alive() -> None:
 
 def test_the_server_ends_when_its_owner_is_killed() -> None:
     program = (
-        "import time; from trundle.page import PageServer, Session; from trundle.page_address import PageAddress\n"
+        "import time; from trundle.page import PageServer, Session\n"
+        "from trundle.base.http.page_address import PageAddress\n"
         "page = PageServer.start(Session(title='test', kind='graph'), at=PageAddress(port=0))\n"
         "print(page.process_id, page.url, flush=True); time.sleep(60)"
     )

@@ -11,8 +11,8 @@ from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import ClockState, GraphAddress, JointSlider, PageServer, Session, TimelineSpan
-from trundle.page_address import PageAddress
 from trundle.ros import Node, Option, ReconfigureServer
 
 pytestmark = needs_client

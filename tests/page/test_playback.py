@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.page import MoveJoint, Pause, Play, Playback, Reset, Seek, SetSpeed, Step
 
 S = 1_000_000_000

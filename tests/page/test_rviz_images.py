@@ -17,8 +17,8 @@ from tests.page.picture_cases import REMAPPINGS, VIEW
 from tests.page.picture_pair import MESHES, Pair, agreement, picture_of, publish, save_pair
 from tests.page.real_rviz import BACKGROUND, INSTALLED, NOT_INSTALLED, Picture, RealRviz, rviz_file
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not INSTALLED, reason=NOT_INSTALLED)]
 

@@ -10,8 +10,8 @@ from tests.page.picture_cases import CASES, REMAPPINGS
 from tests.page.picture_pair import MESHES, OUT, Pair, publish_cases
 from tests.page.real_rviz import INSTALLED, NOT_INSTALLED, RealRviz
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not INSTALLED, reason=NOT_INSTALLED)]
 

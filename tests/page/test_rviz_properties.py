@@ -13,9 +13,9 @@ from tests.page.picture_cases import VIEW
 from tests.page.picture_pair import MESHES
 from tests.page.real_rviz import INSTALLED, NOT_INSTALLED, RealRviz, rviz_file
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, SaveRviz, Session
 from trundle.page.session import RvizFile
-from trundle.page_address import PageAddress
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not INSTALLED, reason=NOT_INSTALLED)]
 

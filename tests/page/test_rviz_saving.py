@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, RvizFile, Session
-from trundle.page_address import PageAddress
 
 TEXT = "Panels: []\n"
 

@@ -9,8 +9,8 @@ from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
 from tests.page.driving.test_driving import Robot
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, RvizFile, SaveRviz, Session
-from trundle.page_address import PageAddress
 
 TIMEOUT_MS = 60_000
 RVIZ = """Visualization Manager:

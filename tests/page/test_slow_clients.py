@@ -8,8 +8,8 @@ import pytest
 from tests.graphs import Graph, running_graph
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 MB = 1024 * 1024
 COUNT = 60

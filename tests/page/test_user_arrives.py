@@ -14,8 +14,8 @@ from tests.page.driving.test_driving import Robot
 from tests.page.panel_user import PATIENCE_MS, PanelUser
 from tests.system.browser import running_page
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 pytestmark = [needs_client, pytest.mark.slow]
 BOX = "<geometry><box><size>0.5 0.5 0.5</size></box></geometry>"

@@ -9,8 +9,8 @@ from tests.page.bag.test_source import MAP, START, TEXT, S, text
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import BagFile, PageServer, Session
-from trundle.page_address import PageAddress
 from trundle.ros import BagMessage, create_bag
 
 pytestmark = [pytest.mark.slow, needs_client]

@@ -10,8 +10,8 @@ from tests.page.built_client import needs_client
 from tests.page.scene_user import SceneUser, rviz_text
 from tests.page.sensor_messages import COLOURS, MAP, TWIST, cloud, covariance, depth, point, pose, ring
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, RvizFile, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Node, Publisher
 
 pytestmark = needs_client

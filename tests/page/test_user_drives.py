@@ -13,8 +13,8 @@ from tests.page.built_client import needs_client
 from tests.page.driving.test_driving import Robot
 from tests.page.panel_user import PanelUser
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Node
 
 pytestmark = needs_client

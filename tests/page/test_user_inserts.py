@@ -23,7 +23,7 @@ CRATE = f"""<sdf version="1.6"><model name="crate"><pose>0 0 0.2 0 0 0</pose><li
 CODED = CRATE.replace("crate", "coded").replace("</model>", '<plugin name="p" filename="code.py"/></model>')
 CONFIG = "<model><name>{}</name><sdf version='1.6'>model.sdf</sdf></model>"
 CODE = """from pathlib import Path
-from trundle.plugins import Plugin
+from trundle.gazebo.plugins import Plugin
 
 
 class Code(Plugin):

@@ -7,9 +7,9 @@ from urllib.parse import urlsplit
 import pytest
 from tests.page.built_client import needs_client
 
-from trundle.bringup.browser import write_redirect
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
+from trundle.page.browser import write_redirect
 
 pytestmark = needs_client
 PATIENCE_MS = 60_000

@@ -14,7 +14,7 @@ from tests.system.browser import running_page
 
 pytestmark = [pytest.mark.slow, needs_client]
 PLUGIN = """import time
-from trundle.plugins import Plugin
+from trundle.gazebo.plugins import Plugin
 class Busy(Plugin):
     period_ns = 100_000_000
     @classmethod

@@ -12,8 +12,8 @@ from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 pytestmark = [pytest.mark.slow, needs_client]
 

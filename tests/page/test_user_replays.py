@@ -16,12 +16,12 @@ from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
 
-from trundle.bringup.play import LogPage, PlayOptions
-from trundle.bringup.recorded_run import open_recording
-from trundle.cli import main
-from trundle.diagnostics import Diagnostics
+from trundle.app.cli import main
+from trundle.app.play import LogPage, PlayOptions
+from trundle.app.recorded_run import open_recording
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 pytestmark = [pytest.mark.slow, needs_client]
 WORLD = """<sdf version="1.6"><world name="w">

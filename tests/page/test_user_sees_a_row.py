@@ -8,8 +8,8 @@ from tests.page.built_client import needs_client
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.bringup.sweep.trial import runner_of
-from trundle.trials import RowResult, Rows, load_plan
+from trundle.studies.sweep.trial import runner_of
+from trundle.studies.trials import RowResult, Rows, load_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 pytestmark = [pytest.mark.slow, needs_client]

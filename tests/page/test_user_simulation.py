@@ -11,7 +11,7 @@ from tests.page.scene_user import VIEW_CANVAS, SceneUser
 from tests.system.browser import running_page
 
 from trundle.ros import Node
-from trundle.simulation import read_state_log
+from trundle.sim.simulation import read_state_log
 
 pytestmark = needs_client
 

@@ -14,9 +14,9 @@ from tests.page.built_client import needs_client
 from tests.page.scene_user import PX_PER_M, VIEW_CANVAS, SceneUser, rviz_text
 from tests.video_file import read_video
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
 from trundle.page.session import RvizFile
-from trundle.page_address import PageAddress
 
 pytestmark = [pytest.mark.slow, needs_client]
 

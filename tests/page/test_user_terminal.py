@@ -14,7 +14,7 @@ from tests.page.panel_user import PanelUser
 from tests.page_client import ProtocolClient
 from tests.system.browser import running_page
 
-from trundle.supervisor import HAS_PSEUDO_TERMINALS
+from trundle.base.supervisor import HAS_PSEUDO_TERMINALS
 
 pytestmark = [
     pytest.mark.slow,

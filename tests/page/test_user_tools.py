@@ -9,8 +9,8 @@ from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
 from tests.page.scene_user import PX_PER_M, VIEW_CANVAS, SceneUser, rviz_text
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, RvizFile, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Node
 
 pytestmark = needs_client

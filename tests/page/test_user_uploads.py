@@ -19,7 +19,7 @@ from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
 import trundle
-from trundle.model import MeshFile
+from trundle.robots.model import MeshFile
 
 pytestmark = [needs_client, pytest.mark.slow]
 
@@ -30,7 +30,7 @@ MODEL = f"""<sdf version="1.6"><model name="{{0}}"><link name="base">
 <collision name="c"><pose>0 0 0.3 0 0 0</pose><geometry><box><size>0.6 0.6 0.6</size></box></geometry></collision>
 <visual name="v">{MESH}<material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link>
 {{1}}</model></sdf>"""
-CODE = """from trundle.plugins import Plugin
+CODE = """from trundle.gazebo.plugins import Plugin
 
 
 class Code(Plugin):

@@ -12,10 +12,10 @@ from msgspec import inspect
 from tests.graphs import Graph, running_graph
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
 from trundle.page.clients.protocol import ClientOperation
 from trundle.page.requests.request import ClientAction, SaveRvizAs
-from trundle.page_address import PageAddress
 
 REFUSAL = "this link only allows looking"
 LOOKING = {

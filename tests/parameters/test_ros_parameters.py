@@ -2,7 +2,7 @@
 
 import pytest
 
-from trundle.parameters import ParamError, RosParameters
+from trundle.robots.parameters import ParamError, RosParameters
 
 
 def test_values_are_read_as_they_are_set() -> None:

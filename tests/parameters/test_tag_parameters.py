@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from trundle.diagnostics import Diagnostics
-from trundle.parameters import ParamError, TagParameters
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.robots.parameters import ParamError, TagParameters
 
 
 def read(text: str) -> TagParameters:

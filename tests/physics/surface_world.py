@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 G = 9.8
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 
 import pytest
 
-from trundle.diagnostics import Diagnostics, Source
-from trundle.model import (
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.robots.model import (
     Box,
     Collision,
     Inertial,
@@ -20,7 +20,7 @@ from trundle.model import (
     Surface,
     World,
 )
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 AT = Source("inline.sdf", 1)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 G = 9.8
 _Array = NDArray[np.float64]

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.diagnostics import DescriptionError
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import DescriptionError
+from trundle.sim.simulation import Simulation
 
 COLLECTION = Path(__file__).resolve().parents[3] / "shared/corpus"
 REPOSITORIES = COLLECTION / "repos"

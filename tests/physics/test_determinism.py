@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.simulation import Simulation, Snapshot
+from trundle.sim.simulation import Simulation, Snapshot
 from trundle.spatial import Wrench
 
 PILE = "".join(
@@ -84,7 +84,7 @@ ACTS = """
 import hashlib, sys
 from msgspec.structs import replace
 import trundle
-from trundle.bringup.plugins import load_plugins, load_world_plugins
+from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
 from trundle.spatial import Pose, Wrench
 
 sim = trundle.load(sys.argv[1])

@@ -12,11 +12,11 @@ import trimesh
 from msgspec.structs import replace
 from tests.pictures import drawn
 
-from trundle.diagnostics import UsageError
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
-from trundle.physics import EglRenderer
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.base.diagnostics import UsageError
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
+from trundle.sim.physics import EglRenderer
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 LENS = Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047, near_m=0.1, far_m=50.0)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 
 BALL = "<sphere><radius>0.1</radius></sphere>"
 LIMIT = "<limit><lower>{}</lower><upper>{}</upper><effort>{}</effort><velocity>{}</velocity></limit>"

@@ -8,7 +8,7 @@ import pytest
 from tests.physics.ode_contact import ode_heights, ode_rest_depth
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 Load = Callable[..., Simulation]
 FLOOR = """<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane><normal>0 0 1

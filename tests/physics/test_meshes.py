@@ -11,12 +11,12 @@ import pytest
 from PIL import Image
 
 import trundle
-from trundle.meshes import triangulate
-from trundle.physics.convex import mesh_decomposition, pieces
-from trundle.physics.convex.hulls import hull_of
-from trundle.physics.convex.mesh_decomposition import convex_pieces
-from trundle.physics.convex.pieces import MAX_PIECES
-from trundle.simulation import Simulation
+from trundle.robots.meshes import triangulate
+from trundle.sim.physics.convex import mesh_decomposition, pieces
+from trundle.sim.physics.convex.hulls import hull_of
+from trundle.sim.physics.convex.mesh_decomposition import convex_pieces
+from trundle.sim.physics.convex.pieces import MAX_PIECES
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
 Load = Callable[..., Simulation]

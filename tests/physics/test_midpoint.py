@@ -10,9 +10,9 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.physics import Engine
-from trundle.physics.compile.law_tables import disable_laws
-from trundle.simulation import Simulation
+from trundle.sim.physics import Engine
+from trundle.sim.physics.compile.law_tables import disable_laws
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 G = 9.8

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.simulation import ModelHandle, Simulation
+from trundle.sim.simulation import ModelHandle, Simulation
 from trundle.spatial import Twist
 
 G = 9.8

@@ -12,7 +12,7 @@ import pytest
 from tests.physics.quasistatic import Vehicle
 from tests.physics.surface_world import G, body, floor, friction, load_models
 
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist, Wrench
 
 Load = Callable[..., Simulation]

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.diagnostics import Diagnostics
-from trundle.model import World
-from trundle.physics import CompiledWorld, Recompiler, compile_world
-from trundle.trials import with_property
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.model import World
+from trundle.sim.physics import CompiledWorld, Recompiler, compile_world
+from trundle.studies.trials import with_property
 
 CHASSIS = "models/rp2w/links/chassis"
 NUMBERS = {

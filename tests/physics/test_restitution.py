@@ -9,7 +9,7 @@ from tests.physics.quasistatic import GRAVITY
 from tests.physics.surface_world import body, load_models
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist
 
 Load = Callable[..., Simulation]

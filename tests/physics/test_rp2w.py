@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.world_setup import load_world
-from trundle.diagnostics import Diagnostics
-from trundle.model import World
-from trundle.packages import Packages
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.live.world_setup import load_world
+from trundle.robots.model import World
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Vector3, Wrench
 
 AXLES: dict[str, Vector3] = {

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 G = 9.8
 SECONDS = 2.0

@@ -8,7 +8,7 @@ import pytest
 from tests.physics.quasistatic import GRAVITY, Vehicle, drift
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Wrench
 
 Load = Callable[..., Simulation]

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Wrench
 
 Load = Callable[..., Simulation]

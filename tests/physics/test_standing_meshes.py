@@ -9,14 +9,14 @@ import pytest
 from numpy.typing import NDArray
 
 import trundle
-from trundle.diagnostics import Diagnostics
-from trundle.physics import compile_mjcf
-from trundle.physics.convex import mesh_decomposition, pieces
-from trundle.physics.convex.hulls import hull_of
-from trundle.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
-from trundle.physics.convex.patches import convex_patches
-from trundle.render import scene_from_world
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.sim.physics import compile_mjcf
+from trundle.sim.physics.convex import mesh_decomposition, pieces
+from trundle.sim.physics.convex.hulls import hull_of
+from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
+from trundle.sim.physics.convex.patches import convex_patches
+from trundle.sim.render import scene_from_world
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
@@ -118,7 +118,7 @@ def test_a_track_is_compiled_as_its_surface_whatever_is_added_at_once(
     before = sim["ball"].pose
     x, y, z = before.position
     assert z - surface_height(mesh, np.array([[x, y]]))[0] == pytest.approx(0.1, abs=0.01)
-    monkeypatch.setattr("trundle.physics.compile.convex_geoms._FEW", 10**6)  # one by one
+    monkeypatch.setattr("trundle.sim.physics.compile.convex_geoms._FEW", 10**6)  # one by one
     sim = load(tmp_path, mesh)
     sim.run(0.6)
     assert sim["ball"].pose == before
@@ -135,7 +135,7 @@ def test_what_is_fast_and_small_does_not_go_through_a_slab(tmp_path: Path, radiu
 
 
 def test_a_track_is_as_large_in_mjcf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.physics.compile.convex_geoms._MANY", 400)
+    monkeypatch.setattr("trundle.sim.physics.compile.convex_geoms._MANY", 400)
     sim = load(tmp_path, strip(2400))
     text = compile_mjcf(sim.world, scene_from_world(sim.world, Diagnostics()), Diagnostics())
     assert mujoco.MjModel.from_xml_string(text).ngeom == sim.engine.compiled.model.ngeom

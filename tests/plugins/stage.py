@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import trundle
-from trundle.bringup.plugins import load_plugins, load_world_plugins
+from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
 from trundle.ros import NOETIC, Distro, Messages
 from trundle.ros.node.endpoint_recorder import EndpointRecorder
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 ARM = (

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import DescriptionError, Source
-from trundle.model import PluginTag
-from trundle.plugins import find_plugin
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import DescriptionError, Source
+from trundle.base.xmlnode import parse_xml
+from trundle.gazebo.plugins import find_plugin
+from trundle.robots.model import PluginTag
 
-PLUGIN = "from trundle.plugins import Plugin\n\nclass Spin(Plugin):\n    pass\n"
+PLUGIN = "from trundle.gazebo.plugins import Plugin\n\nclass Spin(Plugin):\n    pass\n"
 
 
 def tag(folder: Path, filename: str = "/home/larry/gazebo_plugin/libspin.so") -> PluginTag:

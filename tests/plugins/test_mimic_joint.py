@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from tests.plugins.stage import load
 
-from trundle.plugins.mimic_joint import MimicJoint
-from trundle.simulation import Simulation
+from trundle.gazebo.plugins.mimic_joint import MimicJoint
+from trundle.sim.simulation import Simulation
 
 _LINK = """<link name="{0}"><inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>
 </inertial></link><joint name="{1}" type="revolute"><parent>{2}</parent><child>{0}</child><axis><xyz>0 0 1</xyz></axis>

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from tests.plugins.stage import Wires, load
 
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 SECONDS = 2.0
 

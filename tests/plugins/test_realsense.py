@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.plugins import attach_sensor_plugins
-from trundle.bringup.renderers import RENDERERS
-from trundle.sensors import mount_cameras
-from trundle.simulation import Simulation
+from trundle.gazebo.model_plugins import attach_sensor_plugins
+from trundle.sim.renderers import RENDERERS
+from trundle.sim.sensors import mount_cameras
+from trundle.sim.simulation import Simulation
 
 FOV, WIDTH, HEIGHT = 1.0, 32, 24
 CAMERA = (

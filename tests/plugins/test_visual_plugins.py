@@ -5,7 +5,7 @@ from pathlib import Path
 from tests.plugins.stage import BODY, Wires, load
 
 SEEN = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
-MARK = """from trundle.plugins import VisualPlugin
+MARK = """from trundle.gazebo.plugins import VisualPlugin
 
 class Mark(VisualPlugin):
     @classmethod

@@ -7,9 +7,9 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Rgba, Sphere
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Fog, Plane, Rgba, Sphere
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 LENS = Intrinsics(width_px=200, height_px=150, horizontal_fov_rad=1.0)

@@ -8,10 +8,9 @@ import trimesh
 from msgspec.structs import replace
 from PIL import Image
 
-from trundle import render
-from trundle.diagnostics import Diagnostics, Source
-from trundle.meshes import Mesh
-from trundle.model import (
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import (
     GREY,
     Box,
     Collision,
@@ -30,7 +29,8 @@ from trundle.model import (
     Visual,
     World,
 )
-from trundle.render import Intrinsics, Scene, scene_from_world
+from trundle.sim import render
+from trundle.sim.render import Intrinsics, Scene, scene_from_world
 from trundle.spatial import Pose
 
 AT = Source("w.sdf", 3)

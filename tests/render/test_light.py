@@ -8,9 +8,9 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 from tests.pictures import drawn
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Fog, Plane, Sphere
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Fog, Plane, Sphere
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 BLACK = (0.0, 0.0, 0.0, 1.0)

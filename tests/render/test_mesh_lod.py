@@ -5,9 +5,9 @@ import pytest
 import trimesh
 from tests import pictures
 
-from trundle.meshes import Mesh
-from trundle.model import Plane
-from trundle.render import Intrinsics, NativeRenderer, Picture, Scene, SceneLight, Shape
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Plane
+from trundle.sim.render import Intrinsics, NativeRenderer, Picture, Scene, SceneLight, Shape
 from trundle.spatial import Pose
 
 LENS = Intrinsics(width_px=160, height_px=120, horizontal_fov_rad=1.0)

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.description import write_sdf, written_uri
-from trundle.diagnostics import Diagnostics
-from trundle.meshes import Mesh
-from trundle.model import TEXTURE_COLOURS
-from trundle.render import scene_from_world
-from trundle.render.named_textures import texture_pixels
-from trundle.render.patterns import clouds, noise
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import write_sdf, written_uri
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import TEXTURE_COLOURS
+from trundle.sim.render import scene_from_world
+from trundle.sim.render.named_textures import texture_pixels
+from trundle.sim.render.patterns import clouds, noise
 
 WORLD = """<sdf version="1.6"><world name="w"><model name="m"><static>1</static><link name="l"><visual name="v">
 <geometry>{}</geometry><material><script><name>{}</name></script>{}</material></visual></link></model></world></sdf>"""

@@ -9,9 +9,9 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 from tests.pictures import drawn
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 RED: Rgba = (1.0, 0.0, 0.0, 1.0)

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from trundle.render import add_colour_noise, add_depth_noise, clip_depths, coloured_points
+from trundle.sim.render import add_colour_noise, add_depth_noise, clip_depths, coloured_points
 
 _SEED = 0x1234_5678_9ABC_DEF0
 
@@ -49,7 +49,7 @@ def test_a_smaller_picture_has_the_first_numbers(count: int) -> None:
 
 def test_every_instruction_set_makes_the_same_noise_and_points() -> None:
     program = (
-        "import numpy as np, sys; from trundle.render import add_depth_noise, clip_depths, coloured_points;"
+        "import numpy as np, sys; from trundle.sim.render import add_depth_noise, clip_depths, coloured_points;"
         "d = np.ones((37, 41), np.float32); add_depth_noise(d, seed=99, mean=0.1, stddev=0.3);"
         "c = np.arange(37 * 41 * 3).astype(np.uint8).reshape(37, 41, 3);"
         "p = coloured_points(clip_depths(d, near_m=0.9, far_m=1.3), c, d, d);"

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
-from trundle.render import NativeRenderer, Scene, Shape, ShapeGeometry
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.sim.render import NativeRenderer, Scene, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 HERE = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from PIL import Image
 from tests.pictures import drawn
 
-from trundle.meshes import Mesh
-from trundle.model import Box, Cylinder, Plane, Sphere
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Cylinder, Plane, Sphere
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, ShapeGeometry
 from trundle.spatial import Pose
 
 WHITE = (1.0, 1.0, 1.0, 1.0)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from trundle.cli import main
-from trundle.diagnostics import Diagnostics
-from trundle.model import Box
-from trundle.render import Scene, Shape, report_unreadable_textures
+from trundle.app.cli import main
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.model import Box
+from trundle.sim.render import Scene, Shape, report_unreadable_textures
 
 NOISE = np.random.default_rng(0).integers(0, 255, (64, 64, 3), dtype=np.uint8)
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import DescriptionError
-from trundle.repositories import (
+from trundle.base.diagnostics import DescriptionError
+from trundle.robots.repositories import (
     Checkout,
     Entry,
     Index,

@@ -63,7 +63,7 @@ def _stop_for_a_while(process: "subprocess.Popen[str]") -> threading.Timer:
 def test_a_master_that_is_stopped_for_a_while_is_waited_for(
     capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for module in ("waiting", "ros.node.pending_work", "ros.xmlrpc.proxy"):
+    for module in ("base.waiting", "ros.node.pending_work", "ros.xmlrpc.proxy"):
         monkeypatch.setattr(f"trundle.{module}.PERIOD_S", 1.0)
     with _process(_CORE) as (process, uri), GraphLoop() as loop:
         node = Node("n", loop=loop, master_uri=uri)
@@ -130,7 +130,7 @@ def test_a_node_that_ends_fails_the_call_at_once() -> None:
 def test_a_loop_that_stops_waits_for_a_callback_that_takes_long(
     capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("trundle.waiting.PERIOD_S", 0.2)
+    monkeypatch.setattr("trundle.base.waiting.PERIOD_S", 0.2)
     ended: list[bool] = []
 
     def block() -> None:

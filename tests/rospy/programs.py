@@ -15,7 +15,7 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from trundle.rospy.environment import with_finder
+from trundle.ros.rospy.environment import with_finder
 
 ROOT = Path(__file__).parents[1] / "data/rospy"
 EXPECTED = ROOT / "expected.json"

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from trundle.ros._message_codec import NOT_SENT, SENT, SENT_IN_PART, DirectSender, DirectSocket
-from trundle.rospy.finder import install
+from trundle.ros.rospy.finder import install
 
 install()
-message_class: Any = import_module("trundle.rospy.message_classes").message_class
-codec: Any = import_module("trundle.rospy.message_methods").codec
+message_class: Any = import_module("trundle.ros.rospy.message_classes").message_class
+codec: Any = import_module("trundle.ros.rospy.message_methods").codec
 Twist, Header, Text = map(message_class, ("geometry_msgs/Twist", "std_msgs/Header", "std_msgs/String"))
 Stamped = message_class("geometry_msgs/TwistStamped")
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.rospy.environment import LIBRARIES, SITE, with_finder
-from trundle.rospy.setup_file import read_setup
+from trundle.ros.rospy.environment import LIBRARIES, SITE, with_finder
+from trundle.ros.rospy.setup_file import read_setup
 
 _PTH = Path(__file__).parents[2] / "packaging/trundle-rospy/trundle_rospy.pth"
 

@@ -8,12 +8,12 @@ import pytest
 
 from trundle.ros import Messages
 from trundle.ros.errors import DefinitionError, MessageError
-from trundle.rospy.finder import install
-from trundle.rospy.message_sources import _BUNDLES, find_definitions
-from trundle.rospy.message_spec import parse_message
+from trundle.ros.rospy.finder import install
+from trundle.ros.rospy.message_sources import _BUNDLES, find_definitions
+from trundle.ros.rospy.message_spec import parse_message
 
 install()
-classes: Any = import_module("trundle.rospy.message_classes")  # imports genpy, which is there after install()
+classes: Any = import_module("trundle.ros.rospy.message_classes")  # imports genpy, which is there after install()
 
 
 def test_shipped_definitions_have_the_md5_sums_of_rosbags() -> None:
@@ -33,7 +33,7 @@ def test_so_do_services(name: str) -> None:
 
 
 def test_long_arrays_are_sent_as_they_are_unless_they_may_change() -> None:
-    from trundle.rospy.message_methods import frame
+    from trundle.ros.rospy.message_methods import frame
 
     image = classes.message_class("sensor_msgs/Image")
     pixels = bytes(100_000)

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from tests.graphs import PATIENCE_S, running_graph
 
-from trundle.rospy.environment import RUN_PYTHON2, with_finder
-from trundle.rospy.python2.detect import is_python2
-from trundle.rospy.python2.translate import show_changes, translate
+from trundle.ros.rospy.environment import RUN_PYTHON2, with_finder
+from trundle.ros.rospy.python2.detect import is_python2
+from trundle.ros.rospy.python2.translate import show_changes, translate
 
 _LANGUAGE = """\
 # -*- coding: utf-8 -*-

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.rospy.environment import RUN_PYTHON2, with_finder
+from trundle.ros.rospy.environment import RUN_PYTHON2, with_finder
 
 
 def _ended(program: Path, *words: str) -> str:

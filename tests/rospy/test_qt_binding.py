@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.rospy.environment import with_finder
+from trundle.ros.rospy.environment import with_finder
 
 HIDE = "import sys; sys.modules[{!r}] = None\n"
 PROGRAM = """\

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
-from trundle.scaffold import ROBOTS
+from trundle.app.cli import main
+from trundle.app.scaffold import ROBOTS
 
 _TIMEOUT_S = 300.0
 

@@ -8,8 +8,8 @@ import pytest
 from tests.skinned import bending_column
 
 import trundle
-from trundle.render import NativeRenderer
-from trundle.sensors import mount_cameras, mount_sensors
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras, mount_sensors
 
 _EYE = """<model name="eye"><static>1</static><link name="l"><pose>{}</pose>
 <sensor name="s" type="depth"><camera><horizontal_fov>1.2</horizontal_fov>

@@ -7,14 +7,14 @@ from threading import Thread
 import pytest
 
 import trundle
-from trundle.description import load_text
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
-from trundle.physics import Contact, Engine
-from trundle.sensors import ContactReading, ContactRecord, ContactSensor, mount_sensors
-from trundle.simulation import Simulation, Snapshot
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load_text
+from trundle.robots.packages import Packages
+from trundle.sim.physics import Contact, Engine
+from trundle.sim.sensors import ContactReading, ContactRecord, ContactSensor, mount_sensors
+from trundle.sim.simulation import Simulation, Snapshot
+from trundle.sim.timeline import Timeline
 from trundle.spatial import NS_PER_S, Wrench
-from trundle.timeline import Timeline
 
 FLOOR = """<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane><normal>0 0 1
 </normal></plane></geometry></collision></link></model>"""

@@ -8,10 +8,10 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.model import MEASURING
-from trundle.sensors import ContactReading, ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
-from trundle.sensors.mount_instruments import MAKERS
-from trundle.simulation import Simulation
+from trundle.robots.model import MEASURING
+from trundle.sim.sensors import ContactReading, ImuReading, ImuSensor, RangeReading, RangeSensor, mount_sensors
+from trundle.sim.sensors.mount_instruments import MAKERS
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
 BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"

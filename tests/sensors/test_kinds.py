@@ -1,7 +1,7 @@
 """The catalog of sensors is one."""
 
-from trundle.description.sdf.camera import CAMERA_TYPES
-from trundle.sensors import SIMULATED_CAMERAS
+from trundle.robots.description.sdf.camera import CAMERA_TYPES
+from trundle.sim.sensors import SIMULATED_CAMERAS
 
 
 def test_every_camera_that_is_read_is_simulated() -> None:

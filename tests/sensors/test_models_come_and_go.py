@@ -8,9 +8,9 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.render import NativeRenderer
-from trundle.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
-from trundle.simulation import Simulation
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 from .test_scheduling import UNHEARD, of_type

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from trundle.model import Noise
-from trundle.sensors import NoiseSource
+from trundle.robots.model import Noise
+from trundle.sim.sensors import NoiseSource
 
 _STEP_NS = 10_000_000
 

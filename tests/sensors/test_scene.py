@@ -9,12 +9,12 @@ import pytest
 from numpy.typing import NDArray
 from tests.pictures import drawn
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.model import World
-from trundle.packages import Packages
-from trundle.render import Intrinsics, NativeRenderer, scene_from_world
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load
+from trundle.robots.model import World
+from trundle.robots.packages import Packages
+from trundle.sim.render import Intrinsics, NativeRenderer, scene_from_world
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 WORLD_FROM_CAMERA = Pose.from_rpy(0.0, 0.05715, 1.5113, 0.0, 0.0, math.pi / 2)

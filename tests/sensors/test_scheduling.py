@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.render import Intrinsics, Picture, Scene
-from trundle.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
-from trundle.simulation import Simulation
+from trundle.sim.render import Intrinsics, Picture, Scene
+from trundle.sim.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 MS = 1_000_000

@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 import trundle
-from trundle.diagnostics import UsageError
-from trundle.sensors import ContactReading, ImuReading, RangeReading
+from trundle.base.diagnostics import UsageError
+from trundle.sim.sensors import ContactReading, ImuReading, RangeReading
 from trundle.spatial import Pose
 
 _CAMERA = """<camera><horizontal_fov>1.0</horizontal_fov><image><width>200</width><height>100</height></image>

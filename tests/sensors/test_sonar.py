@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.sensors import SonarSensor, mount_sensors
+from trundle.sim.sensors import SonarSensor, mount_sensors
 
 _BOX = "<collision name='c'><geometry><box><size>{0} {0} {0}</size></box></geometry></collision>"
 

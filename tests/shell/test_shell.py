@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from tests.shell.terminal import Terminal
 
-from trundle.cli import main
-from trundle.cli.originals import ORIGINALS
+from trundle.app.cli import main
+from trundle.app.cli.originals import ORIGINALS
 
 TIMEOUT_S = 100.0
 COMMANDS = """

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.diagnostics import Source
-from trundle.model import Actor, Trajectory, Waypoint
-from trundle.simulation import Simulation
-from trundle.simulation.actor_script import ActorScript
+from trundle.base.diagnostics import Source
+from trundle.robots.model import Actor, Trajectory, Waypoint
+from trundle.sim.simulation import Simulation
+from trundle.sim.simulation.actor_script import ActorScript
 from trundle.spatial import Pose
 
 SQUARE = ((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))

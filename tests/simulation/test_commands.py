@@ -8,8 +8,8 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.diagnostics import UsageError
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import UsageError
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist, Wrench
 
 INERTIA = "<inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"

@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
-from trundle import simulation
-from trundle.diagnostics import Diagnostics, Source
-from trundle.model import PhysicsSettings, World
-from trundle.plugins import Plugin
-from trundle.simulation import Simulation, Snapshot
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.gazebo.plugins import Plugin
+from trundle.robots.model import PhysicsSettings, World
+from trundle.sim import simulation
+from trundle.sim.simulation import Simulation, Snapshot
 
 MS = 1_000_000
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.diagnostics import Source, UsageError
-from trundle.model import Joint, JointAxis, JointType
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Source, UsageError
+from trundle.robots.model import Joint, JointAxis, JointType
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
 BODY = """<link name="l"><inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.packages import Packages
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 
 _LIGHT = """<sdf version="1.6"><world name="w"><model name="m"><link name="base"/>
 <link name="wheel"><inertial><mass>0.1</mass>

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from trundle.description import load_text
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.packages import Packages
-from trundle.simulation import ModelHandle, Simulation
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.robots.description import load_text
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import ModelHandle, Simulation
 from trundle.spatial import Pose, Twist, rotate
 
 L1, C1, M1, I1 = 0.8, 0.3, 2.0, 0.05

@@ -6,9 +6,9 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.diagnostics import UsageError
-from trundle.model import Inertial, Model
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import UsageError
+from trundle.robots.model import Inertial, Model
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist, Wrench
 
 CART = """<model name="{name}"><pose>{x} 0 0.2 0 0 0</pose><link name="base"><inertial><mass>2</mass></inertial>

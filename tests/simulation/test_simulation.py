@@ -5,8 +5,8 @@ import threading
 import numpy as np
 import pytest
 
-from trundle.diagnostics import Diagnostics, Source, UsageError
-from trundle.model import (
+from trundle.base.diagnostics import Diagnostics, Source, UsageError
+from trundle.robots.model import (
     Box,
     Collision,
     Inertial,
@@ -19,7 +19,7 @@ from trundle.model import (
     Sphere,
     World,
 )
-from trundle.simulation import Simulation, Snapshot
+from trundle.sim.simulation import Simulation, Snapshot
 from trundle.spatial import Pose, Wrench
 
 AT = Source("inline.sdf", 1)

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import trundle
-from trundle.diagnostics import DescriptionError
-from trundle.simulation import Simulation, StateRecorder, read_state_log
+from trundle.base.diagnostics import DescriptionError
+from trundle.sim.simulation import Simulation, StateRecorder, read_state_log
 
 MODEL = """<sdf version="1.6"><model name="m"><link name="a"/><link name="b"><pose>0 0 1 0 0 0</pose></link>
 <joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 1 0</xyz></axis></joint></model></sdf>"""

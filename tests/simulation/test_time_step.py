@@ -4,11 +4,11 @@ import pytest
 from msgspec.structs import replace
 from tests.simulation.test_hooks import MS, Acts, Looks, Track, empty_world
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
-from trundle.simulation import Simulation
-from trundle.simulation.step_clock import StepClock
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
+from trundle.sim.simulation.step_clock import StepClock
 from trundle.spatial import Wrench
 
 _INERTIAL = "<inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.supervisor import ProcessTree
+from trundle.base.supervisor import ProcessTree
 
 TIMEOUT_S = 60.0
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="/proc, which shows who lives, is Linux's")
@@ -27,7 +27,7 @@ time.sleep(600 * (sys.argv[1] == "stay"))
 
 STARTER = """
 import asyncio, os, sys
-from trundle.supervisor import ProcessCommand, ProcessJob, ProcessTree
+from trundle.base.supervisor import ProcessCommand, ProcessJob, ProcessTree
 
 async def main():
     argv = (sys.executable, "-S", "-c", sys.argv[1], "stay")

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from trundle.diagnostics import UsageError
-from trundle.supervisor import (
+from trundle.base.diagnostics import UsageError
+from trundle.base.supervisor import (
     Event,
     ProcessCommand,
     ProcessJob,

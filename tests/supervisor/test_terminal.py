@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from trundle.supervisor import (
+from trundle.base.supervisor import (
     HAS_PSEUDO_TERMINALS,
     Event,
     JobError,

@@ -28,11 +28,19 @@ def test_the_published_robot_is_understood_and_its_oddities_are_named(trundle, s
 def test_a_plain_robot_loads_no_more_than_it_needs(shared) -> None:
     """Modules that slow the start most: the engine, numpy, YAML, and dataclasses of unused sensors."""
     file = shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"
-    code = "import sys; from trundle.cli import main; main(['check', sys.argv[1]]); print(*sorted(sys.modules))"
+    code = "import sys; from trundle.app.cli import main; main(['check', sys.argv[1]]); print(*sorted(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code, str(file)], capture_output=True, text=True, check=True)
 
     loaded = set(done.stdout.splitlines()[-1].split())
-    spared = {"mujoco", "numpy", "yaml", "json", "socket", "trundle.model.sensor", "trundle.description.sdf.world"}
+    spared = {
+        "mujoco",
+        "numpy",
+        "yaml",
+        "json",
+        "socket",
+        "trundle.robots.model.sensor",
+        "trundle.robots.description.sdf.world",
+    }
     assert "lxml.etree" in loaded
     assert not spared & loaded
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from trundle.bringup.world_setup import load_world
-from trundle.diagnostics import Diagnostics
-from trundle.model import Link
-from trundle.packages import Packages
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.live.world_setup import load_world
+from trundle.robots.model import Link
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 # Gazebo's answers have six digits.

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from tests.graphs import PATIENCE_S
 
-from trundle.supervisor import HAS_PSEUDO_TERMINALS
-from trundle.supervisor.terminal import LEADER
+from trundle.base.supervisor import HAS_PSEUDO_TERMINALS
+from trundle.base.supervisor.terminal import LEADER
 
 pytestmark = [
     pytest.mark.slow,

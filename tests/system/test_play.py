@@ -9,7 +9,7 @@ import urllib.request
 import numpy as np
 import pytest
 
-from trundle.simulation import read_state_log
+from trundle.sim.simulation import read_state_log
 
 
 def test_a_recorded_run_is_played_on_a_page(start, trundle, until, tmp_path) -> None:

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.packages.stock import STOCK
+from trundle.robots.packages.stock import STOCK
 from trundle.ros import GraphLoop, Message, Node, to_nsec
 
 _RUN_S = 20

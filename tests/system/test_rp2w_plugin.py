@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 from tests.graphs import running_graph
 
-from trundle.bringup.plugins import load_plugins
-from trundle.bringup.world_setup import load_world
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
-from trundle.plugins import Plugin
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.gazebo.model_plugins import load_plugins
+from trundle.gazebo.plugins import Plugin
+from trundle.live.world_setup import load_world
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 
 EXAMPLE = Path(__file__).parents[2] / "examples/rp2w"
 

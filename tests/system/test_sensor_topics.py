@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from trundle.ros import GraphLoop, Node
-from trundle.sensors import SIMULATED_CAMERAS
+from trundle.sim.sensors import SIMULATED_CAMERAS
 
 DOCS = Path(__file__).parents[2] / "docs/sensors.md"
 UNHEARD = {"rfidtag", "wireless_transmitter"}

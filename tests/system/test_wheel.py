@@ -79,7 +79,7 @@ def test_every_file_of_the_package_is_in_the_wheel() -> None:
         missing = {name for name in sources - set(wheel.namelist()) if not name.endswith((".pyc", ".so"))}
 
     assert missing == set()
-    assert {"trundle/py.typed", "trundle/ros/__init__.pyi", "trundle/render/_native.pyi"} <= sources
+    assert {"trundle/py.typed", "trundle/ros/__init__.pyi", "trundle/sim/render/_native.pyi"} <= sources
 
 
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="this is no checkout")
@@ -120,7 +120,7 @@ def test_the_installed_trundle_is_the_wheel_s(run: Run, commands: Path) -> None:
 def test_every_module_of_the_wheel_imports(run: Run) -> None:
     code = """
 import importlib, pkgutil, trundle
-from trundle.rospy.finder import install
+from trundle.ros.rospy.finder import install
 install()  # as in every program of ROS: genpy and its kin are found
 for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
     importlib.import_module(module.name)

@@ -9,13 +9,13 @@ import pytest
 from tests.graphs import until
 
 import trundle
-from trundle.bringup.loaded_simulation import LoadedSimulation
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
+from trundle.live.loaded_simulation import LoadedSimulation
 from trundle.ros import GraphLoop, Node
-from trundle.sensors import RangeReading
-from trundle.simulation import Simulation
+from trundle.sim.sensors import RangeReading
+from trundle.sim.simulation import Simulation
+from trundle.sim.timeline import Timeline
 from trundle.spatial import NS_PER_S, Pose
-from trundle.timeline import Timeline
 
 STATM = Path("/proc/self/statm")
 ROBOT = """

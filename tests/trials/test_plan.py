@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import DescriptionError
-from trundle.trials import Rows, read_plan
+from trundle.base.diagnostics import DescriptionError
+from trundle.studies.trials import Rows, read_plan
 
 PLAN = """\
 world: model://rp2w

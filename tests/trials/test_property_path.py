@@ -3,9 +3,9 @@
 import pytest
 
 import trundle
-from trundle.diagnostics import UsageError
-from trundle.model import World
-from trundle.trials import with_property
+from trundle.base.diagnostics import UsageError
+from trundle.robots.model import World
+from trundle.studies.trials import with_property
 
 
 @pytest.fixture(scope="module")

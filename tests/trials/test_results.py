@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import UsageError
-from trundle.trials import Results, RowResult, Rows, Table, lock_folder, read_plan
+from trundle.base.diagnostics import UsageError
+from trundle.studies.trials import Results, RowResult, Rows, Table, lock_folder, read_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 
@@ -27,7 +27,7 @@ def _result(row: int) -> RowResult:
 
 @pytest.fixture(autouse=True)
 def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
-    monkeypatch.setattr("trundle.trials.results.GROUP_ROWS", 8)
+    monkeypatch.setattr("trundle.studies.trials.results.GROUP_ROWS", 8)
 
 
 def test_the_table_does_not_depend_on_the_order_or_on_kills(tmp_path: Path) -> None:

@@ -13,12 +13,12 @@ from tests.skinned import bending_column
 from tests.web.conftest import WorldPage
 
 import trundle
-from trundle.bringup.actor_bones import ActorBones
-from trundle.diagnostics import Diagnostics
-from trundle.gltf import glb_from_scene
-from trundle.meshes import Mesh
-from trundle.model import Box, Cylinder, Fog, Plane, Sphere
-from trundle.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, scene_from_world, update_skins
+from trundle.base.diagnostics import Diagnostics
+from trundle.page.actor_bones import ActorBones
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Cylinder, Fog, Plane, Sphere
+from trundle.sim.gltf import glb_from_scene
+from trundle.sim.render import Intrinsics, NativeRenderer, Scene, SceneLight, Shape, scene_from_world, update_skins
 from trundle.spatial import Pose
 
 _SIZE = (480, 360)

@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 from tests.web.conftest import WorldPage
 
-from trundle.gltf import Document, add_scene
-from trundle.model import Box
-from trundle.render import Scene, Shape
+from trundle.robots.model import Box
+from trundle.sim.gltf import Document, add_scene
+from trundle.sim.render import Scene, Shape
 
 _RED, _BLUE, _GREEN = (255, 0, 0), (0, 0, 255), (0, 255, 0)
 _SCENE = {"ambient": [1, 1, 1], "background": [0, 0, 0], "sky": False, "shadows": False, "grid": False, "fog": None}

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.diagnostics import TrundleError
-from trundle.workers import Job, JobResult, run_rows
+from trundle.base.diagnostics import TrundleError
+from trundle.base.workers import Job, JobResult, run_rows
 
 MODULE = """\
 import os, pathlib, time

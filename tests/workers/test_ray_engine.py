@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from trundle.diagnostics import UsageError
-from trundle.workers import Job, run_rows
+from trundle.base.diagnostics import UsageError
+from trundle.base.workers import Job, run_rows
 
 ROWS = 60
 

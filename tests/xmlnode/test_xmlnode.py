@@ -3,8 +3,8 @@
 import pytest
 from lxml import etree
 
-from trundle.diagnostics import DescriptionError, Diagnostics, Source
-from trundle.xmlnode import parse_xml
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.base.xmlnode import parse_xml
 
 
 def test_an_element_knows_its_line_below_blank_lines() -> None:

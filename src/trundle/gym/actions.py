@@ -8,7 +8,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 from .states import WorldStates
 

@@ -4,16 +4,16 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Literal, Unpack
 
-from trundle.bringup.loaded_simulation import LoadedSimulation, load_simulation
-from trundle.diagnostics import UsageError
-from trundle.physics import NoGpuError, find_gpu
+from trundle.base.diagnostics import UsageError
+from trundle.live.loaded_simulation import LoadedSimulation, load_simulation
+from trundle.sim.physics import NoGpuError, find_gpu
 
 from .single_env import SimulationEnv
 from .vector_env import SimulationVectorEnv
 from .worlds import Task, TaskArguments, Worlds
 
 if TYPE_CHECKING:
-    from trundle.description import Model, World
+    from trundle.robots.description import Model, World
 
 _DEVICES = ("cpu", "cuda")
 _RENDER_MODES = (None, "rgb_array")

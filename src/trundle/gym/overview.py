@@ -5,15 +5,9 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 from PIL import Image
 
-from trundle.bringup.picture.three_quarter_view import (
-    BACKDROP,
-    FIELD_OF_VIEW,
-    STUDIO_LIGHT,
-    scene_corners,
-    three_quarter_pose,
-)
-from trundle.render import Intrinsics, NativeRenderer, scene_from_world
-from trundle.sensors import CameraHandle
+from trundle.sim.render import Intrinsics, NativeRenderer, scene_from_world
+from trundle.sim.sensors import CameraHandle
+from trundle.sim.three_quarter_view import BACKDROP, FIELD_OF_VIEW, STUDIO_LIGHT, scene_corners, three_quarter_pose
 
 from .states import WorldStates
 

@@ -9,8 +9,8 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from trundle.atomic_write import replaced_atomically
-from trundle.diagnostics import UsageError
+from trundle.base.atomic_write import replaced_atomically
+from trundle.base.diagnostics import UsageError
 
 from .networks import evaluate
 

@@ -9,7 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 from .networks import Adam, evaluate, gradient, initial_parameters
 from .policy import MlpPolicy

@@ -1,13 +1,12 @@
 """Tasks of the ready environments."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-import trundle.packages
-from trundle.simulation import Simulation
+from trundle.assets import ASSETS
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 from .actions import EffortAction, VelocityAction
@@ -17,7 +16,7 @@ from .states import WorldStates
 from .twist_action import TwistAction
 from .worlds import TaskArguments
 
-_FOLDER = Path(trundle.packages.__file__).parent / "worlds"
+_FOLDER = ASSETS / "worlds"
 _Array = NDArray[np.float64]
 
 # -- a cart that keeps a pole upright

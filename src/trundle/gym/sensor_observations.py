@@ -4,7 +4,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from trundle.sensors import CameraHandle, NoiseSource, RangeSensor
+from trundle.sim.sensors import CameraHandle, NoiseSource, RangeSensor
 from trundle.spatial import pose_from_row
 
 from .observations import Generators, ObservationReader

@@ -6,9 +6,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.bringup.loaded_simulation import LoadedSimulation
-from trundle.diagnostics import UsageError
-from trundle.physics import Batch
+from trundle.base.diagnostics import UsageError
+from trundle.live.loaded_simulation import LoadedSimulation
+from trundle.sim.physics import Batch
 from trundle.spatial import NS_PER_S, conjugate_rows, rotate_rows
 
 _Array = NDArray[np.float64]

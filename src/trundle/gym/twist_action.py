@@ -5,10 +5,10 @@ from gymnasium import spaces
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from trundle.control import DifferentialDrive
-from trundle.diagnostics import UsageError
-from trundle.model import Model
-from trundle.parameters import TagParameters
+from trundle.base.diagnostics import UsageError
+from trundle.robots.model import Model
+from trundle.robots.parameters import TagParameters
+from trundle.sim.control import DifferentialDrive
 
 from .actions import Apply
 from .states import WorldStates

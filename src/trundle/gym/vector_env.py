@@ -9,7 +9,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 from .overview import Overview
 from .worlds import Observed, Worlds

@@ -8,8 +8,8 @@ from gymnasium import spaces
 from msgspec import Struct
 from numpy.typing import ArrayLike, NDArray
 
-from trundle.bringup.loaded_simulation import LoadedSimulation
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
+from trundle.live.loaded_simulation import LoadedSimulation
 from trundle.spatial import NS_PER_S
 
 from .actions import Action, Apply

@@ -1,11 +1,5 @@
 from .errors import PageError as PageError
 from .http.client_files import REPLAY_FILES as REPLAY_FILES
-from .http.send_buffer import SendBuffer as SendBuffer
-from .http.web_server import Handler as Handler
-from .http.web_server import Reply as Reply
-from .http.web_server import SocketClient as SocketClient
-from .http.web_server import SocketOptions as SocketOptions
-from .http.web_server import WebServer as WebServer
 from .link_file import read_link_files as read_link_files
 from .page_server import PageServer as PageServer
 from .playback import Playback as Playback

@@ -1,6 +1,6 @@
 """Errors of the page."""
 
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 
 
 class PageError(TrundleError):

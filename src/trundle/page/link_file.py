@@ -10,7 +10,7 @@ from urllib.parse import urlsplit, urlunsplit
 
 import msgspec
 
-from trundle.ownership import runtime_folders, write_private_file
+from trundle.base.ownership import runtime_folders, write_private_file
 
 from .wire import Served
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import msgspec
 from aiohttp import MultipartReader
 
-from trundle.diagnostics import UsageError
-from trundle.output_folder import find_target, save_files
+from trundle.base.diagnostics import UsageError
+from trundle.base.output_folder import find_target, save_files
 from trundle.ros import GraphLoop, MessageError, WallClock, open_bag
 
 from .bag.source import BagSource

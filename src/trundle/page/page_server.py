@@ -16,9 +16,9 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
-from trundle.page_address import PageAddress
-from trundle.waiting import PERIOD_S, WaitNotice
+from trundle.base.diagnostics import UsageError
+from trundle.base.http.page_address import PageAddress
+from trundle.base.waiting import PERIOD_S, WaitNotice
 
 from .driving.stop import DriveStop
 from .errors import PageError

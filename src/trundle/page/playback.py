@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.spatial import NS_PER_S
 
 from .requests.request import PageAction, Pause, Play, Reset, Seek, SetSpeed, Step

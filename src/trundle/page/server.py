@@ -14,8 +14,8 @@ import sys
 from concurrent.futures import Future
 from pathlib import Path
 
-from trundle.access import Access
-from trundle.page_address import AllowedNames, PageAddress
+from trundle.base.http.access import Access
+from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.ros import GraphLoop
 
 from .clients.assets import Assets

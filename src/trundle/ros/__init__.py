@@ -1,8 +1,13 @@
-"""The ROS 1 graph: master, parameters, topics, services, tf and messages.
+"""ROS 1: the graph with its master, parameters, topics, services, tf and messages, and what programs import of ROS.
 
 Names are imported on first use, so that commands that only call the master import neither asyncio nor numpy.
 """
 
-import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+def __getattr__(name: str) -> object:
+    """Names of the stub; the loader itself is imported late, as every Python process of a user passes here."""
+    import lazy_loader
+
+    get, names, every = lazy_loader.attach_stub(__name__, __file__)
+    globals().update(__dir__=names, __all__=every)
+    return every if name == "__all__" else get(name)

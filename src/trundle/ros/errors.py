@@ -13,7 +13,7 @@ TrundleError
     └── WireError                a peer violated the protocol; never leaves this package
 """
 
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 
 
 class RosError(TrundleError):

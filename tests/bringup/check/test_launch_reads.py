@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.check.check import CheckResult, check
-from trundle.diagnostics import Diagnostics
-from trundle.launch import read_launch
-from trundle.packages import ALLOW_OUTSIDE, Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.gazebo.check.check import CheckResult, check
+from trundle.robots.launch import read_launch
+from trundle.robots.packages import ALLOW_OUTSIDE, Packages
 
 _NODE = '<node pkg="rospy" type="x" name="n">{}</node>'
 READS = [

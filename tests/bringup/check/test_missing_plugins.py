@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.check.check import check
-from trundle.cli.main import main
+from trundle.app.cli.main import main
+from trundle.gazebo.check.check import check
 
 WORLD = """<sdf version="1.6"><world name="w">
 <plugin name="weather" filename="libweather.so"/>

@@ -7,12 +7,12 @@ import pytest
 from msgspec.structs import astuple
 from numpy.typing import NDArray
 
-from trundle.bringup.dataset.dataset_world import picture_maker
-from trundle.datasets import AnnotatedPicture, ObjectAnnotation, read_dataset_plan
-from trundle.datasets.overlay import box_corners
-from trundle.datasets.run_length import decode_mask
-from trundle.diagnostics import DescriptionError
+from trundle.base.diagnostics import DescriptionError
 from trundle.spatial import Pose, matrix_from_quaternion, pose_from_row
+from trundle.studies.dataset.dataset_world import picture_maker
+from trundle.studies.datasets import AnnotatedPicture, ObjectAnnotation, read_dataset_plan
+from trundle.studies.datasets.overlay import box_corners
+from trundle.studies.datasets.run_length import decode_mask
 
 BOX = """<sdf version="1.6"><model name="box"><link name="body">
 <collision name="c"><geometry><box><size>0.4 0.2 0.3</size></box></geometry></collision>

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from trundle.bringup.dataset.dataset_digest import dataset_digest
-from trundle.bringup.dataset.dataset_world import picture_maker
-from trundle.datasets import DatasetFolder, load_dataset_plan
-from trundle.datasets.annotation import Mask
-from trundle.datasets.run_length import decode_mask
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
+from trundle.studies.dataset.dataset_digest import dataset_digest
+from trundle.studies.dataset.dataset_world import picture_maker
+from trundle.studies.datasets import DatasetFolder, load_dataset_plan
+from trundle.studies.datasets.annotation import Mask
+from trundle.studies.datasets.run_length import decode_mask
 
 TRUNDLE = Path(sys.executable).with_name("trundle")
 WORLD = """<sdf version="1.6"><world name="w"><model name="floor"><static>1</static><link name="l">

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import trundle
-from trundle.datasets.overlay import category_colour
 from trundle.ros import Messages, open_bag
+from trundle.studies.datasets.overlay import category_colour
 
 SIZE = (320, 240)
 WORLD = """<sdf version="1.6"><world name="w"><model name="floor"><static>1</static><link name="l">

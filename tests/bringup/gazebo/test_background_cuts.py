@@ -9,8 +9,8 @@ import pytest
 from tests.bringup.test_cut_meshes import angle_iron
 from tests.gazebo_server import Gazebo, until
 
-from trundle.physics.convex import jobs
-from trundle.physics.convex.mesh_decomposition import clear_cache
+from trundle.sim.physics.convex import jobs
+from trundle.sim.physics.convex.mesh_decomposition import clear_cache
 
 _COUNT = 4
 

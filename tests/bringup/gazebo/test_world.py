@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
-from trundle.nodes.gazebo import GazeboServer, SpawnModel
+from trundle.gazebo.nodes.gazebo import GazeboServer, SpawnModel
 from trundle.ros import Message, Node, to_nsec
 
 _BALL = """<sdf version="1.6"><model name="as_written"><pose>0 0 1 0 0 0</pose><link name="link">
@@ -267,7 +267,7 @@ def test_a_world_that_starts_paused_says_what_starts_it(gazebo: Gazebo) -> None:
 
 def test_a_plugin_that_raises_pauses_the_world_and_is_named(gazebo: Gazebo, tmp_path: Path) -> None:
     (tmp_path / "bad.py").write_text(
-        "from trundle.plugins import Plugin\n\n\nclass Bad(Plugin):\n    @classmethod\n"
+        "from trundle.gazebo.plugins import Plugin\n\n\nclass Bad(Plugin):\n    @classmethod\n"
         "    def load(cls, sim, model, node, tag):\n        return cls()\n\n"
         "    def before_step(self, sim):\n        raise ValueError('no such thing')\n"
     )

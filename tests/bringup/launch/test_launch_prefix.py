@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.launch.launch_prefix import LaunchPrefix, read_prefix
+from trundle.live.launch.launch_prefix import LaunchPrefix, read_prefix
 
 
 @pytest.fixture

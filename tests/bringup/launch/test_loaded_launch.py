@@ -9,7 +9,7 @@ def test_listing_nodes_loads_nothing_heavy(tmp_path: Path) -> None:
     file = tmp_path / "a.launch"
     file.write_text('<launch><node pkg="p" type="t" name="one"/><param name="x" value="1"/></launch>')
     code = (
-        f"import sys; from trundle.cli import main; assert main(['launch', '--nodes', {str(file)!r}]) == 0;"
+        f"import sys; from trundle.app.cli import main; assert main(['launch', '--nodes', {str(file)!r}]) == 0;"
         "print([name for name in ('asyncio', 'numpy', 'mujoco', 'rosbags', 'aiohttp') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -23,8 +23,8 @@ def test_a_launch_without_a_page_does_not_wait_for_one(tmp_path: Path) -> None:
     )
     words = ["launch", "--headless", "--duration", "0.1", str(file)]
     code = (
-        f"import sys; from trundle.cli import main; assert main({words!r}) == 0;"
-        "print([name for name in ('trundle.page', 'trundle.render', 'mujoco') if name in sys.modules])"
+        f"import sys; from trundle.app.cli import main; assert main({words!r}) == 0;"
+        "print([name for name in ('trundle.page.page_server', 'trundle.sim.render', 'mujoco') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from trundle.bringup.launch.pages import reserved_ports
-from trundle.diagnostics import Diagnostics
-from trundle.launch import read_launch_text
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.http.page_address import PageAddress
+from trundle.live.launch.pages import reserved_ports
 from trundle.page.http.listening import listen
-from trundle.page_address import PageAddress
+from trundle.robots.launch import read_launch_text
+from trundle.robots.packages import Packages
 
 VIDEO = 'pkg="web_video_server" type="web_video_server"'
 

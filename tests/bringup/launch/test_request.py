@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.launch.request import read_request
-from trundle.diagnostics import UsageError
-from trundle.packages import Packages
+from trundle.base.diagnostics import UsageError
+from trundle.live.launch.request import read_request
+from trundle.robots.packages import Packages
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_a_pipe_is_read_as_standard_input_is(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs")
 def test_a_pipe_that_nothing_writes_to_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.files._TIMEOUT_S", 0.01)
+    monkeypatch.setattr("trundle.base.files._TIMEOUT_S", 0.01)
     os.mkfifo(tmp_path / "a.launch")
 
     with pytest.raises(UsageError, match=r"a\.launch: no end of the stream within 0\.01 s"):

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from tests.graphs import running_graph
 
-from trundle.cli.main import main
+from trundle.app.cli.main import main
 from trundle.ros import GraphLoop
 
 

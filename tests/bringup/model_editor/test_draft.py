@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.model_editor.draft import Draft
-from trundle.bringup.model_editor.new_parts import new_model
-from trundle.bringup.model_editor.overview import draft_overview
-from trundle.bringup.model_editor.reader import ModelReader
-from trundle.diagnostics import UsageError
-from trundle.packages import Packages
+from trundle.base.diagnostics import UsageError
+from trundle.page.model_editor.draft import Draft
+from trundle.page.model_editor.new_parts import new_model
+from trundle.page.model_editor.overview import draft_overview
+from trundle.page.model_editor.reader import ModelReader
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"

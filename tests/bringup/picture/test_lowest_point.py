@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from trundle.bringup.picture.lowest_point import lowest_point
-from trundle.meshes import Mesh
-from trundle.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
-from trundle.render import ShapeGeometry
+from trundle.app.picture.lowest_point import lowest_point
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Sphere
+from trundle.sim.render import ShapeGeometry
 from trundle.spatial import Pose
 
 CUBE = Mesh(

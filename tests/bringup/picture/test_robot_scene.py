@@ -4,13 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.picture.robot_scene import robot_scene
-from trundle.diagnostics import Diagnostics
-from trundle.meshes import Mesh
-from trundle.model import Box, Cylinder, Sphere
-from trundle.packages import Packages
-from trundle.robot import read_robot
-from trundle.xmlnode import parse_xml
+from trundle.app.picture.robot_scene import robot_scene
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import parse_xml
+from trundle.robots.meshes import Mesh
+from trundle.robots.model import Box, Cylinder, Sphere
+from trundle.robots.packages import Packages
+from trundle.robots.robot import read_robot
 
 _URDF = """\
 <robot name="car">

@@ -7,10 +7,10 @@ import pytest
 from tests.bringup.simulation_page.worlds import BOX, CAMERA, loaded, model
 
 import trundle
-from trundle.bringup.profile.profile import Profile
-from trundle.bringup.profile.stride_profile import StrideProfile
+from trundle.page.profile.profile import Profile
+from trundle.page.profile.stride_profile import StrideProfile
 from trundle.ros import GraphLoop
-from trundle.simulation import Simulation, Snapshot
+from trundle.sim.simulation import Simulation, Snapshot
 
 MS = 1_000_000
 FALLING = model(

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from tests.gltf.glb import Glb
 
-from trundle.cli import main
+from trundle.app.cli import main
 from trundle.page import REPLAY_FILES
 
 BOUNCE = """<sdf version="1.6"><world name="w"><model name="ball"><pose>0 0 1 0 0 0</pose><link name="l">

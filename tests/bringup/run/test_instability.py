@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.run.run import run
-from trundle.bringup.run.run_options import OnInstability, RunOptions
-from trundle.cli.main import main
-from trundle.physics import SimulationUnstableError
+from trundle.app.cli.main import main
+from trundle.live.run.run import run
+from trundle.live.run.run_options import OnInstability, RunOptions
+from trundle.sim.physics import SimulationUnstableError
 
 QUIET = ["--headless", "--no-ros", "--speed", "max", "--duration", "3"]
 

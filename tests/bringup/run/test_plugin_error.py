@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli.main import main
-from trundle.simulation import Simulation
+from trundle.app.cli.main import main
+from trundle.sim.simulation import Simulation
 
 RUN = ["--headless", "--no-ros", "--speed", "max", "--duration", "0.1"]
 SDF = """<sdf version="1.6"><model name="m"><link name="a"/><plugin name="arm" filename="libarm.so"/></model></sdf>"""
-PLUGIN = """from trundle.plugins import Plugin
+PLUGIN = """from trundle.gazebo.plugins import Plugin
 
 class Arm(Plugin):
     @classmethod

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from tests.graphs import running_graph
 
-from trundle.cli.main import main
-from trundle.simulation import Simulation
+from trundle.app.cli.main import main
+from trundle.sim.simulation import Simulation
 
 NS = 1_000_000_000
 WORLD = """<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity>

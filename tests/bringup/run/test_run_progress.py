@@ -1,6 +1,6 @@
 """A run without a page tells a person at a terminal how far it is."""
 
-from trundle.bringup.run.run_progress import RunProgress
+from trundle.live.run.run_progress import RunProgress
 
 
 def test_a_line_every_five_seconds_has_the_time_and_the_speed_since_the_last() -> None:

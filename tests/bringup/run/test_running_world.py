@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 from tests.graphs import PATIENCE_S, Graph, running_graph, until
 
-from trundle.bringup.console import Console
-from trundle.bringup.run.run_options import RunOptions
-from trundle.bringup.run.running_world import RunningWorld
-from trundle.bringup.simulation_page.model_edits import ModelEdits
-from trundle.diagnostics import Diagnostics, UsageError
+from trundle.base.console import Console
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.live.run.run_options import RunOptions
+from trundle.live.run.running_world import RunningWorld
 from trundle.page import CopyModel, DeleteModel, ResetModel, RestoreModel, UndoReset
+from trundle.page.simulated_world.model_edits import ModelEdits
 from trundle.spatial import Pose
 
 WORLD = """<sdf version="1.6"><world name="w"><gravity>0 0 0</gravity><model name="cart"><link name="base">

@@ -5,8 +5,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from trundle.bringup.shared_page import SharedPage
 from trundle.page import PageAction, PageServer, Request, Session
+from trundle.page.shared_page import SharedPage
 
 
 class FakeServer:

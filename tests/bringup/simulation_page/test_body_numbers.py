@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from trundle.bringup.simulation_page.body_numbers import BodyNumbers
+from trundle.page.simulated_world.body_numbers import BodyNumbers
 
 
 def poses(*x: float) -> np.ndarray:

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tests.bringup.simulation_page.worlds import loaded
 
-from trundle.bringup.simulation_page import contact_rows
-from trundle.bringup.simulation_page.body_numbers import BodyNumbers
-from trundle.bringup.simulation_page.contact_rows import ContactRows
+from trundle.page.simulated_world import contact_rows
+from trundle.page.simulated_world.body_numbers import BodyNumbers
+from trundle.page.simulated_world.contact_rows import ContactRows
 
 _SHAPE = '<collision name="c"><geometry><box><size>{0} {0} 0.2</size></box></geometry></collision>'
 _WORLD = f"""<model name="floor"><static>1</static><link name="l">{_SHAPE.format(9)}</link></model>

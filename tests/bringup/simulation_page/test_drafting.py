@@ -9,16 +9,16 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.simulation_page.code_consent import CodeConsent
-from trundle.bringup.simulation_page.drafting import Drafting, ShownDraft
-from trundle.bringup.simulation_page.edits import edit
-from trundle.bringup.simulation_page.model_edits import ModelEdits
-from trundle.bringup.world_contents import BareContents
-from trundle.description import load_text
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.page import AddPart, BeginDraft, DraftAction, FinishDraft, LeaveDraft, SaveDraft, SetField, SetMass
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.code_consent import CodeConsent
+from trundle.page.simulated_world.drafting import Drafting, ShownDraft
+from trundle.page.simulated_world.edits import edit
+from trundle.page.simulated_world.model_edits import ModelEdits
+from trundle.page.world_contents import BareContents
+from trundle.robots.description import load_text
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><pose>3 0 0.5 0 0 0</pose>

@@ -9,10 +9,7 @@ import pytest
 from msgspec.structs import replace
 from tests.bringup.simulation_page.worlds import loaded
 
-from trundle.bringup.simulation_page.edits import edit
-from trundle.bringup.simulation_page.model_edits import ModelEdits
-from trundle.bringup.world_contents import BareContents
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.page import (
     ApplyWrench,
     EditAction,
@@ -26,9 +23,12 @@ from trundle.page import (
     SetTwist,
     UndoReset,
 )
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.edits import edit
+from trundle.page.simulated_world.model_edits import ModelEdits
+from trundle.page.world_contents import BareContents
+from trundle.sim.simulation import Simulation
+from trundle.sim.timeline import Timeline
 from trundle.spatial import Pose, Twist
-from trundle.timeline import Timeline
 
 _WORLD = """<gravity>0 0 0</gravity><light name="sun" type="directional"><diffuse>1 1 1 1</diffuse></light>
 <model name="cart"><pose>1 0 0.5 0 0 0</pose><link name="base"><pose>0 0 0.1 0 0 0</pose>

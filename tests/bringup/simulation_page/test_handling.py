@@ -6,15 +6,7 @@ from pathlib import Path
 import pytest
 from tests.bringup.simulation_page.worlds import CAMERA, loaded, model
 
-from trundle.bringup.realtime_pacer import RealtimePacer
-from trundle.bringup.simulation_page import handling
-from trundle.bringup.simulation_page.controls import SimulationControls
-from trundle.bringup.simulation_page.edits import edit
-from trundle.bringup.simulation_page.handling import handled_models
-from trundle.bringup.simulation_page.model_edits import ModelEdits
-from trundle.bringup.world_contents import BareContents
-from trundle.diagnostics import Source, UsageError
-from trundle.model import Joint, JointType
+from trundle.base.diagnostics import Source, UsageError
 from trundle.page import (
     Carry,
     CopyModel,
@@ -28,8 +20,16 @@ from trundle.page import (
     RestoreModel,
     SetPose,
 )
-from trundle.simulation import Simulation
-from trundle.timeline import Timeline
+from trundle.page.simulated_world import handling
+from trundle.page.simulated_world.controls import SimulationControls
+from trundle.page.simulated_world.edits import edit
+from trundle.page.simulated_world.handling import handled_models
+from trundle.page.simulated_world.model_edits import ModelEdits
+from trundle.page.world_contents import BareContents
+from trundle.robots.model import Joint, JointType
+from trundle.sim.realtime_pacer import RealtimePacer
+from trundle.sim.simulation import Simulation
+from trundle.sim.timeline import Timeline
 
 _UPRIGHT = (1, 0, 0, 0)
 _WORLD = """<light name="lamp" type="point"><pose>0 0 3 0 0 0</pose></light>

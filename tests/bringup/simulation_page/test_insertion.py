@@ -7,17 +7,17 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.simulation_page.code_consent import CodeConsent
-from trundle.bringup.simulation_page.insertion import Insertion
-from trundle.bringup.simulation_page.model_edits import ModelEdits
-from trundle.description import load_text
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.model import Model
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.gazebo.plugins import find_user_file
 from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels, RestoreLight
-from trundle.plugins import find_user_file
-from trundle.robot import Robot
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.code_consent import CodeConsent
+from trundle.page.simulated_world.insertion import Insertion
+from trundle.page.simulated_world.model_edits import ModelEdits
+from trundle.robots.description import load_text
+from trundle.robots.model import Model
+from trundle.robots.packages import Packages
+from trundle.robots.robot import Robot
+from trundle.sim.simulation import Simulation
 
 CRATE = '<sdf version="1.6"><model name="crate"><link name="body"/>{}</model></sdf>'
 CONFIG = "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf><description>Of  wood.</description></model>"

@@ -6,9 +6,9 @@ import pytest
 from tests.bringup.simulation_page.worlds import CAMERA, lidar, loaded, model, world
 
 import trundle
-from trundle.bringup.simulation_page.body_numbers import BodyNumbers
-from trundle.bringup.simulation_page.manifest import joint_rows, single_axes, world_manifest
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.body_numbers import BodyNumbers
+from trundle.page.simulated_world.manifest import joint_rows, single_axes, world_manifest
+from trundle.sim.simulation import Simulation
 
 CART = """<model name="cart"><link name="base"><pose>0 0 1 0 0 0</pose>
 <inertial><pose>0.1 0 0 0 0 0.5</pose><mass>3</mass>

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from trundle.bringup.simulation_page import model_pictures
-from trundle.bringup.simulation_page.model_pictures import SIZE_PX, cached_picture, model_glb
-from trundle.diagnostics import UsageError
-from trundle.packages import Packages
+from trundle.base.diagnostics import UsageError
+from trundle.page.simulated_world import model_pictures
+from trundle.page.simulated_world.model_pictures import SIZE_PX, cached_picture, model_glb
+from trundle.robots.packages import Packages
 
 _MODEL = """<sdf version="1.6"><model name="crate"><pose>1 2 3 0 0 0</pose><link name="l"><visual name="v">
 <geometry><box><size>1 1 1</size></box></geometry><material>

@@ -18,11 +18,9 @@ from tests.gltf.glb import Glb
 from tests.page_client import ProtocolClient, page_url
 from tests.skinned import bending_column
 
-from trundle.bringup.realtime_pacer import RealtimePacer
-from trundle.bringup.shared_page import SharedPage
-from trundle.bringup.simulation_page.page import SimulationPage
-from trundle.bringup.state_logs import PageRecording
-from trundle.diagnostics import Source
+from trundle.base.diagnostics import Source
+from trundle.base.http.page_address import PageAddress
+from trundle.live.state_logs import PageRecording
 from trundle.page import (
     LINES,
     MoveJoint,
@@ -39,9 +37,11 @@ from trundle.page import (
     Step,
     TimelineSpan,
 )
-from trundle.page_address import PageAddress
-from trundle.simulation import DebugLine, Simulation, read_state_log
-from trundle.timeline import Timeline
+from trundle.page.shared_page import SharedPage
+from trundle.page.simulated_world.page import SimulationPage
+from trundle.sim.realtime_pacer import RealtimePacer
+from trundle.sim.simulation import DebugLine, Simulation, read_state_log
+from trundle.sim.timeline import Timeline
 
 CART = """<model name="cart"><link name="base"/><link name="wheel"><pose>0 0 1 0 0 0</pose></link>
 <joint name="axle" type="revolute"><parent>base</parent><child>wheel</child><axis><xyz>0 1 0</xyz></axis></joint>

@@ -7,9 +7,9 @@ import pytest
 from tests.bringup.simulation_page.fake_server import FakeServer
 from tests.bringup.simulation_page.worlds import loaded, model
 
-from trundle.bringup.simulation_page.performance import PerformanceStream
 from trundle.page import PERFORMANCE, PageServer
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.performance import PerformanceStream
+from trundle.sim.simulation import Simulation
 
 S = 1_000_000_000
 

@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
-from trundle.bringup.replay.recorded_motion import RecordedMotion
-from trundle.bringup.simulation_page import pose_history
-from trundle.bringup.simulation_page.pose_history import ReplaySaver
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.page import SaveReplay
+from trundle.page.replay.recorded_motion import RecordedMotion
+from trundle.page.simulated_world import pose_history
+from trundle.page.simulated_world.pose_history import ReplaySaver
 
 
 def _never() -> RecordedMotion:

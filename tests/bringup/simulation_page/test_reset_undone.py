@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from tests.timeline.test_timeline import PUSH, Driver, seconds, world
 
 import trundle
-from trundle.bringup.simulation_page.model_edits import ModelEdits
-from trundle.bringup.world_contents import BareContents
 from trundle.page import ResetModel, UndoReset
+from trundle.page.simulated_world.model_edits import ModelEdits
+from trundle.page.world_contents import BareContents
 from trundle.ros import GraphLoop
-from trundle.simulation import Simulation
-from trundle.timeline import Timeline
+from trundle.sim.simulation import Simulation
+from trundle.sim.timeline import Timeline
 
 
 def test_a_robot_drives_on_and_its_plugins_know_what_they_knew(tmp_path: Path) -> None:

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from tests.bringup.simulation_page.fake_server import FakeServer
 
-from trundle.bringup.simulation_page.series_sampler import SeriesSampler
-from trundle.description import load_text
-from trundle.diagnostics import Diagnostics
-from trundle.model import flattened
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
 from trundle.page import PageServer
-from trundle.sensors import mount_sensors
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.series_sampler import SeriesSampler
+from trundle.robots.description import load_text
+from trundle.robots.model import flattened
+from trundle.robots.packages import Packages
+from trundle.sim.sensors import mount_sensors
+from trundle.sim.simulation import Simulation
 
 WORLD = """<sdf version="1.6"><world name="w">
 <model name="floor"><static>1</static><link name="l"><collision name="c">

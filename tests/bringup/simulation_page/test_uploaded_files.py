@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from trundle.bringup.model_editor.draft import Draft
-from trundle.bringup.model_editor.reader import ModelReader
-from trundle.bringup.simulation_page.model_saver import save_draft
-from trundle.bringup.simulation_page.uploaded_files import copies, needed_uploads, with_uploads_named
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.model import MeshFile
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
 from trundle.page import SaveDraft
+from trundle.page.model_editor.draft import Draft
+from trundle.page.model_editor.reader import ModelReader
+from trundle.page.simulated_world.model_saver import save_draft
+from trundle.page.simulated_world.uploaded_files import copies, needed_uploads, with_uploads_named
+from trundle.robots.description import load
+from trundle.robots.model import MeshFile
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
 

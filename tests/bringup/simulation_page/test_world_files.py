@@ -9,12 +9,12 @@ from PIL import Image
 from tests.bringup.simulation_page.worlds import BOX, model, world
 from tests.gltf.glb import Glb
 
-from trundle.bringup.simulation_page.world_builder import WorldBuilder
-from trundle.bringup.simulation_page.world_files import WorldFiles
-from trundle.description import load
-from trundle.diagnostics import Diagnostics
-from trundle.model import World, flattened
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics
+from trundle.page.simulated_world.world_builder import WorldBuilder
+from trundle.page.simulated_world.world_files import WorldFiles
+from trundle.robots.description import load
+from trundle.robots.model import World, flattened
+from trundle.robots.packages import Packages
 
 MESH = "<visual name='m'><geometry><mesh><uri>{}</uri></mesh></geometry></visual>"
 

@@ -8,13 +8,13 @@ from typing import Any
 import pytest
 from tests.bringup.simulation_page.worlds import loaded, model
 
-from trundle.bringup.simulation_page.current_world import current_world
-from trundle.bringup.simulation_page.world_saver import WorldSaver, find_world
-from trundle.diagnostics import UsageError
-from trundle.output_folder import save_files
-from trundle.packages import Packages
+from trundle.base.diagnostics import UsageError
+from trundle.base.output_folder import save_files
 from trundle.page import SaveWorld
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.current_world import current_world
+from trundle.page.simulated_world.world_saver import WorldSaver, find_world
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 
 Ask = Callable[[Path, SaveWorld], dict[str, Any]]
 

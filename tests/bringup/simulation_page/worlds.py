@@ -4,9 +4,9 @@ from pathlib import Path
 from typing import Any
 
 import trundle
-from trundle.render import NativeRenderer
-from trundle.sensors import mount_cameras, mount_sensors
-from trundle.simulation import Simulation
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras, mount_sensors
+from trundle.sim.simulation import Simulation
 
 CAMERA = """<sensor name="cam" type="camera"><pose>0.5 0 0 0 0 1</pose><update_rate>5</update_rate>
 <camera><horizontal_fov>1</horizontal_fov><image><width>8</width><height>6</height></image></camera></sensor>"""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from trundle.bringup.sweep.chart_axes import axis_of, tick_texts
+from trundle.studies.sweep.chart_axes import axis_of, tick_texts
 
 
 def test_values_lie_between_the_ends_in_proportion() -> None:

@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.sweep.sweep import open_results
-from trundle.bringup.sweep.trial import runner_of
-from trundle.diagnostics import TrundleError, UsageError
+from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.ros import open_bag
-from trundle.trials import Rows, load_plan
+from trundle.studies.sweep.sweep import open_results
+from trundle.studies.sweep.trial import runner_of
+from trundle.studies.trials import Rows, load_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 LAUNCH = """<launch><arg name="height" default="1"/>

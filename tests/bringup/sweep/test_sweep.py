@@ -17,9 +17,9 @@ import pytest
 from PIL import Image
 
 import trundle
-from trundle.bringup.sweep.trial import TrialRunner
-from trundle.diagnostics import TrundleError
-from trundle.trials import Rows, load_plan
+from trundle.base.diagnostics import TrundleError
+from trundle.studies.sweep.trial import TrialRunner
+from trundle.studies.trials import Rows, load_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 TRUNDLE = Path(sys.executable).with_name("trundle")

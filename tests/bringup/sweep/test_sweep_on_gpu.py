@@ -12,12 +12,12 @@ import pytest
 from tests.warp_device import warp_device
 
 import trundle
-from trundle.bringup.sweep.device import batches, device_choice
-from trundle.bringup.sweep.device.row_check import check_worlds
-from trundle.bringup.sweep.trial import TrialRunner
-from trundle.diagnostics import DescriptionError, TrundleError, UsageError
-from trundle.physics import NoGpuError
-from trundle.trials import Rows, load_plan
+from trundle.base.diagnostics import DescriptionError, TrundleError, UsageError
+from trundle.sim.physics import NoGpuError
+from trundle.studies.sweep.device import batches, device_choice
+from trundle.studies.sweep.device.row_check import check_worlds
+from trundle.studies.sweep.trial import TrialRunner
+from trundle.studies.trials import Rows, load_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 needs_warp = pytest.mark.skipif(
@@ -115,7 +115,7 @@ def test_a_killed_sweep_goes_on_and_its_table_is_the_same(plan: Path) -> None:
 
 def _kill_after_a_row(plan: Path) -> None:
     program = (
-        "import sys, trundle\nfrom trundle.bringup.sweep.device import device_choice\n"
+        "import sys, trundle\nfrom trundle.studies.sweep.device import device_choice\n"
         f"device_choice.find_gpu = lambda: {warp_device()!r}\n"
         "trundle.sweep(sys.argv[1], device='cuda')"
     )
@@ -161,7 +161,7 @@ def test_a_row_that_cannot_go_on_says_so_and_the_others_do(plan: Path) -> None:
 def test_a_row_too_crowded_for_the_gpu_says_so_and_the_others_go_on(
     plan: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from trundle.physics.step.warp import stepper
+    from trundle.sim.physics.step.warp import stepper
 
     monkeypatch.setattr(stepper, "_MOST_CONTACTS", 0)  # one box on the floor has room, four have not
     boxes = WORLD.replace("<sphere><radius>0.1</radius></sphere>", "<box><size>0.2 0.2 0.2</size></box>")

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.sweep.trial import TrialRunner
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 from trundle.ros import open_bag
-from trundle.trials import Rows, load_plan
+from trundle.studies.sweep.trial import TrialRunner
+from trundle.studies.trials import Rows, load_plan
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 WORLD = """<sdf version="1.6"><world name="w">

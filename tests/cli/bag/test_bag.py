@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
-from trundle.cli import main
+from trundle.app.cli import main
 from trundle.ros import BagConnection, BagError, BagMessage, Messages, create_bag, open_bag, recover_messages
 
 STRING = "std_msgs/String"

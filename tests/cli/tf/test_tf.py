@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
+from trundle.base.xmlnode import parse_xml
 from trundle.ros import StaticTransformBroadcaster, Transform, TransformBroadcaster, WallClock
-from trundle.xmlnode import parse_xml
 
 
 @pytest.fixture

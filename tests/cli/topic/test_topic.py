@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 from tests.cli.conftest import PATIENCE_S
 
-import trundle.cli.topic.pub as topic_pub
-from trundle.cli.topic.measure import TopicDelay
+import trundle.app.cli.topic.pub as topic_pub
+from trundle.app.cli.topic.measure import TopicDelay
 from trundle.ros import Messages, WallClock
 
 STRING = "std_msgs/String"

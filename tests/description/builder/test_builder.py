@@ -9,10 +9,10 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.description import Link, load_text
-from trundle.diagnostics import Diagnostics, Source, UsageError
-from trundle.model import CameraOptics, ImuNoise, Inertial, JointAxis, JointType, RangeScan, ScanAxis, Surface
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics, Source, UsageError
+from trundle.robots.description import Link, load_text
+from trundle.robots.model import CameraOptics, ImuNoise, Inertial, JointAxis, JointType, RangeScan, ScanAxis, Surface
+from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
 NOWHERE = Source("nowhere")

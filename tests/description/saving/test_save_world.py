@@ -6,13 +6,13 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.bringup.simulation_page.current_world import current_world
-from trundle.bringup.simulation_page.edits import edit
-from trundle.description import SavedWorld, save_world
-from trundle.model import Light, World
-from trundle.packages import Packages
 from trundle.page import EditAction, SetFriction, SetLight, SetMass, SetPhysics, SetPose
-from trundle.simulation import Simulation
+from trundle.page.simulated_world.current_world import current_world
+from trundle.page.simulated_world.edits import edit
+from trundle.robots.description import SavedWorld, save_world
+from trundle.robots.model import Light, World
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import Simulation
 
 BOX = "<geometry><box><size>1 1 1</size></box></geometry>"
 ARM = f"""<model name="arm"><pose>5 0 0 0 0 0</pose><link name="base"><collision name="c">{BOX}</collision></link>

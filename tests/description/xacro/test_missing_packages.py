@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli.main import main
-from trundle.description import expand_xacro, load
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.packages import LENIENT, Packages
+from trundle.app.cli.main import main
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import expand_xacro, load
+from trundle.robots.packages import LENIENT, Packages
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">

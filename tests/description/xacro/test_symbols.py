@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import expand_xacro
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import expand_xacro
+from trundle.robots.packages import Packages
 
 
 def expand(folder: Path, body: str) -> str:
@@ -244,7 +244,7 @@ def test_repeated_insertion_of_a_long_text_is_stopped(tmp_path: Path) -> None:
 
 
 def test_blocks_that_double_are_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.description.xacro.expand._MAX_ELEMENTS", 2000)
+    monkeypatch.setattr("trundle.robots.description.xacro.expand._MAX_ELEMENTS", 2000)
     block = '<xacro:property name="a{0}"><xacro:insert_block name="a{1}"/><xacro:insert_block name="a{1}"/>'
     bomb = doubled('<xacro:property name="a0"><!-- nothing --></xacro:property>', f"{block}</xacro:property>")
 
@@ -253,7 +253,7 @@ def test_blocks_that_double_are_stopped(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_macros_that_double_are_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.description.xacro.expand._MAX_ELEMENTS", 2000)
+    monkeypatch.setattr("trundle.robots.description.xacro.expand._MAX_ELEMENTS", 2000)
     macros = '<xacro:macro name="m0"><link name="l"/></xacro:macro>' + "".join(
         f'<xacro:macro name="m{i + 1}"><xacro:m{i}/><xacro:m{i}/></xacro:macro>' for i in range(40)
     )

@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
-from trundle.nodes.gazebo.ode import OdeSettings
+from trundle.gazebo.nodes.gazebo.ode import OdeSettings
 from trundle.ros import set_options
 
 _INERTIA = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from trundle.description import load
-from trundle.diagnostics import Diagnostics, UsageError
-from trundle.nodes.gazebo.spawn_arguments import SpawnRequest
-from trundle.nodes.gazebo.trimesh import trimesh_sdf
-from trundle.packages import Packages
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.gazebo.nodes.gazebo.spawn_arguments import SpawnRequest
+from trundle.gazebo.nodes.gazebo.trimesh import trimesh_sdf
+from trundle.robots.description import load
+from trundle.robots.packages import Packages
 
 _MESH = """solid s
 facet normal 0 0 1

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from trundle.nodes.robot_localization.kalman import SIZE, KalmanFilter, Measurement, wrapped
+from trundle.gazebo.nodes.robot_localization.kalman import SIZE, KalmanFilter, Measurement, wrapped
 from trundle.spatial import matrix_from_quaternion, quaternion_from_axis_angle, quaternion_from_rpy
 
 NONE = np.zeros((SIZE, SIZE))

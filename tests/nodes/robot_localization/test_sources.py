@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from tests.nodes.fakes import MESSAGES
 
-from trundle.nodes.robot_localization.kalman import Measurement
-from trundle.nodes.robot_localization.sources import MessageReader, Source, read_sources
-from trundle.parameters import ParamError, RosParameters
+from trundle.gazebo.nodes.robot_localization.kalman import Measurement
+from trundle.gazebo.nodes.robot_localization.sources import MessageReader, Source, read_sources
+from trundle.robots.parameters import ParamError, RosParameters
 from trundle.spatial import IDENTITY_QUATERNION, Pose, quaternion_from_rpy
 
 POSES = {

@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 from tests.page_client import ProtocolClient, page_url
 
-from trundle.bringup.play import PlayOptions, play
-from trundle.diagnostics import DescriptionError
+from trundle.app.play import PlayOptions, play
+from trundle.base.diagnostics import DescriptionError
+from trundle.base.http.page_address import PageAddress
 from trundle.page import BagFile, PageServer, Session
 from trundle.page.bag.reader import BagCursor
-from trundle.page_address import PageAddress
 from trundle.ros import BagConnection, BagMessage, Messages, create_bag, open_bag
 
 S = 1_000_000_000

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,8 @@ import pytest
 from tests.graphs import Graph, running_graph, until
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Node
 
 STOP_S = 0.5

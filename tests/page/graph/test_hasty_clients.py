@@ -7,8 +7,8 @@ from fuzz.connection import SEPARATOR, send_web_socket
 from tests.graphs import running_graph
 from tests.page_client import socket_url
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 
 
 def test_a_client_that_asks_and_leaves_at_once_leaves_nothing_on_the_terminal(

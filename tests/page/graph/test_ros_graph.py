@@ -11,8 +11,8 @@ import pytest
 from tests.graphs import Graph, running_graph
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
-from trundle.page_address import PageAddress
 from trundle.ros import Core, MasterProxy, Messages, Node, ServiceError
 from trundle.ros.xmlrpc.rpc_server import RpcServer
 

@@ -19,12 +19,12 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
 import trundle
-from trundle.access import Access, PageRequest
+from trundle.base.http.access import Access, PageRequest
+from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.page import PageServer, Session
 from trundle.page.http.client_files import CLIENT, ClientFiles
 from trundle.page.http.content_policy import response_fields
 from trundle.page.http.places import MAX_CONTROLLING
-from trundle.page_address import AllowedNames, PageAddress
 
 EVIL = "http://evil.example"
 

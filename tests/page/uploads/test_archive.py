@@ -8,7 +8,7 @@ from zipfile import ZIP_BZIP2, ZIP_DEFLATED, ZipFile, ZipInfo
 
 import pytest
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.page.uploads.archive import unpack
 from trundle.page.uploads.model import find_models
 from trundle.page.uploads.tree import UploadTree

@@ -12,8 +12,8 @@ from zipfile import ZipFile
 import pytest
 from tests.page_client import ProtocolClient
 
+from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
-from trundle.page_address import PageAddress
 
 CONFIG = "<model><name>{}</name><sdf version='1.6'>model.sdf</sdf></model>"
 

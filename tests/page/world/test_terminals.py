@@ -7,11 +7,11 @@ import pytest
 from tests.graphs import until
 from tests.page_client import ProtocolClient
 
-from trundle.bringup.page_terminals import PageTerminals
-from trundle.bringup.shared_page import SharedPage
+from trundle.base.http.page_address import PageAddress
+from trundle.base.supervisor import Terminal
 from trundle.page import TERMINAL, PageServer, Session
-from trundle.page_address import PageAddress
-from trundle.supervisor import Terminal
+from trundle.page.shared_page import SharedPage
+from trundle.page.terminals import PageTerminals
 
 TOPIC = f"{TERMINAL}0"
 

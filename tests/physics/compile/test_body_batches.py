@@ -9,11 +9,11 @@ import trimesh
 from msgspec.structs import replace
 
 import trundle
-from trundle.diagnostics import Diagnostics
-from trundle.model import World, flattened
-from trundle.physics import compile_mjcf, compile_world
-from trundle.physics.compile import body_batches
-from trundle.render import scene_from_world
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.model import World, flattened
+from trundle.sim.physics import compile_mjcf, compile_world
+from trundle.sim.physics.compile import body_batches
+from trundle.sim.render import scene_from_world
 from trundle.spatial import Pose
 
 ROBOT = Path(__file__).parents[3] / "examples/rp2w"

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from trundle import physics
-from trundle.diagnostics import Diagnostics, Source
-from trundle.model import (
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.robots.model import (
     Box,
     Collision,
     Cylinder,
@@ -28,8 +27,9 @@ from trundle.model import (
     Surface,
     World,
 )
-from trundle.physics import CompiledWorld, compile_world, report_wheels
-from trundle.simulation import Simulation
+from trundle.sim import physics
+from trundle.sim.physics import CompiledWorld, compile_world, report_wheels
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Wrench
 
 AT = Source("inline.sdf", 1)

@@ -8,7 +8,7 @@ import pytest
 from tests.physics.ode_contact import ode_rest_depth
 from tests.physics.surface_world import BALL, BLOCK, G, body, floor, friction, load_models
 
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist, Wrench
 
 Load = Callable[..., Simulation]

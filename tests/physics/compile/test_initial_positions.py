@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.physics import compile_world
-from trundle.simulation import Simulation
+from trundle.sim.physics import compile_world
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 PARTS = """<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"><pose>0.5 0 1 0 0.3 0</pose></link>

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.cli.main import main
-from trundle.diagnostics import DescriptionError
-from trundle.simulation import Simulation
+from trundle.app.cli.main import main
+from trundle.base.diagnostics import DescriptionError
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Wrench
 
 G = 9.8

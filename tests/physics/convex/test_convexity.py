@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from trundle.physics.convex.convexity import is_convex
+from trundle.sim.physics.convex.convexity import is_convex
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
 

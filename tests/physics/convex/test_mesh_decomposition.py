@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from trundle.bringup.check.check import check
-from trundle.physics.convex import decomposition, jobs, mesh_decomposition, pieces
-from trundle.physics.convex.cache import load_pieces, save_pieces
-from trundle.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
-from trundle.physics.convex.native_output import native_output_hidden
-from trundle.physics.convex.pieces import ConcavePart, Detail, decompose_part, split_mesh
-from trundle.physics.convex.progress import DecompositionProgress
+from trundle.gazebo.check.check import check
+from trundle.sim.physics.convex import decomposition, jobs, mesh_decomposition, pieces
+from trundle.sim.physics.convex.cache import load_pieces, save_pieces
+from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
+from trundle.sim.physics.convex.native_output import native_output_hidden
+from trundle.sim.physics.convex.pieces import ConcavePart, Detail, decompose_part, split_mesh
+from trundle.sim.physics.convex.progress import DecompositionProgress
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
@@ -136,10 +136,12 @@ def test_a_mesh_that_cannot_be_cut_is_filled_aloud(
 
 def test_the_worker_loads_little_of_trundle() -> None:
     program = (
-        "import sys, trundle.physics.convex.pieces; print(*sorted(m for m in sys.modules if m.startswith('trundle.')))"
+        "import sys, trundle.sim.physics.convex.pieces; print(*(name for name in sys.modules if 'trundle.' in name))"
     )
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert not re.findall(r"trundle\.(?:meshes|model|description|ros|render|simulation|bringup)\b", result.stdout)
+    assert not re.findall(
+        r"trundle\.(?:robots\.(?:meshes|model|description)|ros|sim\.(?:render|simulation)|live|page)\b", result.stdout
+    )
 
 
 def _children(pid: int) -> list[int]:

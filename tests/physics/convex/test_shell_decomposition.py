@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 import trundle
-from trundle.physics.convex import mesh_decomposition
-from trundle.physics.convex.hulls import Hull, hull_of, surface_error
-from trundle.physics.convex.mesh_decomposition import convex_pieces
-from trundle.simulation import Simulation
+from trundle.sim.physics.convex import mesh_decomposition
+from trundle.sim.physics.convex.hulls import Hull, hull_of, surface_error
+from trundle.sim.physics.convex.mesh_decomposition import convex_pieces
+from trundle.sim.simulation import Simulation
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
 Load = Callable[..., Simulation]

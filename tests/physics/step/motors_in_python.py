@@ -5,8 +5,8 @@ import math
 import mujoco
 import numpy as np
 
-from trundle.physics import CompiledWorld, MotorCommand
-from trundle.physics.compile.law_tables import find_table
+from trundle.sim.physics import CompiledWorld, MotorCommand
+from trundle.sim.physics.compile.law_tables import find_table
 
 _KINEMATIC, _HUGE = -1.0, 1e10
 

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from trundle.description import load_text
-from trundle.diagnostics import Diagnostics
-from trundle.packages import Packages
-from trundle.physics import Contacts
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.description import load_text
+from trundle.robots.packages import Packages
+from trundle.sim.physics import Contacts
+from trundle.sim.simulation import Simulation
 
 _BOX = "<geometry><box><size>0.4 0.2 0.1</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="w">

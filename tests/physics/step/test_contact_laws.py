@@ -10,10 +10,10 @@ import pytest
 from mujoco.batch import Batch
 
 import trundle
-from trundle.diagnostics import TrundleError
-from trundle.physics import _contact_laws
-from trundle.physics.step import contact_laws
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import TrundleError
+from trundle.sim.physics import _contact_laws
+from trundle.sim.physics.step import contact_laws
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist
 
 BALL = """<model name="ball"><pose>{} 0 0.6 0 0 0</pose><link name="l"><inertial><mass>2</mass><inertia><ixx>0.01</ixx>

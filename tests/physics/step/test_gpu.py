@@ -13,12 +13,12 @@ import pytest
 from tests.warp_device import warp_device
 
 import trundle
-import trundle.packages
-from trundle.diagnostics import UsageError
-from trundle.physics import Batch, NoGpuError, find_gpu, gpu_limits
-from trundle.simulation import Simulation
+from trundle.assets import ASSETS
+from trundle.base.diagnostics import UsageError
+from trundle.sim.physics import Batch, NoGpuError, find_gpu, gpu_limits
+from trundle.sim.simulation import Simulation
 
-WORLDS = Path(trundle.packages.__file__).parent / "worlds"
+WORLDS = ASSETS / "worlds"
 DEVICE = warp_device()
 HAS_WARP = find_spec("warp") is not None and find_spec("mujoco_warp") is not None
 needs_warp = pytest.mark.skipif(not HAS_WARP, reason="mujoco-warp is not installed: trundle doctor says how")

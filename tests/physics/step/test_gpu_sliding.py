@@ -9,7 +9,7 @@ import pytest
 from tests.physics.step.test_gpu import DEVICE, needs_warp
 
 import trundle
-from trundle.physics.compile.law_tables import find_table
+from trundle.sim.physics.compile.law_tables import find_table
 
 CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_ELLIPTIC)
 
@@ -28,7 +28,7 @@ def _on_device(model: mujoco.MjModel, before: mujoco.MjData, at: mujoco.MjData, 
     import warp as wp
     from mujoco_warp import Contact
 
-    from trundle.physics.step.warp.sliding import Sliding
+    from trundle.sim.physics.step.warp.sliding import Sliding
 
     vec5 = Contact.__dataclass_fields__["friction"].type.dtype
     contact, rows, nv = at.contact, at.nefc, model.nv

@@ -8,7 +8,7 @@ import pytest
 from tests.physics.step.motors_in_python import PythonMotors
 
 import trundle
-from trundle.physics import Engine
+from trundle.sim.physics import Engine
 
 _LINK = """<link name="{0}"><inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>
 </inertial></link>"""

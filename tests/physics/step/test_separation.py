@@ -9,7 +9,7 @@ from tests.physics.ode_contact import ode_rest_depth
 from tests.physics.quasistatic import GRAVITY, Vehicle
 
 import trundle
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist
 
 Load = Callable[..., Simulation]

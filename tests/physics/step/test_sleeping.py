@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.physics.step.sleeping import DECISION_PERIOD
-from trundle.simulation import Simulation
+from trundle.sim.physics.step.sleeping import DECISION_PERIOD
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist, Wrench
 
 Load = Callable[..., Simulation]

@@ -7,8 +7,8 @@ import pytest
 from msgspec.structs import replace
 
 import trundle
-from trundle.physics import SurfaceMotion, TrackMotion
-from trundle.simulation import Simulation
+from trundle.sim.physics import SurfaceMotion, TrackMotion
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Wrench
 
 X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.plugins import load_plugins
-from trundle.simulation import Simulation
+from trundle.gazebo.model_plugins import load_plugins
+from trundle.sim.simulation import Simulation
 
 ACTOR = """<sdf version="1.6"><world name="w"><actor name="walker"><pose>0 0 1.2138 1.5707 0 0</pose><skin>
 <filename>none.dae</filename></skin><script><trajectory id="0" type="walking"><waypoint><time>5</time>

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.plugins.stage import ARM, Wires, load
 
-from trundle.control import Pid
+from trundle.sim.control import Pid
 
 CONTROL = '<plugin name="p" filename="libJointControlPlugin.so">{}</plugin>'
 KEYS = '<plugin name="p" filename="libKeysToJointsPlugin.so">{}</plugin>'

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.simulation_page.lines import plugin_lines
+from trundle.page.simulated_world.lines import plugin_lines
 from trundle.spatial import Twist
 
 PLOT = """<link name="l">{body}</link><plugin name="p" filename="libLinkPlot3DPlugin.so"><frequency>100</frequency>

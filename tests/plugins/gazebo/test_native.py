@@ -8,10 +8,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import trundle
-from trundle.bringup.plugins import load_plugins
-from trundle.model import Box, Cylinder, Link
-from trundle.plugins.gazebo.bounding_box import bounding_box
-from trundle.simulation import Simulation
+from trundle.gazebo.model_plugins import load_plugins
+from trundle.gazebo.plugins.gazebo.bounding_box import bounding_box
+from trundle.robots.model import Box, Cylinder, Link
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist, Vector3
 
 BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
@@ -256,8 +256,8 @@ def test_skid_steer_drives_all_four_wheels(tmp_path: Path) -> None:
 
 
 def test_a_bounding_box_goes_round_all_collisions_turned_as_they_are() -> None:
-    from trundle.diagnostics import Source
-    from trundle.model import Collision
+    from trundle.base.diagnostics import Source
+    from trundle.robots.model import Collision
     from trundle.spatial import Pose
 
     at = Source("x")

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.physics import Engine, WheelGrip
-from trundle.simulation import Simulation
+from trundle.sim.physics import Engine, WheelGrip
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Wrench
 
 TRACK = """<link name="{side}"><pose>0 {y} 0.05 0 0 0</pose><inertial><mass>5</mass><inertia><ixx>0.1</ixx>

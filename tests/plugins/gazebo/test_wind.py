@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.plugins import load_plugins, load_world_plugins
-from trundle.simulation import Simulation
+from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
+from trundle.sim.simulation import Simulation
 
 BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 AT_ONCE = """<horizontal><magnitude><time_for_rise>0</time_for_rise>{}</magnitude><direction>

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from tests.plugins.stage import ARM, BODY, Wires, load
 
-from trundle.bringup.plugins import attach_sensor_plugins
+from trundle.gazebo.model_plugins import attach_sensor_plugins
 from trundle.ros import DISTROS
-from trundle.sensors import mount_sensors
+from trundle.sim.sensors import mount_sensors
 
 ROOT, MODEL = "", "m"
 BALL = '<collision name="ball"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>'

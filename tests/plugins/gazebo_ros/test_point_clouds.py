@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.plugins import attach_sensor_plugins
-from trundle.sensors import mount_sensors
+from trundle.gazebo.model_plugins import attach_sensor_plugins
+from trundle.sim.sensors import mount_sensors
 
 _FAN = "<samples>{}</samples><min_angle>-{}</min_angle><max_angle>{}</max_angle>"
 _RAYS = f"""<ray><scan><horizontal>{_FAN.format(3, 0.2, 0.2)}</horizontal>

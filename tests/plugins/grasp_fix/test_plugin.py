@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.bringup.plugins import load_plugins
-from trundle.simulation import Simulation
+from trundle.gazebo.model_plugins import load_plugins
+from trundle.sim.simulation import Simulation
 
 _BODY = "<inertial><mass>{}</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>"
 _SHAPE = """<collision name="c"><geometry><box><size>{}</size></box></geometry>

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 MASS, GAIN, YAW_GAIN, INERTIA = 2.0, 10.0, 0.5, 0.1
 GAINS = (

@@ -5,8 +5,8 @@ from typing import Any
 
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
-from trundle.nodes import NodeHost
-from trundle.nodes.controller_manager import Spawner
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
 
 MOVES = '<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from trundle.control import DifferentialDrive, SpeedLimit, WheelOdometry
-from trundle.model import JointType
-from trundle.plugins.ros_control.trajectory_goal import JointPath, PathSegment
-from trundle.plugins.ros_control.transmissions import Interface
-from trundle.simulation import JointHandle, Simulation
+from trundle.gazebo.plugins.ros_control.trajectory_goal import JointPath, PathSegment
+from trundle.gazebo.plugins.ros_control.transmissions import Interface
+from trundle.robots.model import JointType
+from trundle.sim.control import DifferentialDrive, SpeedLimit, WheelOdometry
+from trundle.sim.simulation import JointHandle, Simulation
 
 Event: TypeAlias = tuple[int, int, float]
 _SETTLING_NS = 200_000_000

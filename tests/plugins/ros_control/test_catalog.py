@@ -2,7 +2,7 @@
 
 import pytest
 
-from trundle.plugins.ros_control.catalog import CONTROLLERS, find_controller
+from trundle.gazebo.plugins.ros_control.catalog import CONTROLLERS, find_controller
 
 
 @pytest.mark.parametrize("kind", CONTROLLERS)

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
-from trundle.control import SpeedLimit
-from trundle.nodes import NodeHost
-from trundle.nodes.controller_manager import Spawner
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
+from trundle.sim.control import SpeedLimit
 
 _RADIUS, _SEPARATION = 0.1, 0.4
 

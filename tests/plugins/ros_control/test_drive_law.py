@@ -9,9 +9,9 @@ import pytest
 from tests.plugins.ros_control.laws_in_python import PythonDiffDrive, PythonJoint, PythonServo
 
 import trundle
-from trundle.control import DiffDriveLaw, Servo
-from trundle.plugins.ros_control.hardware import JointHardware
-from trundle.simulation import Simulation
+from trundle.gazebo.plugins.ros_control.hardware import JointHardware
+from trundle.sim.control import DiffDriveLaw, Servo
+from trundle.sim.simulation import Simulation
 
 _WHEEL = """<link name="{0}"><pose>{1} {2} 0.08 0 0 0</pose><inertial><mass>0.3</mass><inertia><ixx>5e-4</ixx>
 <iyy>8e-4</iyy><izz>5e-4</izz></inertia></inertial><collision name="c"><pose>0 0 0 1.5708 0 0</pose><geometry><cylinder>

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.plugins.ros_control.hardware import JointHardware
-from trundle.simulation import Simulation
+from trundle.gazebo.plugins.ros_control.hardware import JointHardware
+from trundle.sim.simulation import Simulation
 
 _FLOOR = """<model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><plane>
 <normal>0 0 1</normal></plane></geometry></collision></link></model>"""

@@ -10,10 +10,10 @@ from tests.gazebo_server import Gazebo, until
 from tests.plugins.ros_control.controlled import Robot, driven, standing
 from tests.plugins.stage import ARM, load
 
-from trundle.control import ToolboxPid
-from trundle.plugins.ros_control.hardware import JointHardware
-from trundle.plugins.ros_control.transmissions import Interface
-from trundle.simulation import JointHandle, Simulation
+from trundle.gazebo.plugins.ros_control.hardware import JointHardware
+from trundle.gazebo.plugins.ros_control.transmissions import Interface
+from trundle.sim.control import ToolboxPid
+from trundle.sim.simulation import JointHandle, Simulation
 from trundle.spatial import Wrench
 
 _EFFORT, _VELOCITY, _POSITION = "EffortJointInterface", "VelocityJointInterface", "PositionJointInterface"

@@ -8,8 +8,8 @@ import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 from tests.plugins.ros_control.controlled import MANAGER, Robot, driven, standing
 
-from trundle.nodes import NodeHost
-from trundle.nodes.controller_manager import ControllerManagerTool, Spawner
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.controller_manager import ControllerManagerTool, Spawner
 from trundle.ros import Node
 
 _LIMIT = '<limit lower="-2" upper="2" effort="100" velocity="3"/>'

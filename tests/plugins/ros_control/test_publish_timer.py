@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from trundle.plugins.ros_control.controller import PublishTimer
+from trundle.gazebo.plugins.ros_control.controller import PublishTimer
 
 _STEP_NS = 1_000_000
 

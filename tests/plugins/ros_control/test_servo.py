@@ -19,13 +19,13 @@ from tests.plugins.ros_control.laws_in_python import (
 )
 
 import trundle
-from trundle.control import GripperLaw, JointSegment, JointState, PidLoop, Servo, ToolboxPid, TrajectoryLaw
-from trundle.physics import SimulationUnstableError
-from trundle.plugins.ros_control.hardware import JointHardware
-from trundle.plugins.ros_control.tolerances import JointTolerances, StateTolerance
-from trundle.plugins.ros_control.trajectory_goal import JointPath, PathSegment
-from trundle.plugins.ros_control.transmissions import INTERFACES
-from trundle.simulation import Simulation
+from trundle.gazebo.plugins.ros_control.hardware import JointHardware
+from trundle.gazebo.plugins.ros_control.tolerances import JointTolerances, StateTolerance
+from trundle.gazebo.plugins.ros_control.trajectory_goal import JointPath, PathSegment
+from trundle.gazebo.plugins.ros_control.transmissions import INTERFACES
+from trundle.sim.control import GripperLaw, JointSegment, JointState, PidLoop, Servo, ToolboxPid, TrajectoryLaw
+from trundle.sim.physics import SimulationUnstableError
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Wrench
 
 _Event: TypeAlias = tuple[int, object, list[tuple[float, ...]]]

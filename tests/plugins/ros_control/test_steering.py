@@ -9,8 +9,8 @@ import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 from tests.plugins.ros_control.steered import RADIUS, knuckle, robot, wheel
 
-from trundle.nodes import NodeHost
-from trundle.nodes.controller_manager import Spawner
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
 
 _FOOT = '<collision><origin xyz="{} {} -0.048"/><geometry><sphere radius="0.05"/></geometry></collision>'

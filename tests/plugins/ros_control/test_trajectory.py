@@ -7,9 +7,9 @@ import pytest
 from tests.gazebo_server import Gazebo, until
 from tests.plugins.ros_control.controlled import Robot, driven, standing
 
-from trundle.control import Servo
-from trundle.plugins.ros_control.plugin import GazeboRosControl
+from trundle.gazebo.plugins.ros_control.plugin import GazeboRosControl
 from trundle.ros import Message, ServiceError
+from trundle.sim.control import Servo
 
 _LIMIT = '<limit lower="-2" upper="2" effort="200" velocity="10"/>'
 _ROBOT = standing(

@@ -5,10 +5,13 @@ from typing import Any
 
 import pytest
 
-from trundle.control import JointSegment, JointState
-from trundle.parameters import RosParameters
-from trundle.plugins.ros_control.tolerances import JointTolerances, StateTolerance, goal_tolerances, read_tolerances
-from trundle.plugins.ros_control.trajectory_goal import (
+from trundle.gazebo.plugins.ros_control.tolerances import (
+    JointTolerances,
+    StateTolerance,
+    goal_tolerances,
+    read_tolerances,
+)
+from trundle.gazebo.plugins.ros_control.trajectory_goal import (
     NO_GOAL,
     GoalError,
     JointPath,
@@ -17,7 +20,9 @@ from trundle.plugins.ros_control.trajectory_goal import (
     holding_path,
     stopping_path,
 )
+from trundle.robots.parameters import RosParameters
 from trundle.ros import Messages
+from trundle.sim.control import JointSegment, JointState
 
 _NOW_S = 10.0
 _TYPES = Messages()

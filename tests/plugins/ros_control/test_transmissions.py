@@ -2,8 +2,8 @@
 
 import pytest
 
-from trundle.diagnostics import DescriptionError, Diagnostics
-from trundle.plugins.ros_control.transmissions import DrivenJoint, read_transmissions
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.gazebo.plugins.ros_control.transmissions import DrivenJoint, read_transmissions
 
 TYPE = "<type>transmission_interface/SimpleTransmission</type>"
 EFFORT = "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>"

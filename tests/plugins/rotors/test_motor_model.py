@@ -6,7 +6,7 @@ import pytest
 from tests.plugins.rotors.quadrotor import HOVER, LIFT, MOMENT, PLUGIN, ROTOR, G, quadrotor
 from tests.plugins.stage import Wires, load
 
-from trundle.simulation import Simulation
+from trundle.sim.simulation import Simulation
 
 
 def fly(folder: Path, more: str = "", motor: str = "", gravity: float = G) -> tuple[Simulation, Wires]:

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.plugins import attach_sensor_plugins
-from trundle.bringup.simulation_page.lines import plugin_lines
-from trundle.sensors import mount_sensors
-from trundle.simulation import Simulation
+from trundle.gazebo.model_plugins import attach_sensor_plugins
+from trundle.page.simulated_world.lines import plugin_lines
+from trundle.sim.sensors import mount_sensors
+from trundle.sim.simulation import Simulation
 
 MASS, G = 2.0, 10.0
 BALL = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"

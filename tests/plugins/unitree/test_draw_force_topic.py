@@ -3,7 +3,7 @@
 import pytest
 from tests.gazebo_server import Gazebo, until
 
-from trundle.bringup.simulation_page.lines import plugin_lines
+from trundle.page.simulated_world.lines import plugin_lines
 
 _FOOT = """<sdf version="1.6"><model name="foot"><link name="l"><pose>0 0 0.1 0 0 0</pose>
 <inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from tests.plugins.stage import BODY, Wires, load
 
-from trundle.bringup.plugins import attach_sensor_plugins
-from trundle.sensors import mount_sensors
+from trundle.gazebo.model_plugins import attach_sensor_plugins
+from trundle.sim.sensors import mount_sensors
 
 MASS, G = 2.0, 10.0
 BALL = '<collision name="ball"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>'

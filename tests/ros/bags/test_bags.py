@@ -14,7 +14,7 @@ from mcap.reader import SeekingReader
 from mcap.writer import IndexType
 from tests.ros.conftest import PATIENCE_S
 
-from trundle.cli import main
+from trundle.app.cli import main
 from trundle.ros import (
     BagConnection,
     BagError,

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from trundle.cli import main
+from trundle.app.cli import main
 from trundle.ros.messages.definition_files import definition_files
-from trundle.rospy.environment import with_finder
+from trundle.ros.rospy.environment import with_finder
 
 CMAKE = """project(arm_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation)

@@ -8,7 +8,7 @@ import pytest
 
 from trundle.ros import Messages
 from trundle.ros.messages import definition_search
-from trundle.rospy.environment import with_finder
+from trundle.ros.rospy.environment import with_finder
 
 _PACKAGES = sorted(path.stem for path in definition_search._PUBLISHED.glob("*.txt"))
 

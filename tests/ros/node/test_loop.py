@@ -19,7 +19,7 @@ from typing import Any
 import pytest
 from tests.ros.conftest import PATIENCE_S
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 from trundle.ros.node.loop import GraphLoop
 from trundle.ros.node.node import Node
 from trundle.ros.transport.closing_loop import close_server

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import trundle
-from trundle.render import NativeRenderer
-from trundle.sensors import mount_cameras
+from trundle.sim.render import NativeRenderer
+from trundle.sim.sensors import mount_cameras
 from trundle.spatial import Pose
 
 LABEL = '<plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>3</label></plugin>'

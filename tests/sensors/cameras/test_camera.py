@@ -9,12 +9,12 @@ import pytest
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from trundle import sensors
-from trundle.diagnostics import Diagnostics, Source
-from trundle.model import CameraOptics, Inertial, Link, Model, Noise, PhysicsSettings, Sensor, World
-from trundle.render import Intrinsics, Picture, Scene
-from trundle.sensors import CameraReading, CameraSensor, mount_cameras
-from trundle.simulation import Simulation
+from trundle.base.diagnostics import Diagnostics, Source
+from trundle.robots.model import CameraOptics, Inertial, Link, Model, Noise, PhysicsSettings, Sensor, World
+from trundle.sim import sensors
+from trundle.sim.render import Intrinsics, Picture, Scene
+from trundle.sim.sensors import CameraReading, CameraSensor, mount_cameras
+from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 AT = Source("robot.sdf", 9)

@@ -7,12 +7,12 @@ import pytest
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from trundle.model import CameraOptics, Distortion, Lens, PixelIntrinsics
-from trundle.render import Intrinsics, Picture
-from trundle.sensors.cameras.lens import fits
-from trundle.sensors.cameras.pixel_formats import FORMATS, pixels_in
-from trundle.sensors.cameras.projection import CameraProjection, PinholeProjection, projection_of
-from trundle.sensors.cameras.undistort import distorted, undistorted
+from trundle.robots.model import CameraOptics, Distortion, Lens, PixelIntrinsics
+from trundle.sim.render import Intrinsics, Picture
+from trundle.sim.sensors.cameras.lens import fits
+from trundle.sim.sensors.cameras.pixel_formats import FORMATS, pixels_in
+from trundle.sim.sensors.cameras.projection import CameraProjection, PinholeProjection, projection_of
+from trundle.sim.sensors.cameras.undistort import distorted, undistorted
 from trundle.spatial import Pose
 
 WIDTH, HEIGHT, FOV = 64, 48, 1.2

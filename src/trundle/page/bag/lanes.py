@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 from trundle.ros import open_bag
 
 from ..clients.channel import Channel, Client

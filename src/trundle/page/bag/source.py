@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import msgspec
 import numpy as np
 
-from trundle.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError
 from trundle.ros import BagConnection, BagMessage, BagReader
 
 from ..clients.channel import Channel, Client

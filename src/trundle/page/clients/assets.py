@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from trundle.diagnostics import DescriptionError, Source
-from trundle.packages import Packages
+from trundle.base.diagnostics import DescriptionError, Source
+from trundle.robots.packages import Packages
 
 from .connection import Connection
 from .protocol import FetchAsset, asset_header

@@ -4,7 +4,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 
-from trundle.names import is_legal_name
+from trundle.robots.names import is_legal_name
 from trundle.ros import MessageError, Node, Publisher
 
 from ..clients.connection import Connection

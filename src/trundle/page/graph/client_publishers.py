@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Coroutine, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from trundle.names import is_legal_name
+from trundle.robots.names import is_legal_name
 from trundle.ros import MessageError, Node, Publisher
 
 from ..clients.connection import Connection

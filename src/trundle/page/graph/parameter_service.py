@@ -1,6 +1,6 @@
 """The graph's parameters: read, set, and watched by clients."""
 
-from trundle.names import is_legal_name
+from trundle.robots.names import is_legal_name
 from trundle.ros import Node, RosError
 
 from ..clients.connection import Connection

@@ -1,6 +1,6 @@
 """Content security policy of the page's responses."""
 
-from trundle.access import Access, PageRequest
+from trundle.base.http.access import Access, PageRequest
 
 _COMMON = "object-src 'none'; base-uri 'none'; form-action 'none'"
 

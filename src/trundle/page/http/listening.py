@@ -3,7 +3,7 @@
 import os
 import socket
 
-from trundle.page_address import PageAddress
+from trundle.base.http.page_address import PageAddress
 
 _DEFAULT_PORT = 8080
 _PORTS_TRIED = 200

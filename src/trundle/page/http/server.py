@@ -12,8 +12,9 @@ from aiohttp import MultipartReader, WSMessage, WSMsgType, web
 from aiohttp.http_exceptions import HttpProcessingError
 from multidict import CIMultiDictProxy
 
-from trundle.access import Access, PageRequest, Refusal
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
+from trundle.base.http.access import Access, PageRequest, Refusal
+from trundle.base.http.refusals import Refusals
 
 from ..clients.connection import Connection
 from ..clients.outbox import CLOSE, PONG, Outbox
@@ -25,7 +26,6 @@ from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
 from .content_policy import response_fields
 from .places import MAX_CONTROLLING, Places
-from .refusals import Refusals
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
 """Longest message of a client."""

@@ -8,7 +8,7 @@ from io import FileIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 from .tree import MAX_FILES, UploadTree
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 _CONFIG = "model.config"
 _SUFFIXES = (".sdf", ".urdf")

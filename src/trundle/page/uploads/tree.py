@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import BinaryIO
 
-from trundle.diagnostics import UsageError
-from trundle.output_folder import is_portable
+from trundle.base.diagnostics import UsageError
+from trundle.base.output_folder import is_portable
 
 MAX_FILES = 2000
 MAX_BYTES = 512 * 1024 * 1024

@@ -9,9 +9,9 @@ from pathlib import Path, PurePosixPath
 
 from aiohttp import BodyPartReader, MultipartReader
 
-from trundle.diagnostics import UsageError
-from trundle.output_folder import is_portable
-from trundle.packages import HELD, Packages, is_stand_in
+from trundle.base.diagnostics import UsageError
+from trundle.base.output_folder import is_portable
+from trundle.robots.packages import HELD, Packages, is_stand_in
 
 from .archive import unpack
 from .model import find_models

@@ -5,8 +5,8 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from trundle.file_lock import FileLock
-from trundle.files import open_file
+from trundle.base.file_lock import FileLock
+from trundle.base.files import open_file
 
 from .bag import BagError, BagMessage, BagReader, BagWriter
 

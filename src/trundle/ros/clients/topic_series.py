@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from trundle.diagnostics import UsageError
-from trundle.drawing import Curve
+from trundle.base.diagnostics import UsageError
+from trundle.base.drawing import Curve
 
 from ..messages.field_paths import TopicField, field_type, value_at
 from ..messages.messages import Messages

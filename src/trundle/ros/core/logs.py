@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from trundle.names import resolve_name
+from trundle.robots.names import resolve_name
 
 from ..log import LEVELS
 from ..log_file import LogFile

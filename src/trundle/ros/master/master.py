@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from trundle.names import canonical_name, parent_namespace, resolve_name
+from trundle.robots.names import canonical_name, parent_namespace, resolve_name
 
 from ..errors import ParameterError
 from ..transport.network import LOOPBACK, server_address

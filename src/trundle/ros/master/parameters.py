@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeAlias
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 from ..errors import ParameterError
 

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from trundle.files import read_text
+from trundle.base.files import read_text
 
 _MAX_DEPTH = 3
 _MAX_FOLDERS = 200
@@ -44,7 +44,7 @@ def _named(folder: Path, kind: str) -> list[Path]:
             return []
     except OSError:
         return []
-    from trundle.packages import cmake_message_folders  # lazy: for few packages
+    from trundle.robots.packages import cmake_message_folders  # lazy: for few packages
 
     root = os.path.realpath(folder)
     named = (Path(os.path.realpath(each)) for each in cmake_message_folders(folder).get(kind, []))

@@ -11,12 +11,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from trundle.files import read_text
+from trundle.assets import ASSETS
+from trundle.base.files import read_text
 
 from .definition_files import definition_files
 
-_SHIPPED = Path(__file__).parents[1] / "definitions"
-_PUBLISHED = Path(__file__).parents[1] / "published"
+_SHIPPED = ASSETS / "messages/definitions"
+_PUBLISHED = ASSETS / "messages/published"
 """Folder of a file for each package; its definitions begin with `MSG: `, `SRV: ` or `ACTION: ` and their name."""
 _PART = "=" * 80 + "\n"
 MAX_CHARACTERS = 1_000_000
@@ -65,7 +66,7 @@ class Definitions:
     def on_path(self) -> Mapping[str, Path]:
         """Folders of the packages on ROS_PACKAGE_PATH and around the working directory."""
         if self._on_path is None:
-            from trundle.packages import Packages  # lazy: only for types not found elsewhere
+            from trundle.robots.packages import Packages  # lazy: only for types not found elsewhere
 
             self._on_path = Packages(os.environ, start=Path.cwd()).ros_packages()
         return self._on_path

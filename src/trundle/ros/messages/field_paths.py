@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from trundle.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError
 
 from .messages import Messages
 from .printing import field_value

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from rosbags.interfaces import Nodetype
 
-from trundle.built import refuse_stale
+from trundle.base.built import refuse_stale
 
 from .. import _message_codec
 from ..errors import MessageError

@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from trundle.diagnostics import did_you_mean
+from trundle.base.diagnostics import did_you_mean
 
 from ..errors import MessageError
 from .codec import Codec

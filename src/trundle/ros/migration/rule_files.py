@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeGuard, cast
 
-from trundle.files import read_file
+from trundle.base.files import read_file
 
 from ..errors import RosError
 from .rule import MessageUpdateRule, MigrationError, Rule, Rules

@@ -10,8 +10,8 @@ from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
-from trundle.diagnostics import DescriptionError, UsageError
-from trundle.waiting import WaitNotice
+from trundle.base.diagnostics import DescriptionError, UsageError
+from trundle.base.waiting import WaitNotice
 
 from .. import _message_codec
 from ..log import print_log

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from trundle.shortage import shortage
+from trundle.base.shortage import shortage
 
 from ..errors import MasterError, MasterUnreachableError, WireError
 from ..xmlrpc.rpc_client import call_value

@@ -9,7 +9,7 @@ import contextlib
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from trundle.names import canonical_name, join_names, resolve_name
+from trundle.robots.names import canonical_name, join_names, resolve_name
 
 from ..distro import NOETIC
 from ..messages.raw_message import ANY_TYPE, Message

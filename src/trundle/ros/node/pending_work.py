@@ -4,7 +4,7 @@ import time
 from collections.abc import Generator
 from contextlib import contextmanager
 
-from trundle.waiting import PERIOD_S, waiting_line
+from trundle.base.waiting import PERIOD_S, waiting_line
 
 _MAX_SHOWN = 3
 """Most kinds of work that one notice names."""

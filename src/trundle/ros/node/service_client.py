@@ -6,7 +6,7 @@ import struct
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from trundle.waiting import WaitNotice
+from trundle.base.waiting import WaitNotice
 
 from ..errors import MasterError, MasterUnreachableError, MessageError, RosError, ServiceError, WireError
 from ..messages.raw_message import Message, ServiceType

@@ -9,7 +9,7 @@ from collections.abc import Coroutine, Mapping
 from typing import Any
 from weakref import WeakSet
 
-from trundle.shortage import shortage
+from trundle.base.shortage import shortage
 
 from .fast_selector import FastSelector
 

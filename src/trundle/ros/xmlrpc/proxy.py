@@ -3,8 +3,8 @@
 import socket
 from typing import Any
 
-from trundle.shortage import shortage
-from trundle.waiting import PERIOD_S, WaitNotice
+from trundle.base.shortage import shortage
+from trundle.base.waiting import PERIOD_S, WaitNotice
 
 from ..errors import MasterError, MasterUnreachableError, WireError
 from ..transport.network import master_uri_from_env

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
-from trundle.names import resolve_name
+from trundle.robots.names import resolve_name
 
 from .rpc_server import UnknownMethodError
 

@@ -8,7 +8,7 @@ import logging
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from trundle.shortage import shortage
+from trundle.base.shortage import shortage
 
 from ..errors import PortTakenError, RosError, WireError
 from ..transport.closing_loop import close_server

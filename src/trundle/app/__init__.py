@@ -1,0 +1,1 @@
+"""The `trundle` command, and what each of its tasks does."""

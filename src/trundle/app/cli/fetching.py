@@ -1,0 +1,154 @@
+"""Fetching packages: the options, the question, and what is printed."""
+
+import argparse
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from trundle.base.diagnostics import UsageError
+from trundle.robots.repositories import ROSDISTROS
+
+from .prompt import confirm
+
+if TYPE_CHECKING:
+    from trundle.robots.checkouts import Fetcher, FetchPlan, FetchResult
+
+
+def add_fetch_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of commands that fetch."""
+    add = parser.add_argument
+    add("-y", "--yes", "--default-yes", action="store_true", help="do not ask before fetching")
+    add(
+        "--distro",
+        "--rosdistro",
+        choices=ROSDISTROS,
+        default=_distro(),
+        help="whose branches are fetched (%(default)s)",
+    )
+    add(
+        "--index", metavar="URL|FILE", help="distribution.yaml or index-v4.yaml, in place of the index that is built in"
+    )
+    add("--into", type=Path, metavar="DIR", help="folder for the repositories (one of the user's data, searched last)")
+
+
+def _distro() -> str:
+    named = os.environ.get("ROS_DISTRO", "")
+    return named if named in ROSDISTROS else "noetic"
+
+
+def defaults() -> dict[str, Any]:
+    """Return the default options."""
+    return {"yes": False, "distro": _distro(), "index": None, "into": None}
+
+
+def make_fetcher(args: argparse.Namespace) -> "Fetcher":
+    """Return a fetcher with the options that `add_fetch_options` declared.
+
+    Raises:
+        TrundleError: the index cannot be read.
+    """
+    from trundle.robots.checkouts import Fetcher
+    from trundle.robots.repositories import read_index, shipped_index
+
+    index = read_index(args.index, args.distro) if args.index else shipped_index()
+    return Fetcher(
+        index=index,
+        distro=args.distro,
+        folder=fetch_folder(args),
+        environment=os.environ,
+        log=_log,
+        shows_progress=sys.stderr.isatty(),
+    )
+
+
+def fetch_folder(args: argparse.Namespace) -> Path:
+    """Return the folder of `--into`, else the user's."""
+    from trundle.robots.packages import fetched_folder
+
+    return fetched_folder(os.environ) if args.into is None else args.into.expanduser().absolute()
+
+
+def fetch_packages(names: Iterable[str], args: argparse.Namespace) -> int:
+    """Show what would be fetched, ask, fetch, and print what is left to do by hand; return the exit code.
+
+    Raises:
+        UsageError: standard input is no terminal, and -y is not given.
+    """
+    fetcher = make_fetcher(args)
+    names = list(dict.fromkeys(names))
+    plan = fetcher.plan(names)
+    print_plan(plan, fetch_folder(args))
+    if not plan.checkouts:
+        _print_rest(plan.python_libraries, plan.unknown)
+        return 0
+    if not args.yes and not ask(plan):
+        return 1
+    result = fetcher.fetch(names)
+    _print_result(result)
+    return 1 if result.errors else 0
+
+
+def offer(names: Sequence[str]) -> bool:
+    """Name the command that fetches missing packages; on a terminal, ask and fetch; True if there are new ones."""
+    fetcher = make_fetcher(argparse.Namespace(**defaults()))
+    plan = fetcher.plan(names)
+    published = [name for needed in plan.checkouts.values() for name in needed]
+    if not published:
+        print("--lenient leaves out what needs missing packages", file=sys.stderr)
+        return False
+    if not (sys.stdin.isatty() and sys.stderr.isatty()):
+        print(
+            f"trundle pack get {' '.join(published)} fetches them; --lenient leaves out what needs them",
+            file=sys.stderr,
+        )
+        return False
+    for wanted, needed in plan.checkouts.items():
+        print(f"  {' '.join(needed)}: {wanted.url.removesuffix('.git')}", file=sys.stderr)
+    if not ask(plan):
+        return False
+    result = fetcher.fetch(published)
+    _print_result(result)
+    return bool(result.folders)
+
+
+def print_plan(plan: "FetchPlan", folder: Path) -> None:
+    """Print where each package comes from."""
+    if plan.present:
+        print(f"here already: {' '.join(plan.present)}")
+    if plan.built_in:
+        print(f"part of Trundle: {' '.join(plan.built_in)}")
+    for wanted, needed in plan.checkouts.items():
+        print(f"{wanted.url.removesuffix('.git')} ({wanted.branch or 'its default branch'}): {' '.join(needed)}")
+    if plan.checkouts:
+        print(f"into {folder}, with the packages that these need; nothing of them is run or built")
+
+
+def ask(plan: "FetchPlan") -> bool:
+    """Ask on the terminal whether to fetch.
+
+    Raises:
+        UsageError: standard input is no terminal.
+    """
+    if not sys.stdin.isatty():
+        raise UsageError("nothing is fetched without an answer; -y is one")
+    count = len(plan.checkouts)
+    return confirm(f"fetch {count} {'repository' if count == 1 else 'repositories'}?")
+
+
+def _print_result(result: "FetchResult") -> None:
+    for error in result.errors:
+        print(f"error: {error}", file=sys.stderr)
+    _print_rest(result.python_libraries, result.unknown)
+
+
+def _print_rest(libraries: list[str], unknown: list[str]) -> None:
+    if libraries:
+        print(f"Python libraries: {sys.executable} -m pip install {' '.join(dict.fromkeys(libraries))}")
+    if unknown:
+        print(f"of the system, if they are needed: {' '.join(unknown)}")
+
+
+def _log(line: str) -> None:
+    print(line, flush=True)

@@ -1,0 +1,62 @@
+"""Fetch the packages of `apt install ros-DISTRO-NAME`; all else is done by the machine's own apt.
+
+`sudo apt …` and `sudo rosdep …` are understood, too, as tutorials write them; any other sudo is the machine's own.
+"""
+
+import argparse
+import re
+from collections.abc import Iterable, Sequence
+
+from trundle.robots.checkouts import BUILT_IN
+from trundle.robots.packages import STOCK
+from trundle.robots.repositories import ROSDISTROS, shipped_index
+
+from ..fetching import defaults, fetch_packages
+from .own_program import run_own
+
+EXAMPLES = """
+  apt install ros-noetic-turtlebot3-gazebo
+  sudo apt-get install -y ros-kinetic-ros-control ros-kinetic-ros-controllers
+"""
+_NAME = re.compile(rf"ros-({'|'.join(ROSDISTROS)})-([a-z0-9+.-]+)")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("program", choices=("apt", "apt-get", "sudo"), help=argparse.SUPPRESS)
+    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="as for apt")
+    parser.set_defaults(print_help=parser.print_help)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Fetch what ROS packages are named, and pass the rest on."""
+    program, words = args.program, args.words
+    if words[:1] in (["-h"], ["--help"]):
+        args.print_help()
+        return 0
+    if program == "sudo":
+        own = [word for word in words if word not in ("-E", "-H")]
+        if own[:1] == ["rosdep"]:
+            return int(args.run_command(["originals.rosdep"], own[1:]))
+        if own[:1] not in (["apt"], ["apt-get"]) or not any(map(_NAME.fullmatch, own)):
+            return run_own(program, words)
+        program, *words = own
+    ros = [match for match in map(_NAME.fullmatch, words) if match is not None]
+    if "install" not in words or not ros:
+        return run_own(program, words)
+    code = fetch_packages(_package_names(match[2] for match in ros), _options(words, ros[0][1]))
+    others = [word for word in words if not _NAME.fullmatch(word)]
+    if any(not word.startswith("-") for word in others[others.index("install") + 1 :]):
+        return run_own(args.program, [*(["apt-get"] if args.program == "sudo" else []), *others]) or code
+    return code
+
+
+def _options(words: Sequence[str], distro: str) -> argparse.Namespace:
+    says_yes = any(word in ("-y", "--yes", "-qy", "-yq", "-qqy", "--assume-yes") for word in words)
+    return argparse.Namespace(**{**defaults(), "yes": says_yes, "distro": distro})
+
+
+def _package_names(names: Iterable[str]) -> list[str]:
+    """Return the names of packages, which apt writes with - for _."""
+    known = {name.replace("_", "-"): name for name in (*shipped_index().names(), *STOCK, *BUILT_IN)}
+    return [known.get(name, name.replace("-", "_")) for name in names]

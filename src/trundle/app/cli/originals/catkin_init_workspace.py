@@ -1,0 +1,22 @@
+"""Make the CMakeLists.txt at the top of a workspace's sources, as catkin_init_workspace does."""
+
+import argparse
+import os
+from pathlib import Path
+
+EXAMPLES = """
+  catkin_init_workspace         in the folder src of a workspace
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("workspace", nargs="?", type=Path, default=Path(), help="folder of the sources (this one)")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Make it; nothing is overwritten."""
+    from trundle.ros.catkin import init_workspace
+
+    print(init_workspace(Path(os.path.abspath(args.workspace)), os.environ))
+    return 0

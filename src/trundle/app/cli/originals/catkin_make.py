@@ -1,0 +1,121 @@
+"""Make a workspace's devel space, as catkin_make does, and name what a compiler would have to build."""
+
+import argparse
+import os
+import shutil
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from trundle.base.diagnostics import UsageError
+
+from .own_program import find_own
+
+if TYPE_CHECKING:
+    from trundle.ros.catkin import CppTarget, PackageBuild, Workspace
+
+EXAMPLES = """
+  catkin_make                   in the workspace, whose packages are in src
+  catkin_make -C ~/catkin_ws
+  catkin_make --pkg my_robot
+"""
+_DEVEL, _INSTALL = "-DCATKIN_DEVEL_PREFIX=", "-DCMAKE_INSTALL_PREFIX="
+_LINE = "-- " + "~" * 49
+_COMPILERS = ("c++", "g++", "clang++")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("-C", "--directory", default=".", help="base path of the workspace (.)")
+    parser.add_argument("--source", help="source space (src)")
+    parser.add_argument("--build", help="build space (build)")
+    parser.add_argument("--pkg", nargs="+", default=[], help="only these packages")
+    parser.add_argument("--only-pkg-with-deps", nargs="+", default=[], metavar="PKG", help="only these packages")
+    # What is passed on to CMake and make has no effect here.
+    for flag in ("ninja", "nmake", "gmake"):
+        parser.add_argument(f"--use-{flag}", action="store_true", help=argparse.SUPPRESS)
+    for flag in ("--force-cmake", "--no-color", "--override-build-tool-check"):
+        parser.add_argument(flag, action="store_true", help=argparse.SUPPRESS)
+    for option in ("-j", "--jobs", "-l", "--load-average"):
+        parser.add_argument(option, nargs="?", dest="unused_limit", help=argparse.SUPPRESS)
+    parser.add_argument("-D", action="append", default=[], dest="definitions", metavar="NAME=VALUE", help="for CMake")
+    for option in ("--cmake-args", "--make-args"):
+        parser.add_argument(option, nargs=argparse.REMAINDER, default=[], help=argparse.SUPPRESS)
+    parser.add_argument("targets", nargs="*", help="targets for make: not run")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Write the devel space; C++ is named, and not built."""
+    from trundle.robots.packages import write_configured_files
+    from trundle.ros.catkin import init_workspace, open_workspace, report_package, write_devel_space
+
+    given = [f"-D{each}" for each in args.definitions] + args.cmake_args
+    base = Path(os.path.abspath(os.path.join(os.environ.get("PWD", "."), args.directory)))
+    workspace = open_workspace(
+        base, source=args.source, build=args.build, devel=_last(given, _DEVEL), install=_last(given, _INSTALL)
+    )
+    for name, space in (("Base path", base), ("Source space", workspace.source), ("Build space", workspace.build)):
+        print(f"{name}: {space}")
+    print(f"Devel space: {workspace.devel}\nInstall space: {workspace.install}")
+    packages = _chosen(workspace, [*args.pkg, *args.only_pkg_with_deps])
+    if not (workspace.source / "CMakeLists.txt").exists():
+        print(init_workspace(workspace.source, os.environ))
+    is_ours = write_devel_space(workspace, os.environ)
+    print(f"-- Using CATKIN_DEVEL_PREFIX: {workspace.devel}")
+    if not is_ours:
+        print(f"-- {workspace.devel} was made by catkin itself; its setup files are kept")
+    print(f"{_LINE}\n-- ~~  traversing {len(packages)} packages in topological order:")
+    print("".join(f"-- ~~  - {name}\n" for name in packages) + _LINE)
+    unbuilt: list[CppTarget] = []
+    for name, folder in packages.items():
+        print(f"-- +++ processing catkin package: '{name}'")
+        for path in write_configured_files(folder, replace=True):
+            print(f"--   configured: {os.path.relpath(path, workspace.base)}")
+        build = report_package(name, folder, os.environ)
+        print("\n".join(_lines(build, workspace)))
+        unbuilt += [target for target in build.targets if target.built is None or target.fault is not None]
+    for target in args.targets:
+        print(f"-- target {target!r} is not run: nothing is compiled here", file=sys.stderr)
+    if unbuilt:
+        print(_way_out(unbuilt), file=sys.stderr)
+    print(f"-- source {workspace.devel}/setup.bash makes the packages known to this shell")
+    return 0
+
+
+def _last(words: list[str], prefix: str) -> str | None:
+    return next((word.removeprefix(prefix) for word in reversed(words) if word.startswith(prefix)), None)
+
+
+def _chosen(workspace: "Workspace", names: list[str]) -> dict[str, Path]:
+    packages = workspace.packages()
+    unknown = [name for name in names if name not in packages]
+    if names and len(unknown) == len(names):
+        raise UsageError(f'Packages "{", ".join(unknown)}" not found in the workspace')
+    if unknown:
+        print(f'Packages "{", ".join(sorted(unknown))}" not found in the workspace - ignoring them', file=sys.stderr)
+    return {name: folder for name, folder in packages.items() if not names or name in names}
+
+
+def _lines(build: "PackageBuild", workspace: "Workspace") -> list[str]:
+    ready = ", ".join(build.ready) or "nothing to run"
+    lines = [f"--   needs no building: {ready}"]
+    for each in build.targets:
+        kind = "library" if each.is_library else "program"
+        where = f"{os.path.relpath(each.target.file, workspace.base)}:{each.target.line}"
+        state = f"built: {each.built}" if each.built is not None else "C++, not built"
+        state += f", but not for this machine: {each.fault}" if each.fault is not None else ""
+        lines.append(f"--   {kind} {each.target.name} ({', '.join(each.target.sources)}; {where}): {state}")
+    if build.missing and any(each.built is None for each in build.targets):
+        lines.append(f"--   to build it, CMake has to find {', '.join(build.missing)}, which this machine lacks")
+    return lines
+
+
+def _way_out(unbuilt: "list[CppTarget]") -> str:
+    """Return a line on what is left out, and how it could be built here."""
+    count = f"{len(unbuilt)} C++ target{'s are' if len(unbuilt) > 1 else ' is'} not built; all else runs as it is"
+    original = find_own("catkin_make")
+    if original is not None:
+        return f"-- {count}; {original} compiles them"
+    compiler = next((found for name in _COMPILERS if (found := shutil.which(name))), None)
+    has = f"there is a compiler, {compiler}, but no" if compiler else "there is neither a C++ compiler nor"
+    return f"-- {count}; {has} catkin here, which ROS 1 brings"

@@ -1,0 +1,49 @@
+"""Show a recorded run or a bag in the browser."""
+
+import argparse
+from pathlib import Path
+
+from .options import add_allow_outside, add_page_access, page_access
+from .quiet_imports import quiet_imports
+
+EXAMPLES = """
+  trundle run world.sdf --record run.log              record states at 50 Hz
+  trundle play run.log                                show it in a loop
+  trundle play run.log --speed 0.2                    slowly
+  trundle play drive.bag                              a bag, with its topics in the page's displays
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", metavar="FILE", type=Path, help="state log of `trundle run --record`, .bag or .mcap")
+    parser.add_argument("--speed", type=_positive, default=1.0, metavar="X", help="real-time factor (1)")
+    parser.add_argument("--pause", action="store_true", help="start paused")
+    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+    add_page_access(parser)
+    add_allow_outside(parser)
+
+
+def main(args: argparse.Namespace) -> int:
+    """Play until Ctrl-C."""
+    with quiet_imports():
+        from trundle.app.play import PlayOptions, play
+
+    options = PlayOptions(
+        host=args.host,
+        port=args.port,
+        allowed=page_access(args),
+        view_only=args.view_only,
+        opens_browser=not args.no_browser,
+        speed=args.speed,
+        paused=args.pause,
+    )
+    return play(args.file, options)
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return value

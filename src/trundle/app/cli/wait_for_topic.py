@@ -1,0 +1,30 @@
+"""Waits for a topic, given by name or field path."""
+
+import sys
+import time
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros import MasterProxy, Messages, TopicField, field_type, split_topic
+
+_POLL_S = 0.1
+
+
+def wait_for_topic(proxy: MasterProxy, name: str, messages: Messages) -> TopicField:
+    """Wait for the topic of a name or field path."""
+    warned = False
+    while True:
+        types = {topic: kind for topic, kind in proxy.call("getTopicTypes") if kind != "*"}
+        found = split_topic(name, types)
+        why = ""
+        if found is not None:
+            field = TopicField(topic=found[0], type=types[found[0]], path=found[1])
+            try:
+                if field.path and messages.has(field.type):
+                    field_type(field.type, field.path, messages)
+                return field
+            except UsageError as error:  # /imu/data may be a topic published later, besides /imu
+                why = f"; {field.topic} is: {error}"
+        if not warned:
+            warned = True
+            print(f"WARNING: topic [{name}] does not appear to be published yet{why}", file=sys.stderr, flush=True)
+        time.sleep(_POLL_S)

@@ -1,0 +1,169 @@
+"""Pictures of a description, from one of its cameras or in a three-quarter view."""
+
+from collections.abc import Mapping
+from colorsys import hsv_to_rgb
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from msgspec.structs import replace
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.live.world_setup import load_world
+from trundle.robots.lint.empty_scene import empty_reason
+from trundle.robots.model import World
+from trundle.robots.packages import Packages
+from trundle.sim.render import Intrinsics, Picture, report_unreadable_textures, scene_from_world, update_skins
+from trundle.sim.renderers import RENDERERS, RendererName
+from trundle.sim.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
+from trundle.sim.simulation import Simulation, Snapshot
+from trundle.sim.three_quarter_view import BACKDROP, FIELD_OF_VIEW, STUDIO_LIGHT, scene_corners, three_quarter_pose
+from trundle.spatial import pose_from_row
+
+from .lowest_point import lowest_point
+from .urdf_preview import add_robot
+
+DEFAULT_SIZE = (800, 600)
+_SAMPLES = 2
+"""Supersampling per axis, against jagged edges."""
+_MAX_PX = 3840 * 2160
+_GOLDEN = 0.61803398875
+_COLOURS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
+_PALETTE = np.round(np.array(_COLOURS) * 255.0).astype(np.uint8)
+"""(256, 3) RGB: black for the background, then colours that differ much from one to the next."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PictureOptions:
+    """Options of a picture."""
+
+    camera: str | None = None
+    """Camera sensor's name; None: a three-quarter view of everything but planes."""
+    size: tuple[int, int] | None = None
+    """Width and height [px]; None: the camera's, or 800 × 600."""
+    content: Literal["colour", "depth", "segmentation"] = "colour"
+    """Depth is uint16 in millimetres, 0 for the background; segmentation has a colour per visual."""
+    at_s: float = 0.0
+    """Simulated time of the picture [s]."""
+    renderer: RendererName = "cpu"
+
+
+class PictureRenderer:
+    """Renderer of one file."""
+
+    def __init__(
+        self, file: str, environment: Mapping[str, str], report: Diagnostics, *, start: Path, options: PictureOptions
+    ) -> None:
+        """Read a file and simulate it up to the picture's time.
+
+        Args:
+            file: as `trundle run` takes it.
+            environment: variables that locate packages and models.
+            report: takes all findings.
+            start: packages are searched around it, too.
+            options: of the picture.
+
+        Raises:
+            DescriptionError: the file cannot be read.
+            UsageError: no such camera, or too large a picture.
+        """
+        packages = Packages(environment, start=start)
+        stage = load_world(file, packages, report)
+        self._content = options.content
+        self.empty_reason = empty_reason(stage.world)
+        """Reason why the picture is empty, or drawn from the URDF without physics; None: neither."""
+        self.simulation = Simulation(stage.world, report)
+        scene = scene_from_world(stage.world, report)
+        self._written: NDArray[np.float64] = np.zeros((0, 7))
+        """(N, 7) poses of bodies that are drawn and not simulated."""
+        robot = stage.robot if options.camera is None and not _is_seen(stage.world) else None
+        if robot is not None and any(link.visuals for link in robot.links):
+            self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
+            scene, self._written = add_robot(scene, robot, packages, report)
+        if options.camera is None:
+            scene = replace(scene, ambient=STUDIO_LIGHT, background=BACKDROP)
+        self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
+        report_unreadable_textures(scene, report)
+        self._sensor: CameraSensor | None = None
+        width, height = options.size or DEFAULT_SIZE
+        self._lens = Intrinsics(
+            width_px=width, height_px=height, horizontal_fov_rad=FIELD_OF_VIEW, near_m=0.01, far_m=1000.0
+        )
+        if options.camera is not None:
+            self._sensor = _camera(options.camera, mount_cameras(self.simulation, lambda _: self._renderer))
+            self._lens = self._sensor.intrinsics
+            if options.content == "depth" and self._sensor.optics.lens is not None:
+                raise UsageError(f"camera {options.camera!r} is a wide-angle one; only pinholes see depths")
+            if options.size is not None and not self._sensor.is_pinhole:
+                own = f"{self._lens.width_px}x{self._lens.height_px}"
+                raise UsageError(f"camera {options.camera!r} looks through a lens; its picture has its own size, {own}")
+            if options.size is not None:
+                self._lens = replace(self._lens, width_px=width, height_px=height)
+        if self._lens.width_px * self._lens.height_px > _MAX_PX:
+            asked = f"{self._lens.width_px}x{self._lens.height_px}"
+            raise UsageError(f"a picture of {asked} is too large; it may have {_MAX_PX} pixels, as 3840x2160 has")
+        if options.at_s > 0.0:
+            self.simulation.run(options.at_s)
+        added = [options.camera is None and model.added for model in stage.world.models for _ in model.links]
+        self._ground = np.flatnonzero(added)
+        self._sunk_m = 0.0
+        self._cloud = scene_corners(scene, self._poses(self.simulation.snapshot()))
+        rows = self._poses(self.simulation.snapshot())
+        heights = [
+            lowest_point(each.geometry, pose_from_row(rows[each.body]) @ each.body_from_shape) for each in scene.shapes
+        ]
+        self._sunk_m = min([0.0, *heights])
+
+    def _poses(self, snapshot: Snapshot) -> NDArray[np.float64]:
+        """Poses to draw; the added ground plane is lowered to the lowest point, so that it hides nothing."""
+        poses = np.concatenate([snapshot.poses, self._written])
+        poses[self._ground, 2] += self._sunk_m
+        return poses
+
+    def render(self, *, turned_rad: float = 0.0) -> Image.Image:
+        """Draw the current state; `turned_rad` turns the three-quarter view about z, counter-clockwise from above."""
+        snapshot = self.simulation.snapshot()
+        self._renderer.update(self._poses(snapshot))
+        update_skins(self._renderer, self._scene, self.simulation.animation_state)
+        if self._sensor is not None:
+            eye = self._sensor.world_from_camera(snapshot)
+        else:
+            eye = three_quarter_pose(self._cloud, self._lens, turned_rad)
+        bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.projection
+
+        def drawn(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
+            views = [(eye @ face, lens) for face, lens in view.pinhole_views]
+            return view.compose(self._renderer.render(views, depth=depth, segmentation=segmentation))
+
+        view = bent or PinholeProjection(self._lens)
+        if self._content == "depth":
+            ranges = drawn(view, depth=True).depth
+            assert ranges is not None
+            millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
+            return Image.fromarray(millimetres.astype(np.uint16))
+        if self._content == "segmentation":
+            segments = drawn(view, segmentation=True).segmentation
+            assert segments is not None
+            return Image.fromarray(_PALETTE[np.where(segments < 0, 0, segments % (len(_PALETTE) - 1) + 1)])
+        if bent is not None:
+            return Image.fromarray(drawn(bent).rgb)
+        width, height = self._lens.width_px, self._lens.height_px
+        large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
+        picture = Image.fromarray(drawn(PinholeProjection(large)).rgb)
+        return picture.resize((width, height), Image.Resampling.BOX)
+
+
+def _is_seen(world: World) -> bool:
+    """True if a model of the file, not the added ground, has a visual."""
+    return any(link.visuals for model in world.models if not model.added for link in model.links)
+
+
+def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
+    for camera in cameras:
+        if camera.name == name:
+            return camera
+    there = ", ".join(repr(camera.name) for camera in cameras) or "none"
+    raise UsageError(f"no camera {name!r}; cameras there: {there}")

@@ -1,0 +1,70 @@
+"""A URDF as rviz's RobotModel draws it: every link as written, nothing lumped."""
+
+from pathlib import Path
+
+from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.robots.meshes import Mesh, load_mesh, mean_colour
+from trundle.robots.model import Box, Cylinder, Rgba, Sphere
+from trundle.robots.packages import Packages
+from trundle.robots.robot import Robot, RobotBox, RobotCylinder, RobotMesh, RobotShape, RobotSphere
+from trundle.sim.render import Scene, Shape, ShapeGeometry
+
+_UNPAINTED: Rgba = (1.0, 0.0, 0.0, 1.0)
+"""rviz draws what has no material in red; the first robot of urdf_tutorial is known for it."""
+
+
+def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collisions: bool = False) -> Scene:
+    """Turn a robot's visuals, or its collision shapes, into a scene whose bodies are the links, root first.
+
+    A mesh that cannot be found or read is named and left out.
+    """
+    links = sorted(robot.links, key=lambda link: link.name != robot.root)  # stable: the others stay in file order
+    shapes: list[Shape] = []
+    for body, link in enumerate(links):
+        for shape in link.collisions if collisions else link.visuals:
+            geometry = _geometry(shape, packages, report)
+            if geometry is None:
+                continue
+            look = shape.rgba or _seen_from_afar(shape, packages, report)
+            shapes += (
+                Shape(
+                    name=shape.name or link.name,
+                    body=body,
+                    geometry=piece,
+                    body_from_shape=shape.link_from_shape,
+                    rgba=look or (piece.rgba if isinstance(piece, Mesh) else None) or _UNPAINTED,
+                )
+                for piece in (
+                    geometry.split_by_material() if isinstance(geometry, Mesh) and look is None else (geometry,)
+                )
+            )
+    return Scene(bodies=tuple(link.name for link in links), shapes=tuple(shapes))
+
+
+def _seen_from_afar(shape: RobotShape, packages: Packages, report: Diagnostics) -> Rgba | None:
+    """The colour of its texture: the page draws none."""
+    if not shape.texture:
+        return None
+    try:
+        image = packages.resolve(shape.texture, beside=Path(shape.at.file).parent, at=shape.at)
+    except TrundleError as error:
+        report.warn_error(error, shape.at, "the texture is left out")
+        return None
+    return mean_colour(image)
+
+
+def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> ShapeGeometry | None:
+    match shape.geometry:
+        case RobotBox(size):
+            return Box(size)
+        case RobotCylinder(radius, length):
+            return Cylinder(radius, length)
+        case RobotSphere(radius):
+            return Sphere(radius)
+        case RobotMesh(uri, scale):
+            try:
+                mesh = load_mesh(packages.resolve(uri, beside=Path(shape.at.file).parent, at=shape.at))
+            except TrundleError as error:
+                report.warn_error(error, shape.at, "this shape is not drawn")
+                return None
+            return mesh.scaled(scale)

@@ -1,0 +1,185 @@
+"""`trundle play`: shows a state log or a bag on a page, at any speed."""
+
+import os
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.base.console import Console
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, TrundleError
+from trundle.base.files import open_file
+from trundle.base.http.page_address import AllowedNames, PageAddress
+from trundle.base.signals import StopFlag, stop_flag
+from trundle.page import JOINTS, POSES, BagFile, PageServer, Playback, RenderView, Session
+from trundle.page.actor_bones import ActorBones
+from trundle.page.browser import announce_page
+from trundle.page.simulated_world.body_numbers import BodyNumbers
+from trundle.page.simulated_world.manifest import find_robot, single_axes, world_manifest
+from trundle.page.simulated_world.pictures import WorldPictures
+from trundle.page.simulated_world.world_builder import WorldBuilder
+from trundle.robots.model import AnimationState
+from trundle.ros import open_bag
+from trundle.ros.bridge import WORLD_FRAME
+from trundle.sim.simulation import Simulation, StateLog
+from trundle.spatial import NS_PER_S
+
+from .recorded_run import open_recording
+
+_FRAME_S = 1 / 30
+_ALIVE_S = 0.5
+_BAG_MAGIC = (b"#ROSBAG", b"#ROSRECORD", b"\x89MCAP0\r\n")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlayOptions:
+    """Options of `trundle play`."""
+
+    host: str = "127.0.0.1"
+    port: int | None = None
+    allowed: AllowedNames = AllowedNames()
+    """Hosts and origins that the page serves beside its own."""
+    view_only: bool = False
+    """True: print a second link, which only allows looking."""
+    opens_browser: bool = True
+    """Open the page where there is a display; False: print its URL only."""
+    speed: float = 1.0
+    """Recorded seconds per second of wall time."""
+    paused: bool = False
+
+    @property
+    def address(self) -> PageAddress:
+        """Address of the page."""
+        return PageAddress(host=self.host, port=self.port, allowed=self.allowed, view_only=self.view_only)
+
+
+def play(file: Path, options: PlayOptions) -> int:
+    """Show a state log or bag until Ctrl-C; return the exit code.
+
+    Raises:
+        TrundleError: the file is neither, or its world cannot be read.
+    """
+    if _is_bag(file):
+        return play_bag(file, options)
+    report = Diagnostics()
+    log, simulation = open_recording(file, report)
+    show = Console(sys.stderr, report)
+    show.findings()
+    robot = find_robot(simulation.world)
+    session = Session(title=file.name, kind="log", robot=None if robot is None else robot.name, fixed_frame=WORLD_FRAME)
+    with stop_flag() as stop, PageServer.start(session, at=options.address) as server:
+        announce_page(server, options.address, show.line, opens_browser=options.opens_browser)
+        LogPage(server, log, simulation, options).run(stop)
+    return 130
+
+
+def play_bag(file: Path, options: PlayOptions) -> int:
+    """Show a bag until Ctrl-C; return the exit code.
+
+    Raises:
+        TrundleError: the file is damaged, or has no messages.
+    """
+    with open_bag(file) as bag:
+        if not any(bag.counts):
+            raise DescriptionError(Source(str(file)), "nothing was recorded")
+    playing = BagFile(path=os.fsencode(file.absolute()), speed=options.speed, paused=options.paused)
+    session = Session(title=file.name, kind="bag")
+    with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
+        say = Console(sys.stderr, Diagnostics()).line
+        announce_page(server, options.address, say, opens_browser=options.opens_browser)
+        while not stop.wait(_ALIVE_S) and server.alive:
+            pass
+    return 130
+
+
+def _is_bag(file: Path) -> bool:
+    """True if a file begins as a ROS bag or an MCAP file does."""
+    with open_file(file) as stream:
+        return stream.read(max(map(len, _BAG_MAGIC))).startswith(_BAG_MAGIC)
+
+
+class LogPage:
+    """Page of a state log."""
+
+    def __init__(self, server: PageServer, log: StateLog, simulation: Simulation, options: PlayOptions) -> None:
+        """Show a log.
+
+        Args:
+            server: the page's.
+            log: what was recorded.
+            simulation: of the log's world; it does not run.
+            options: speed and pause.
+        """
+        self._server = server
+        self._log = log
+        self._simulation = simulation
+        self._pictures = WorldPictures(server.respond_picture)
+        times_ns = np.rint(log.times * NS_PER_S).astype(np.int64)
+        self._playback = Playback(times_ns, speed=options.speed, paused=options.paused)
+        self._joints = _joint_columns(log, single_axes(simulation))
+        self._bodies = BodyNumbers()
+        self._bones = ActorBones(simulation.world)
+        bodies = (*log.links, *self._bones.names)
+        self._bodies.update(bodies)
+        self._builder = WorldBuilder()
+        manifest = world_manifest(simulation, [], self._bodies) | {"generation": 1}
+        self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
+
+    def run(self, stop: StopFlag) -> None:
+        """Play until stopped."""
+        then = time.monotonic()
+        while not stop.wait(_FRAME_S):
+            now = time.monotonic()
+            self.update(now - then)
+            then = now
+        self._builder.close()
+        self._pictures.close()
+
+    def update(self, wall_s: float) -> None:
+        """Handle the requests, play for a duration [s] and show the state."""
+        server, playback = self._server, self._playback
+        for request in server.requests():
+            if isinstance(request.action, RenderView):
+                self._draw(request.id, request.action)
+                continue
+            try:
+                playback.handle(request.action)
+            except TrundleError as error:
+                server.respond(request.id, str(error))
+            else:
+                server.respond(request.id)
+        playback.advance(wall_s)
+        while (built := self._builder.poll()) is not None:
+            self._simulation.report.extend(built.report.findings)
+            server.set_world(built.manifest, built.files)
+        sample = playback.sample
+        if server.is_watched(POSES):
+            poses = self._bones.with_bones(self._log.poses[sample], self._animation_state)
+            server.put_poses(playback.time_ns, self._bodies.rows(poses))
+        if server.is_watched(JOINTS):
+            server.put_joints(playback.time_ns, self._joints[sample])
+        server.put_state(playback.state)
+
+    def _animation_state(self, actor: str) -> AnimationState:
+        """State of an actor's script at the time shown; what a plugin did with it is not recorded."""
+        player = self._simulation.actors.get(actor)
+        return AnimationState() if player is None else player.animation_state(self._playback.time_ns)
+
+    def _draw(self, request_id: int, view: RenderView) -> None:
+        states = {name: self._animation_state(name) for name in self._simulation.actors}
+        poses = self._log.poses[self._playback.sample]
+        self._pictures.draw(request_id, view, self._simulation.world, poses, states)
+
+
+def _joint_columns(log: StateLog, joints: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return (samples, joints, 3): positions, their change over time, and no efforts, which are not recorded."""
+    positions = log.positions[:, joints]
+    columns = np.full((*positions.shape, 3), np.nan)
+    columns[..., 0] = positions
+    columns[..., 1] = 0.0
+    if len(log.times) > 1:
+        columns[1:, :, 1] = np.diff(positions, axis=0) / np.maximum(np.diff(log.times), 1e-9)[:, None]
+    return columns

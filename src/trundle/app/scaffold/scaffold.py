@@ -1,0 +1,141 @@
+"""Files of each kind, and how they are written."""
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.base.atomic_write import write_atomically
+from trundle.base.diagnostics import UsageError
+
+_TEMPLATES = Path(__file__).with_name("templates")
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_CAMEL_CASE = re.compile(r"[A-Z][A-Za-z0-9]*")
+_EXECUTABLE = (".py",)
+ROBOTS = ("differential", "car", "arm", "quadruped")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scaffold:
+    """Kind of thing to write."""
+
+    files: Mapping[str, str]
+    """Path, with @NAME@ → template."""
+    next_steps: tuple[str, ...]
+    """Commands that run it."""
+    needs_package: bool = False
+    """True: it is found only in a package."""
+    is_camel_case: bool = False
+
+
+def _robot(kind: str) -> Scaffold:
+    controlled = kind != "differential"
+    return Scaffold(
+        files={
+            "urdf/@NAME@.urdf.xacro": f"{kind}.urdf.xacro",
+            "launch/@NAME@.launch": f"{kind}.launch" if controlled else "differential.launch",
+            "test/test_@NAME@.py": f"test_{kind}.py",
+        },
+        next_steps=("trundle run urdf/@NAME@.urdf.xacro", "trundle launch launch/@NAME@.launch", "pytest test"),
+    )
+
+
+_NODE = {
+    "scripts/@NAME@.py": "node.py",
+    "test/@NAME@.test": "node.test",
+    "test/check_@NAME@.py": "check_node.py",
+}
+
+
+def scaffolds(robot: str = ROBOTS[0]) -> dict[str, Scaffold]:
+    """Return what can be written, by name; those of packages go into one.
+
+    Args:
+        robot: one of ROBOTS.
+    """
+    return {
+        "package": Scaffold(
+            files={**_NODE, "launch/@NAME@.launch": "package.launch"},
+            next_steps=("cd @NAME@", "trundle launch launch/@NAME@.launch", "trundle test test/@NAME@.test"),
+        ),
+        "robot": _robot(robot),
+        "world": Scaffold(
+            files={"worlds/@NAME@.world": "world.world", "test/test_@NAME@.py": "test_world.py"},
+            next_steps=("trundle run worlds/@NAME@.world", "pytest test"),
+        ),
+        "plugin": Scaffold(
+            files={
+                "models/@NAME@/model.config": "model.config",
+                "models/@NAME@/model.sdf": "plugin.sdf",
+                "models/@NAME@/@NAME@.py": "plugin.py",
+                "test/test_@NAME@.py": "test_plugin.py",
+            },
+            next_steps=("trundle run models/@NAME@", "pytest test"),
+        ),
+        "node": Scaffold(
+            files=_NODE,
+            next_steps=("trundle exec @PACKAGE@ @NAME@.py", "trundle test test/@NAME@.test"),
+            needs_package=True,
+        ),
+        "launch": Scaffold(
+            files={"launch/@NAME@.launch": "launch.launch", "test/test_@NAME@_launch.py": "test_launch.py"},
+            next_steps=("trundle launch launch/@NAME@.launch", "pytest test"),
+        ),
+        "message": Scaffold(
+            files={"msg/@NAME@.msg": "message.msg", "test/test_@NAME@_message.py": "test_message.py"},
+            next_steps=("trundle msg show @PACKAGE@/@NAME@", "pytest test"),
+            needs_package=True,
+            is_camel_case=True,
+        ),
+    }
+
+
+def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str) -> list[Path]:
+    """Write the files; return their paths.
+
+    Args:
+        scaffold: what to write.
+        name: of the thing.
+        folder: the package's, or another.
+        package: its name.
+
+    Raises:
+        UsageError: an invalid name, or a file that exists or cannot be written; then nothing is written.
+    """
+    _check_name(name, is_camel_case=scaffold.is_camel_case)
+    values = {"@NAME@": name, "@PACKAGE@": package, "@CLASS@": "".join(part.title() for part in name.split("_"))}
+    texts = {
+        folder / _filled(path, values): _filled((_TEMPLATES / f"{template}.in").read_text(encoding="utf-8"), values)
+        for path, template in scaffold.files.items()
+    }
+    for path in texts:
+        if os.path.lexists(path):
+            raise UsageError(f"{path} exists already; nothing is written")
+    try:
+        for path, text in texts.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(path, text, replace=False)
+            if text.startswith("#!") and path.suffix in _EXECUTABLE:
+                path.chmod(0o755)
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
+    return list(texts)
+
+
+def next_steps(scaffold: Scaffold, name: str, package: str) -> list[str]:
+    """Return the commands that run what was written."""
+    return [_filled(step, {"@NAME@": name, "@PACKAGE@": package}) for step in scaffold.next_steps]
+
+
+def _filled(text: str, values: Mapping[str, str]) -> str:
+    for variable, value in values.items():
+        text = text.replace(variable, value)
+    return text
+
+
+def _check_name(name: str, *, is_camel_case: bool) -> None:
+    if is_camel_case and _CAMEL_CASE.fullmatch(name) is None:
+        raise UsageError(f"{name!r} is not a name of a message; they are like WheelSpeed")
+    if _NAME.fullmatch(name) is None:
+        raise UsageError(f"{name!r} is not a name; letters, digits and _ are allowed, a letter first")

@@ -1,0 +1,73 @@
+"""`trundle view`: shows any ROS graph in the browser."""
+
+import asyncio
+import os
+import sys
+from collections.abc import Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+from trundle.base.console import Console
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.base.http.page_address import AllowedNames, PageAddress
+from trundle.base.signals import stop_flag
+from trundle.page import GraphAddress
+from trundle.page.graph_page import GraphPage
+from trundle.page.network_warning import warn_of_network
+from trundle.page.shared_page import SharedPage
+from trundle.robots.names import anonymous_name
+from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, Node, follow_time, master_uri_from_env
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ViewOptions:
+    """Options of `trundle view`."""
+
+    config: str | None = None
+    """An .rviz file."""
+    fixed_frame: str | None = None
+    host: str = "127.0.0.1"
+    port: int | None = None
+    """Port of the page; None: 8080 or the next free one."""
+    allowed: AllowedNames = AllowedNames()
+    """Hosts and origins that the page serves beside its own."""
+    view_only: bool = False
+    """True: print a second link, which only allows looking."""
+    opens_browser: bool = True
+    """Open the page where there is a display; False: print its URL only."""
+
+
+def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> int:
+    """Show the graph that ROS_MASTER_URI names until Ctrl-C; return the exit code.
+
+    Raises:
+        UsageError: no master answers there.
+    """
+    env = dict(os.environ if environment is None else environment)
+    uri = env.get("ROS_MASTER_URI") or master_uri_from_env()
+    try:
+        MasterProxy(uri).call("getPid")
+    except MasterUnreachableError:
+        raise UsageError(
+            f"no ROS master answers at {uri}; start one with 'trundle core' or 'trundle launch', or set ROS_MASTER_URI"
+        ) from None
+    report = Diagnostics()
+    show = Console(sys.stderr, report)
+    warn_of_network(options.host, show.line)
+    with stop_flag() as stop, ExitStack() as open_things:
+        loop = open_things.enter_context(GraphLoop())
+        # Anonymous, as rviz is: a second node of the name rviz would shut that of a launch down.
+        node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
+        loop.run(follow_time(node))
+        at = PageAddress(host=options.host, port=options.port, allowed=options.allowed, view_only=options.view_only)
+        graph = GraphAddress(master_uri=uri, host=options.host)
+        page = GraphPage(SharedPage(say=show.line, at=at, graph=graph, opens_browser=options.opens_browser))
+        open_things.callback(page.close)
+        shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
+        while not stop.wait(0.1):
+            show.findings()
+            if shown.done():
+                return shown.result()
+        shown.cancel()
+        loop.run(asyncio.sleep(0))
+    return 130

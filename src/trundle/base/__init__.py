@@ -1,0 +1,1 @@
+"""Tools without robots: findings, files, values, processes, sockets."""

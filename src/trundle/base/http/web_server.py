@@ -1,0 +1,205 @@
+"""Web server of a node: pages, streams and WebSockets on one port, behind `Access`."""
+
+import asyncio
+import contextlib
+import logging
+import socket
+import ssl
+from collections.abc import AsyncGenerator, Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
+
+from aiohttp import ClientConnectionError, WSMsgType, web
+
+from trundle.base.http.access import Access, PageRequest, Refusal
+
+from .refusals import Refusals
+from .send_buffer import SendBuffer
+
+_MAX_MESSAGE_BYTES = 64 * 1024 * 1024
+"""Longest message of a client."""
+_SHUTDOWN_S = 0.2
+_NO_SNIFFING = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"}
+_ONCE = ("Host", "Origin")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reply:
+    """Answer to a request: a body, or parts that follow each other for as long as the client listens."""
+
+    status: int = 200
+    content_type: str = "text/plain; charset=utf-8"
+    body: bytes = b""
+    parts: AsyncGenerator[bytes, None] | None = None
+    fields: Mapping[str, str] = field(default_factory=dict[str, str])
+
+
+Handler = Callable[[Mapping[str, str]], Awaitable[Reply]]
+"""Answers a GET request by its query."""
+
+
+class SocketClient:
+    """A WebSocket of a client."""
+
+    def __init__(self, web_socket: web.WebSocketResponse, peer: str) -> None:
+        self._web_socket = web_socket
+        self.peer = peer
+        """Address of the client."""
+        self.outgoing = SendBuffer()
+        """Messages to the client."""
+
+    async def receive(self) -> str | bytes | None:
+        """Wait for a message; None: the client has left."""
+        message = await self._web_socket.receive()
+        return message.data if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) else None
+
+    async def send_all(self) -> None:
+        """Send what is put into `outgoing`, until cancelled or the client leaves."""
+        with contextlib.suppress(ClientConnectionError, ConnectionError):
+            while True:
+                message = await self.outgoing.get()
+                if isinstance(message, str):
+                    await self._web_socket.send_str(message)
+                else:
+                    await self._web_socket.send_bytes(message)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SocketOptions:
+    """WebSockets of a server."""
+
+    serve: Callable[[SocketClient], Awaitable[None]]
+    """Serves one client until it leaves."""
+    max_clients: int = 100
+    ping_s: float | None = None
+    compresses: bool = False
+
+
+class WebServer:
+    """Server of a node."""
+
+    def __init__(
+        self,
+        access: Access,
+        pages: Mapping[str, Handler],
+        *,
+        sockets: SocketOptions | None = None,
+        max_streams: int = 100,
+    ) -> None:
+        """Serve pages by path, and WebSockets at any path.
+
+        Args:
+            access: decides which requests are served.
+            pages: path → handler.
+            sockets: None: no WebSockets.
+            max_streams: streams served at once.
+        """
+        self._access = access
+        self._pages = pages
+        self._sockets = sockets
+        self._clients = 0
+        self._streams = 0
+        self._max_streams = max_streams
+        self._refusals = Refusals()
+        self._runner: web.AppRunner | None = None
+
+    async def start(self, listening: socket.socket, certificate: ssl.SSLContext | None = None) -> None:
+        """Serve connections of a listening socket."""
+        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it answers nonsense from the net with tracebacks
+        app = web.Application()
+        app.router.add_get("/{path:.*}", self._answer)
+        self._runner = web.AppRunner(
+            app, access_log=None, handle_signals=False, handler_cancellation=True, shutdown_timeout=_SHUTDOWN_S
+        )
+        await self._runner.setup()
+        await web.SockSite(self._runner, listening, ssl_context=certificate).start()
+
+    async def close(self) -> None:
+        """Close all connections."""
+        if self._runner is not None:
+            await self._runner.cleanup()
+
+    async def _answer(self, request: web.Request) -> web.StreamResponse:
+        asked = PageRequest(
+            target=request.raw_path,
+            host=request.headers.get("Host"),
+            origin=request.headers.get("Origin"),
+            cookie="; ".join(request.headers.getall("Cookie", [])),
+        )
+        repeated = [name for name in _ONCE if len(request.headers.getall(name, [])) > 1]
+        refusal = Refusal(f"the field {repeated[0]} stands twice") if repeated else self._access.refusal(asked)
+        if refusal is not None:
+            return await self._refusals.answer(request, refusal)
+        if request.headers.get("Upgrade", "").lower() == "websocket":
+            return await self._serve_socket(request)
+        page = self._pages.get(request.path)
+        if page is None:
+            return _text(404, "no such page\n")
+        reply = await page(dict(request.query))
+        if reply.parts is None:
+            fields = {"Content-Type": reply.content_type, **self._fields(asked), **reply.fields}
+            return web.Response(status=reply.status, body=reply.body, headers=fields)
+        return await self._stream(request, reply, reply.parts, self._fields(asked))
+
+    def _fields(self, asked: PageRequest) -> dict[str, str]:
+        """Return fields that let pages of this machine show the answer, and those let in by name read it."""
+        access = self._access
+        fields = dict(_NO_SNIFFING)
+        if "Set-Cookie" in (given := access.answer_fields(asked)):
+            fields["Set-Cookie"] = given["Set-Cookie"]
+        is_shared = access.is_open or access.allowed.origins or access.serves_null_origin
+        fields["Cross-Origin-Resource-Policy"] = "cross-origin" if is_shared else "same-site"
+        if access.is_open:
+            fields["Access-Control-Allow-Origin"] = "*"
+        elif asked.origin is not None:
+            fields |= {"Access-Control-Allow-Origin": asked.origin, "Vary": "Origin"}
+        return fields
+
+    async def _stream(
+        self, request: web.Request, reply: Reply, parts: AsyncGenerator[bytes, None], fields: Mapping[str, str]
+    ) -> web.StreamResponse:
+        if self._streams >= self._max_streams:
+            return _text(503, f"{self._max_streams} streams are served already\n")
+        response = web.StreamResponse(headers={"Content-Type": reply.content_type, **fields, **reply.fields})
+        response.force_close()
+        self._streams += 1
+        try:
+            await response.prepare(request)
+            async for part in parts:
+                await response.write(part)
+        except ConnectionError:
+            pass  # the client has left
+        finally:
+            self._streams -= 1
+            await parts.aclose()
+        return response
+
+    async def _serve_socket(self, request: web.Request) -> web.StreamResponse:
+        options = self._sockets
+        if options is None:
+            return _text(400, "no WebSockets here\n")
+        if self._clients >= options.max_clients:
+            return _text(503, f"{options.max_clients} clients are served already\n")
+        web_socket = web.WebSocketResponse(
+            heartbeat=options.ping_s, compress=options.compresses, max_msg_size=_MAX_MESSAGE_BYTES
+        )
+        try:
+            await web_socket.prepare(request)
+        except web.HTTPException as error:
+            return _text(error.status, f"{error.text or error.reason}\n")
+        self._clients += 1
+        client = SocketClient(web_socket, request.remote or "")
+        sending = asyncio.create_task(client.send_all())
+        try:
+            await options.serve(client)
+        finally:
+            self._clients -= 1
+            sending.cancel()
+            await asyncio.wait((sending,))
+            with contextlib.suppress(ConnectionError, TimeoutError):
+                async with asyncio.timeout(_SHUTDOWN_S):
+                    await web_socket.close()
+        return web_socket
+
+
+def _text(status: int, text: str) -> web.Response:
+    return web.Response(status=status, text=text, headers=_NO_SNIFFING)

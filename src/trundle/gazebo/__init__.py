@@ -1,0 +1,1 @@
+"""Gazebo's plugins, and the nodes that Trundle runs in place of packages' own."""

@@ -1,0 +1,111 @@
+"""`trundle check` of a robot, a model or a world."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.robots.description import LoadedDescription
+from trundle.robots.lint.description_lint import lint_description
+from trundle.robots.lint.empty_scene import empty_reason
+from trundle.robots.lint.physics_precheck import physics_accepts
+from trundle.robots.load_input import Piped, load_input
+from trundle.robots.model import World, flattened
+from trundle.robots.packages import Packages
+from trundle.sim.physics import report_wheels
+
+from ..model_plugins import report_missing_plugins
+from .ros_names import report_ros_names
+
+if TYPE_CHECKING:
+    from trundle.base.drawing.tree import TreeNode
+
+
+@dataclass(frozen=True, slots=True)
+class DescriptionFindings:
+    """A description as read, and its world with nested models flattened."""
+
+    loaded: LoadedDescription
+    flat: World
+
+    def as_json(self) -> dict[str, object]:
+        """Contents, as `check --json` prints them."""
+        from .json_output import description_json
+
+        return description_json(self.loaded)
+
+    def trees(self) -> "list[TreeNode]":
+        """Kinematic tree of each model."""
+        from .kinematic_tree import kinematic_trees
+
+        return kinematic_trees(self.loaded)
+
+    def sentence(self) -> str:
+        """Kind and counts, on one line."""
+        models = self.flat.models
+        links = sum(len(model.links) for model in models)
+        joints = sum(len(model.joints) for model in models)
+        sensors = sum(len(link.sensors) for model in models for link in model.links)
+        what = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
+        version = f" (SDF {self.flat.sdf_version})" if self.flat.sdf_version else ""
+        counts = f"{len(models)} models, {links} links, {joints} joints, {sensors} sensors"
+        unseen = empty_reason(self.flat)
+        return f"{what}{version}: {counts}{f'; {unseen}' if unseen else ''}"
+
+
+def check_description(
+    file: str,
+    environment: Mapping[str, str],
+    *,
+    packages: Packages,
+    start: Path,
+    report: Diagnostics,
+    collisions: bool = False,
+    piped: Piped | None = None,
+) -> DescriptionFindings:
+    """Read a description, lint it and compile its physics.
+
+    Args:
+        file: as `trundle check` takes it.
+        environment: variables that locate plugins.
+        packages: resolve URIs.
+        start: relative URIs in standard input start here.
+        report: takes all findings.
+        collisions: cut hollow meshes as physics does, which may take a minute.
+        piped: contents of `file` where it is a pipe.
+
+    Raises:
+        DescriptionError: the file cannot be read.
+        UsageError: no such model.
+    """
+    loaded = load_input(file, report, packages=packages, start=start, piped=piped)
+    flat = flattened(loaded.world)
+    lint_description(loaded, report)
+    report_ros_names(flat, report)
+    _report_silent_sensors(flat, report)
+    report_missing_plugins(flat, environment, report)
+    _report_physics(flat, report, collisions=collisions)
+    return DescriptionFindings(loaded, flat)
+
+
+def _report_physics(flat: World, report: Diagnostics, *, collisions: bool) -> None:
+    try:
+        if not physics_accepts(flat):
+            from trundle.sim.physics import compile_world  # slow to load, and most robots need no repair by it
+
+            compile_world(flat, report, cut_meshes=collisions)
+        report_wheels(flat, report)
+    except DescriptionError as error:
+        report.error(error)
+
+
+def _report_silent_sensors(flat: World, report: Diagnostics) -> None:
+    sensors = [sensor for model in flat.models for link in model.links for sensor in link.sensors]
+    if not sensors:
+        return
+    from trundle.sim.sensors import SIMULATED_CAMERAS  # slow to load
+
+    for sensor in sensors:
+        if sensor.type not in SIMULATED_CAMERAS:
+            report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")

@@ -1,0 +1,211 @@
+"""Loader of the plugins of a world, its models, visuals and sensors."""
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import chain, count
+from typing import TYPE_CHECKING, TypeVar
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics, TrundleError
+from trundle.gazebo.plugins import (
+    Hooks,
+    Plugin,
+    VisualPlugin,
+    find_model_sensor_plugin,
+    find_plugin,
+    find_sensor_plugin,
+    find_visual_plugin,
+    find_world_plugin,
+    is_cosmetic,
+    is_sensor_plugin,
+    require_plugin,
+)
+from trundle.robots.model import PluginTag, Visual, World
+from trundle.robots.names import ros_name
+from trundle.robots.parameters import TagParameters
+
+if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules, and a check without the engine
+    from trundle.ros import Node
+    from trundle.sim.sensors import CameraSensor, InstrumentSensor
+    from trundle.sim.simulation import LinkHandle, ModelHandle, Simulation
+
+_Kind = TypeVar("_Kind")
+_TOPICS_WITHOUT = "the sensor has topics without"
+
+
+def load_plugins(
+    simulation: "Simulation",
+    make_node: "Callable[[str], Node] | None",
+    environment: Mapping[str, str],
+    *,
+    say: Callable[[str], None],
+    models: "Sequence[ModelHandle] | None" = None,
+) -> list[Plugin]:
+    """Load the models' plugins and hook them in; warn of one that fails to load and go on, as Gazebo does.
+
+    Args:
+        simulation: the plugins act on it.
+        make_node: makes each plugin's node; None: without ROS.
+        environment: variables that locate plugins.
+        say: prints which plugins are loaded.
+        models: of the plugins; None: all.
+    """
+    loaded: list[Plugin] = []
+    for model in simulation.models if models is None else models:
+        for tag, node_name in _named(f"/{ros_name(model.name)}", model.model.plugins):
+
+            def load(tag: PluginTag = tag, model: "ModelHandle" = model, node_name: str = node_name) -> Plugin:
+                plugin_class, origin = find_plugin(tag, environment)
+                say(f"plugin {tag.name!r} of {model.name}: {origin}")
+                node = None if make_node is None else make_node(node_name)
+                return plugin_class.load(simulation, model, node, tag)
+
+            plugin = _loaded(tag, load, simulation.report)
+            if plugin is not None:
+                _hook_in(simulation, plugin, model, f"{model.name}::{tag.name}")
+                loaded.append(plugin)
+        _load_visual_plugins(simulation, model, make_node, environment, say)
+    return loaded
+
+
+def _load_visual_plugins(
+    simulation: "Simulation",
+    model: "ModelHandle",
+    make_node: "Callable[[str], Node] | None",
+    environment: Mapping[str, str],
+    say: Callable[[str], None],
+) -> None:
+    """Load the plugins of a model's visuals; see `load_plugins`."""
+    report = simulation.report
+    for link in model.links:
+        asked = [(visual, tag) for visual in link.link.visuals for tag in visual.plugins]
+        named = _named(f"/{ros_name(model.name)}/{ros_name(link.name)}", [tag for _, tag in asked])
+        for (visual, tag), (_, node_name) in zip(asked, named, strict=True):
+            if is_cosmetic(tag):
+                what = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
+                report.info(tag.at, what)
+                continue
+
+            def load(
+                tag: PluginTag = tag, link: "LinkHandle" = link, visual: Visual = visual, node_name: str = node_name
+            ) -> VisualPlugin:
+                plugin_class, origin = find_visual_plugin(tag, environment)
+                say(f"plugin {tag.name!r} of {model.name}::{link.name}::{visual.name}: {origin}")
+                node = None if make_node is None else make_node(node_name)
+                return plugin_class.load(simulation, model, link, visual, node, tag)
+
+            plugin = _loaded(tag, load, report)
+            if plugin is not None:
+                _hook_in(simulation, plugin, model, f"{model.name}::{link.name}::{visual.name}::{tag.name}")
+
+
+def load_world_plugins(
+    simulation: "Simulation",
+    make_node: "Callable[[str], Node] | None",
+    environment: Mapping[str, str],
+    *,
+    say: Callable[[str], None],
+) -> None:
+    """Load the plugins of the world itself; see `load_plugins`."""
+    world = simulation.world
+    for tag, node_name in _named(f"/{ros_name(world.name)}", world.plugins):
+
+        def load(tag: PluginTag = tag, node_name: str = node_name) -> Hooks:
+            plugin_class, origin = find_world_plugin(tag, environment)
+            say(f"plugin {tag.name!r} of the world: {origin}")
+            node = None if make_node is None else make_node(node_name)
+            return plugin_class.load(simulation, node, tag)
+
+        plugin = _loaded(tag, load, simulation.report)
+        if plugin is not None:
+            _hook_in(simulation, plugin, None, tag.name)
+    if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
+        report = simulation.report
+        report.info(world.at, "there is no wind force: as in Gazebo, that takes libWindPlugin.so in the world")
+
+
+_Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
+
+
+def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: "Simulation") -> list[_Sensor]:
+    """Attach the sensors' plugins, which publish their readings; return the sensors without one, in order."""
+    from trundle.gazebo.plugins import PluginNames
+    from trundle.ros import Publisher
+
+    report, models = simulation.report, [each.model for each in simulation.models]
+
+    silent: list[_Sensor] = []
+    for sensor in sensors:
+        attached = 0
+        finds = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
+        by_model = [(tag, find_model_sensor_plugin(tag, sensor.sensor.name)) for tag in sensor.model.plugins]
+        for tag, attach in (*finds, *(each for each in by_model if each[1] is not None)):
+            if attach is None:
+                _warn_unsupported(sensor.name, tag, report)
+                continue
+            try:
+                parameters = TagParameters(tag.node, report)
+                with node.endpoints.record() as ends:
+                    attach(sensor, parameters, PluginNames(node, parameters, sensor.model, models))
+                sensor.topics |= {end.topic: end.type for end in ends if isinstance(end, Publisher)}
+                attached += 1
+            except TrundleError as error:
+                report.warn_error(error, tag.at, _TOPICS_WITHOUT, who=_sensor_plugin(sensor.name, tag))
+        if not attached:
+            silent.append(sensor)
+    return silent
+
+
+def report_missing_plugins(world: World, environment: Mapping[str, str], report: Diagnostics) -> None:
+    """Warn of the plugins that a run would not find; none is loaded."""
+
+    def require(tag: PluginTag) -> None:
+        _loaded(tag, lambda: require_plugin(tag, environment), report)
+
+    for tag in (*world.plugins, *(tag for model in world.models for tag in model.plugins)):
+        require(tag)
+    for link in (link for model in world.models for link in model.links):
+        for tag in (tag for visual in link.visuals for tag in visual.plugins if not is_cosmetic(tag)):
+            require(tag)
+        for sensor in link.sensors:
+            for tag in (tag for tag in sensor.plugins if not is_sensor_plugin(tag)):
+                _warn_unsupported(sensor.name, tag, report)
+
+
+def _warn_unsupported(sensor: str, tag: PluginTag, report: Diagnostics) -> None:
+    report.warn(tag.at, f"{_sensor_plugin(sensor, tag)} is not supported yet; {_TOPICS_WITHOUT}")
+
+
+def _sensor_plugin(sensor: str, tag: PluginTag) -> str:
+    return f"sensor {sensor!r}: plugin {tag.filename}"
+
+
+def _named(namespace: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
+    """Each plugin with a unique node name: a second node of one name would shut the first down."""
+    names: list[str] = []
+    for tag in tags:
+        name = f"{namespace}/{ros_name(tag.name)}"
+        numbered = (f"{name}_{i}" for i in count(2))
+        names.append(next(free for free in chain([name], numbered) if free not in names))
+    return list(zip(tags, names, strict=True))
+
+
+def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:
+    try:
+        return load()
+    except TrundleError as error:
+        who = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
+        report.warn_error(error, tag.at, "the run goes on without it", who=who)
+    except Exception as error:  # user code may raise anything
+        report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
+    return None
+
+
+def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None", name: str) -> None:
+    """Register a plugin's hooks; they run until its model is deleted."""
+
+    def is_there() -> bool:
+        return model is None or any(handle is model for handle in simulation.models)
+
+    simulation.add_hook(
+        plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted(), name=name
+    )
+    simulation.on_reset(plugin.reset, model=model)

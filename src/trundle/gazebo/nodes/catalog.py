@@ -1,0 +1,197 @@
+"""Catalogue of built-in replacements for stock executables; each is imported only on use."""
+
+BUILTIN_NODES: dict[tuple[str, str], str] = {
+    ("arbotix_controllers", "gripper_controller"): "trundle.gazebo.nodes.arbotix:GripperController",
+    ("arbotix_controllers", "gripper_controller.py"): "trundle.gazebo.nodes.arbotix:GripperController",
+    ("arbotix_python", "arbotix_driver"): "trundle.gazebo.nodes.arbotix:ArbotixDriver",
+    ("arbotix_python", "arbotix_driver.py"): "trundle.gazebo.nodes.arbotix:ArbotixDriver",
+    ("arbotix_python", "arbotix_gui"): "trundle.gazebo.nodes.rqt_windows:Window",
+    ("arbotix_python", "driver.py"): "trundle.gazebo.nodes.arbotix:ArbotixDriver",
+    ("controller_manager", "controller_manager"): "trundle.gazebo.nodes.controller_manager:ControllerManagerTool",
+    ("controller_manager", "spawner"): "trundle.gazebo.nodes.controller_manager:Spawner",
+    ("controller_manager", "spawner.py"): "trundle.gazebo.nodes.controller_manager:Spawner",
+    ("controller_manager", "unspawner"): "trundle.gazebo.nodes.controller_manager:Unspawner",
+    ("cv_camera", "cv_camera_node"): "trundle.gazebo.nodes.camera_drivers:CvCamera",
+    (
+        "depthimage_to_laserscan",
+        "depthimage_to_laserscan",
+    ): "trundle.gazebo.nodes.depthimage_to_laserscan:DepthImageToLaserScan",
+    ("dynamic_reconfigure", "dynparam"): "trundle.gazebo.nodes.dynparam:Dynparam",
+    ("dynamic_reconfigure", "reconfigure_gui"): "trundle.gazebo.nodes.rqt_windows:RqtReconfigure",
+    ("gazebo_ros", "debug"): "trundle.gazebo.nodes.gazebo:GazeboServer",
+    ("gazebo_ros", "gazebo"): "trundle.gazebo.nodes.gazebo:Gazebo",
+    ("gazebo_ros", "gdbrun"): "trundle.gazebo.nodes.gazebo:GazeboServer",
+    ("gazebo_ros", "gzclient"): "trundle.gazebo.nodes.gazebo:GazeboClient",
+    ("gazebo_ros", "gzserver"): "trundle.gazebo.nodes.gazebo:GazeboServer",
+    ("gazebo_ros", "perf"): "trundle.gazebo.nodes.gazebo:GazeboServer",
+    ("gazebo_ros", "spawn_model"): "trundle.gazebo.nodes.gazebo:SpawnModel",
+    ("gazebo_ros", "urdf_spawner"): "trundle.gazebo.nodes.gazebo:SpawnModel",
+    ("gscam", "gscam"): "trundle.gazebo.nodes.camera_drivers:GsCam",
+    ("gscam", "gscam_node"): "trundle.gazebo.nodes.camera_drivers:GsCam",
+    ("image_view", "image_view"): "trundle.gazebo.nodes.rqt_windows:ImageView",
+    ("interactive_marker_twist_server", "marker_server"): "trundle.gazebo.nodes.twist_marker_server:TwistMarkerServer",
+    (
+        "joint_state_publisher",
+        "joint_state_publisher",
+    ): "trundle.gazebo.nodes.joint_state_publisher:JointStatePublisher",
+    (
+        "joint_state_publisher_gui",
+        "joint_state_publisher_gui",
+    ): "trundle.gazebo.nodes.joint_state_publisher:JointStatePublisherGui",
+    ("joy", "joy_node"): "trundle.gazebo.nodes.joy_node:JoyNode",
+    ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",
+    ("map_server", "map_server"): "trundle.gazebo.nodes.map_server:MapServer",
+    ("nodelet", "nodelet"): "trundle.gazebo.nodes.nodelet:Nodelet",
+    (
+        "pointcloud_to_laserscan",
+        "pointcloud_to_laserscan_node",
+    ): "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan",
+    ("robot_localization", "ekf_localization_node"): "trundle.gazebo.nodes.robot_localization:EkfLocalization",
+    ("robot_localization", "ukf_localization_node"): "trundle.gazebo.nodes.robot_localization:EkfLocalization",
+    ("robot_pose_publisher", "robot_pose_publisher"): "trundle.gazebo.nodes.robot_pose_publisher:RobotPosePublisher",
+    (
+        "robot_state_publisher",
+        "robot_state_publisher",
+    ): "trundle.gazebo.nodes.robot_state_publisher:RobotStatePublisher",
+    ("robot_state_publisher", "state_publisher"): "trundle.gazebo.nodes.robot_state_publisher:StatePublisher",
+    ("rosapi", "rosapi_node"): "trundle.gazebo.nodes.rosapi:Rosapi",
+    ("rosbag", "play"): "trundle.gazebo.nodes.command_line_tools:RosbagPlay",
+    ("rosbag", "record"): "trundle.gazebo.nodes.command_line_tools:RosbagRecord",
+    ("rosbridge_server", "rosbridge_tcp"): "trundle.gazebo.nodes.rosbridge:RosbridgeTcp",
+    ("rosbridge_server", "rosbridge_tcp.py"): "trundle.gazebo.nodes.rosbridge:RosbridgeTcp",
+    ("rosbridge_server", "rosbridge_websocket"): "trundle.gazebo.nodes.rosbridge:RosbridgeWebsocket",
+    ("rosbridge_server", "rosbridge_websocket.py"): "trundle.gazebo.nodes.rosbridge:RosbridgeWebsocket",
+    ("roscpp_tutorials", "add_two_ints_client"): "trundle.gazebo.nodes.tutorials:CppAddTwoIntsClient",
+    ("roscpp_tutorials", "add_two_ints_server"): "trundle.gazebo.nodes.tutorials:CppAddTwoIntsServer",
+    ("roscpp_tutorials", "listener"): "trundle.gazebo.nodes.tutorials:CppListener",
+    ("roscpp_tutorials", "talker"): "trundle.gazebo.nodes.tutorials:CppTalker",
+    ("rosparam", "rosparam"): "trundle.gazebo.nodes.command_line_tools:Rosparam",
+    ("rospy_tutorials", "add_two_ints_client"): "trundle.gazebo.nodes.tutorials:AddTwoIntsClient",
+    ("rospy_tutorials", "add_two_ints_client.py"): "trundle.gazebo.nodes.tutorials:AddTwoIntsClient",
+    ("rospy_tutorials", "add_two_ints_server"): "trundle.gazebo.nodes.tutorials:AddTwoIntsServer",
+    ("rospy_tutorials", "add_two_ints_server.py"): "trundle.gazebo.nodes.tutorials:AddTwoIntsServer",
+    ("rospy_tutorials", "listener"): "trundle.gazebo.nodes.tutorials:Listener",
+    ("rospy_tutorials", "listener.py"): "trundle.gazebo.nodes.tutorials:Listener",
+    ("rospy_tutorials", "talker"): "trundle.gazebo.nodes.tutorials:Talker",
+    ("rospy_tutorials", "talker.py"): "trundle.gazebo.nodes.tutorials:Talker",
+    ("rosservice", "rosservice"): "trundle.gazebo.nodes.command_line_tools:Rosservice",
+    ("rostopic", "rostopic"): "trundle.gazebo.nodes.command_line_tools:Rostopic",
+    ("rqt_bag", "rqt_bag"): "trundle.gazebo.nodes.rqt_windows:RqtBag",
+    ("rqt_console", "rqt_console"): "trundle.gazebo.nodes.rqt_windows:RqtConsole",
+    ("rqt_graph", "rqt_graph"): "trundle.gazebo.nodes.rqt_windows:RqtGraph",
+    ("rqt_gui", "rqt_gui"): "trundle.gazebo.nodes.rqt_windows:Window",
+    ("rqt_image_view", "rqt_image_view"): "trundle.gazebo.nodes.rqt_windows:RqtImageView",
+    ("rqt_joint_trajectory_controller", "rqt_joint_trajectory_controller"): "trundle.gazebo.nodes.rqt_windows:Window",
+    ("rqt_plot", "rqt_plot"): "trundle.gazebo.nodes.rqt_windows:RqtPlot",
+    ("rqt_publisher", "rqt_publisher"): "trundle.gazebo.nodes.rqt_windows:RqtPublisher",
+    ("rqt_reconfigure", "rqt_reconfigure"): "trundle.gazebo.nodes.rqt_windows:RqtReconfigure",
+    ("rqt_robot_monitor", "rqt_robot_monitor"): "trundle.gazebo.nodes.rqt_windows:RqtRobotMonitor",
+    ("rqt_robot_steering", "rqt_robot_steering"): "trundle.gazebo.nodes.rqt_windows:RqtRobotSteering",
+    ("rqt_service_caller", "rqt_service_caller"): "trundle.gazebo.nodes.rqt_windows:RqtServiceCaller",
+    ("rqt_tf_tree", "rqt_tf_tree"): "trundle.gazebo.nodes.rqt_windows:RqtTfTree",
+    ("rqt_topic", "rqt_topic"): "trundle.gazebo.nodes.rqt_windows:RqtTopic",
+    ("rviz", "rviz"): "trundle.gazebo.nodes.rviz:Rviz",
+    ("sound_play", "soundplay_node.py"): "trundle.gazebo.nodes.sound_play:SoundPlay",
+    ("teleop_twist_joy", "teleop_node"): "trundle.gazebo.nodes.teleop_twist_joy:TeleopTwistJoy",
+    (
+        "teleop_twist_keyboard",
+        "teleop_twist_keyboard.py",
+    ): "trundle.gazebo.nodes.teleop_twist_keyboard:TeleopTwistKeyboard",
+    ("tf", "static_transform_publisher"): "trundle.gazebo.nodes.static_transform_publisher:TfStaticTransformPublisher",
+    ("tf", "tf_echo"): "trundle.gazebo.nodes.command_line_tools:TfEcho",
+    ("tf", "tf_monitor"): "trundle.gazebo.nodes.command_line_tools:TfMonitor",
+    ("tf", "view_frames"): "trundle.gazebo.nodes.command_line_tools:ViewFrames",
+    ("tf2_ros", "buffer_server"): "trundle.gazebo.nodes.buffer_server:BufferServer",
+    (
+        "tf2_ros",
+        "static_transform_publisher",
+    ): "trundle.gazebo.nodes.static_transform_publisher:Tf2StaticTransformPublisher",
+    ("tf2_tools", "echo.py"): "trundle.gazebo.nodes.command_line_tools:TfEcho",
+    ("tf2_tools", "view_frames.py"): "trundle.gazebo.nodes.command_line_tools:ViewFrames",
+    ("tf2_web_republisher", "tf2_web_republisher"): "trundle.gazebo.nodes.tf2_web_republisher:Tf2WebRepublisher",
+    ("topic_tools", "drop"): "trundle.gazebo.nodes.topic_tools:Drop",
+    ("topic_tools", "mux"): "trundle.gazebo.nodes.topic_tools:Mux",
+    ("topic_tools", "relay"): "trundle.gazebo.nodes.topic_tools:Relay",
+    ("topic_tools", "throttle"): "trundle.gazebo.nodes.topic_tools:Throttle",
+    ("topic_tools", "transform"): "trundle.gazebo.nodes.topic_tools:Transform",
+    ("turtle_tf", "turtle_tf_broadcaster"): "trundle.gazebo.nodes.tutorials:TurtleBroadcaster",
+    ("turtle_tf", "turtle_tf_broadcaster.py"): "trundle.gazebo.nodes.tutorials:TurtleBroadcaster",
+    ("turtle_tf", "turtle_tf_listener"): "trundle.gazebo.nodes.tutorials:TurtleFollower",
+    ("turtle_tf", "turtle_tf_listener.py"): "trundle.gazebo.nodes.tutorials:TurtleFollower",
+    ("turtle_tf2", "turtle_tf2_broadcaster"): "trundle.gazebo.nodes.tutorials:TurtleBroadcaster",
+    ("turtle_tf2", "turtle_tf2_broadcaster.py"): "trundle.gazebo.nodes.tutorials:TurtleBroadcaster",
+    ("turtle_tf2", "turtle_tf2_listener"): "trundle.gazebo.nodes.tutorials:TurtleFollower",
+    ("turtle_tf2", "turtle_tf2_listener.py"): "trundle.gazebo.nodes.tutorials:TurtleFollower",
+    ("turtlebot3_teleop", "turtlebot3_teleop_key"): "trundle.gazebo.nodes.turtlebot3_teleop_key:Turtlebot3TeleopKey",
+    ("turtlebot_teleop", "turtlebot_teleop_key"): "trundle.gazebo.nodes.teleop_twist_keyboard:TurtlebotTeleopKey",
+    ("turtlesim", "draw_square"): "trundle.gazebo.nodes.turtlesim:DrawSquare",
+    ("turtlesim", "mimic"): "trundle.gazebo.nodes.turtlesim:Mimic",
+    ("turtlesim", "turtle_teleop_key"): "trundle.gazebo.nodes.turtlesim:TurtleTeleopKey",
+    ("turtlesim", "turtlesim_node"): "trundle.gazebo.nodes.turtlesim:TurtleSim",
+    ("twist_mux", "twist_mux"): "trundle.gazebo.nodes.twist_mux:TwistMux",
+    ("usb_cam", "usb_cam_node"): "trundle.gazebo.nodes.camera_drivers:UsbCam",
+    ("web_video_server", "web_video_server"): "trundle.gazebo.nodes.web_video_server:WebVideoServer",
+}
+"""(package, type) → "module:Class"."""
+
+NODELETS: dict[str, str] = {
+    "cmd_vel_mux/CmdVelMuxNodelet": "trundle.gazebo.nodes.cmd_vel_mux:CmdVelMux",
+    "depthimage_to_laserscan/DepthImageToLaserScanNodelet": (
+        "trundle.gazebo.nodes.depthimage_to_laserscan:DepthImageToLaserScan"
+    ),
+    "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
+        "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
+    ),
+    "pointcloud_to_laserscan/pointcloud_to_laserscan_nodelet": (
+        "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
+    ),
+    "yocs_cmd_vel_mux/CmdVelMuxNodelet": "trundle.gazebo.nodes.cmd_vel_mux:CmdVelMux",
+}
+"""Nodelet class as in launch files → "module:Class"."""
+
+WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
+"""Nodes that simulate a world, and so publish /clock."""
+
+WINDOWS = frozenset(
+    key
+    for key in BUILTIN_NODES
+    if key[0] in ("image_view", "joint_state_publisher_gui", "joy", "rviz") or key[0].startswith("rqt_")
+) | {
+    ("turtlesim", "turtlesim_node"),
+    ("dynamic_reconfigure", "reconfigure_gui"),
+    ("arbotix_python", "arbotix_gui"),
+}
+"""Nodes with a window: each opens the page."""
+
+KEYBOARDS = frozenset(
+    key for key in BUILTIN_NODES if key[1] == "teleop_twist_keyboard.py" or key[1].endswith("_teleop_key")
+)
+"""Nodes that read keys."""
+
+CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
+"""Nodes that open the page of the simulated world."""
+
+OURS_ALWAYS = frozenset({"gazebo_ros"})
+"""Packages that are replaced even if installed, since their programs would start another simulator."""
+
+_IN_PYTHON = (
+    "arbotix_",
+    "controller_manager",
+    "dynamic_reconfigure",
+    "joint_state_publisher",
+    "rosapi",
+    "rosbridge_",
+    "rospy_tutorials",
+    "rosparam",
+    "rosservice",
+    "rostopic",
+    "rqt_",
+    "teleop_twist_keyboard",
+    "tf2_tools",
+    "turtle_tf",
+    "turtlebot",
+)
+ROSCPP = frozenset(
+    key for key in BUILTIN_NODES if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
+)
+"""Nodes whose originals use roscpp, which names loggers differently."""

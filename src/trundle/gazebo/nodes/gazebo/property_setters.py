@@ -1,0 +1,188 @@
+"""/gazebo's services that change properties of the running world, its links, joints and lights."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import UsageError
+from trundle.robots.model import Inertial, Joint, JointAxis, Light, Link, Model
+from trundle.ros import Message, Node
+from trundle.spatial import Vector3
+
+from ..host import Simulator
+from .entities import find_joint, find_light, find_link
+from .messages import advertise_status_service, read_pose, read_vector
+from .ode import IGNORED, OdeSettings
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import gazebo_msgs, std_msgs
+
+_NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
+"""Settings of ODE joints without counterparts in MuJoCo."""
+_UPDATED = "physics engine updated"
+SHORTEST_S, LONGEST_S = 1e-6, 1.0
+"""Limits of a world's <max_step_size>."""
+
+
+def advertise_property_setters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
+    """Advertise set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
+    changes = _PropertySetters(simulator, ode)
+    for name, kind, work, done in (
+        ("set_physics_properties", "SetPhysicsProperties", changes.set_physics_properties, _UPDATED),
+        ("set_link_properties", "SetLinkProperties", changes.set_link_properties, "SetLinkProperties: properties set"),
+        (
+            "set_joint_properties",
+            "SetJointProperties",
+            changes.set_joint_properties,
+            "SetJointProperties: properties set",
+        ),
+        (
+            "set_light_properties",
+            "SetLightProperties",
+            changes.set_light_properties,
+            "SetLightProperties: properties set",
+        ),
+        ("delete_light", "DeleteLight", changes.delete_light, "DeleteLight: successfully deleted light"),
+    ):
+        advertise_status_service(node, name, kind, work, done)
+
+
+def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_hz: float) -> None:
+    """Set the step size [s], gravity [m/s²] and steps per second of wall time; 0: as fast as possible.
+
+    Raises:
+        UsageError: a value is out of range.
+    """
+    if not SHORTEST_S <= step_s <= LONGEST_S:
+        raise UsageError(f"time_step must be from {SHORTEST_S:g} to {LONGEST_S:g} s, got {step_s:g}")
+    if not all(math.isfinite(value) for value in (*gravity, rate_hz)) or rate_hz < 0.0:
+        raise UsageError("gravity and max_update_rate must be finite, the rate not below 0")
+    world = simulator.simulation.world
+    before = world.physics
+    physics = replace(before, max_step_size_s=step_s, gravity=gravity, real_time_update_rate_hz=rate_hz)
+    simulator.edit(replace(world, physics=physics))
+    speed = rate_hz * step_s
+    if speed != before.real_time_update_rate_hz * before.max_step_size_s:
+        simulator.set_speed(speed or None)
+
+
+class _PropertySetters:
+    def __init__(self, simulator: Simulator, ode: OdeSettings) -> None:
+        self._simulator = simulator
+        self._ode = ode
+
+    def set_physics_properties(self, request: "gazebo_msgs.SetPhysicsPropertiesRequest") -> dict[str, Any]:
+        """Set time step, gravity and update rate; ODE's settings are stored without effect."""
+        set_physics(
+            self._simulator,
+            step_s=float(request.time_step),
+            gravity=read_vector(request.gravity),
+            rate_hz=float(request.max_update_rate),
+        )
+        ignored = self._ode.update_config(request.ode_config)
+        note = f"{_UPDATED}; {IGNORED}{', '.join(ignored)}"
+        return {"status_message": note} if ignored else {}
+
+    def set_link_properties(self, request: "gazebo_msgs.SetLinkPropertiesRequest") -> dict[str, Any]:
+        """Set mass, centre of mass, inertia, and whether gravity applies."""
+        simulation = self._simulator.simulation
+        handle = find_link(simulation, request.link_name)
+        inertial = Inertial(
+            mass=float(request.mass),
+            link_from_com=read_pose(request.com),
+            moments=(float(request.ixx), float(request.iyy), float(request.izz)),
+            products=(float(request.ixy), float(request.ixz), float(request.iyz)),
+        )
+        if not inertial.mass > 0.0 or not all(moment > 0.0 for moment in inertial.moments):
+            raise UsageError("a link's mass and its moments of inertia ixx, iyy and izz must be greater than 0")
+        model = next(model.model for model in simulation.models if handle in model.links)
+        link = replace(handle.link, inertial=inertial, gravity=bool(request.gravity_mode))
+        self._put(replace(model, links=_with(model.links, link)))
+        return {}
+
+    def set_joint_properties(self, request: "gazebo_msgs.SetJointPropertiesRequest") -> dict[str, Any]:
+        """Set damping and limits of each axis, and ODE's joint motor (fmax, vel)."""
+        simulation = self._simulator.simulation
+        handle = find_joint(simulation, request.joint_name)
+        asked = request.ode_joint_config
+        for name in ("damping", "hiStop", "loStop", "fmax", "vel"):
+            given = len(getattr(asked, name))
+            if given > len(handle.axes):
+                raise UsageError(f"{name} has {given} values; the joint has {len(handle.axes)} axes")
+        model = next((model.model for model in simulation.models if handle in model.joints), None)
+        if model is None:
+            raise UsageError(f"joint {handle.name!r} belongs to the world; its properties cannot be changed")
+        joint = handle.joint
+        changed = replace(joint, axis=_axis(joint, 0, asked), axis2=_axis(joint, 1, asked))
+        if changed != joint:
+            self._put(replace(model, joints=_with(model.joints, changed)))
+        for axis, (effort, speed) in enumerate(zip(asked.fmax, asked.vel, strict=False)):
+            handle.command_velocity(float(speed), max_effort=float(effort), axis=axis)
+        ignored = [name for name in _NO_COUNTERPART if len(getattr(asked, name))]
+        note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
+        return {"status_message": note} if ignored else {}
+
+    def set_light_properties(self, request: "gazebo_msgs.SetLightPropertiesRequest") -> dict[str, Any]:
+        """Set colours, attenuation, pose and direction."""
+        world = self._simulator.simulation.world
+        light = find_light(world, request.light_name)
+        direction = read_vector(request.direction)
+        length = math.hypot(*direction)
+        x, y, z = direction
+        changed = replace(
+            light,
+            cast_shadows=bool(request.cast_shadows),
+            diffuse=_colour(request.diffuse),
+            specular=_colour(request.specular),
+            constant=float(request.attenuation_constant),
+            linear=float(request.attenuation_linear),
+            quadratic=float(request.attenuation_quadratic),
+            direction=(x / length, y / length, z / length) if length > 0.0 else light.direction,
+            world_from_light=read_pose(request.pose),
+        )
+        self._light(light, [changed])
+        return {}
+
+    def delete_light(self, request: "gazebo_msgs.DeleteLightRequest") -> dict[str, Any]:
+        """Delete a light of the world."""
+        self._light(find_light(self._simulator.simulation.world, request.light_name), [])
+        return {}
+
+    def _light(self, light: Light, now: list[Light]) -> None:
+        world = self._simulator.simulation.world
+        lights = tuple(new for old in world.lights for new in (now if old is light else [old]))
+        self._simulator.edit(replace(world, lights=lights))
+
+    def _put(self, model: Model) -> None:
+        world = self._simulator.simulation.world
+        self._simulator.edit(
+            replace(world, models=tuple(model if there.name == model.name else there for there in world.models))
+        )
+
+
+def _with(parts: "Sequence[Link] | Sequence[Joint]", part: "Link | Joint") -> Any:
+    return tuple(part if there.name == part.name else there for there in parts)
+
+
+def _axis(joint: Joint, number: int, asked: Message) -> JointAxis | None:
+    axis = (joint.axis, joint.axis2)[number]
+    if axis is None:
+        return None
+
+    def value(name: str, default: float) -> float:
+        values = getattr(asked, name)
+        return float(values[number]) if len(values) > number else default
+
+    lower, upper = value("loStop", axis.lower), value("hiStop", axis.upper)
+    if not lower < upper:
+        raise UsageError(f"loStop {lower:g} must be less than hiStop {upper:g}")
+    damping = value("damping", axis.damping)
+    if not (math.isfinite(damping) and damping >= 0.0):
+        raise UsageError(f"damping must be 0 or more, got {damping:g}")
+    return replace(axis, lower=lower, upper=upper, damping=damping)
+
+
+def _colour(colour: "std_msgs.ColorRGBA") -> tuple[float, float, float, float]:
+    return (float(colour.r), float(colour.g), float(colour.b), float(colour.a))

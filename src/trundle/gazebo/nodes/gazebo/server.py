@@ -1,0 +1,130 @@
+"""gazebo_ros/gzserver: a simulated world with /gazebo's services and topics."""
+
+import asyncio
+import re
+
+from trundle.base.diagnostics import TrundleError
+from trundle.ros import Node
+
+from ..host import NodeHost, Simulator
+from .load_services import advertise_load_services
+from .model_services import advertise_model_services
+from .ode import OdeSettings
+from .pause_services import advertise_pause_services
+from .performance_metrics import MetricsTopic
+from .property_getters import advertise_property_getters
+from .property_setters import advertise_property_setters
+from .reconfigure import advertise_options
+from .state_services import advertise_state_services
+from .state_topics import StateTopics
+
+_EMPTY_WORLD = "worlds/empty.world"
+_TAKES_A_VALUE = frozenset(
+    {
+        *("-e", "--physics", "-p", "--play", "-s", "--server-plugin", "-o", "--profile", "--seed", "--iters"),
+        *("--record_path", "--record_period", "--record_filter", "--initial_sim_time", "--lockstep"),
+    }
+)
+_WHAT_THIS_IS = re.compile(r"libgazebo_ros_(api_plugin|paths_plugin|init|factory|state)\.so$")
+"""Server plugins in command lines whose functions this node provides."""
+_UNSUPPORTED = {
+    "-p": "playing a log",
+    "--play": "playing a log",
+    "-s": "a server plugin",
+    "--server-plugin": "a server plugin",
+}
+
+
+class GazeboServer:
+    """Simulates a world and serves /gazebo; the window is gzclient's."""
+
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
+        self._node = node
+        self._arguments = arguments
+        self._simulator = host.simulator
+        self._env = host.env
+
+    async def run(self) -> int:
+        """Simulate until cancelled."""
+        node, simulator = self._node, self._simulator
+        if simulator is None:
+            node.log.fatal("simulation is not available here")
+            return 1
+        world, paused, record = self._read_arguments()
+        if not await node.params.has("/use_sim_time"):
+            await node.params.set("/use_sim_time", True)
+        try:
+            await simulator.open(node, world, paused=paused, env=self._env, record=record)
+        except TrundleError as error:
+            node.log.fatal(str(error))
+            return 1
+        try:
+            await self._serve(simulator)
+        finally:
+            await asyncio.to_thread(simulator.close)
+        return 0
+
+    async def _serve(self, simulator: Simulator) -> None:
+        node = self._node
+        node.deliver = simulator.post
+        topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
+        self._advertise(simulator)
+        await node.wait_registered()  # a caller that finds one service finds all
+        simulator.begin()
+        while not node.closed.is_set():
+            if simulator.paused and not simulator.is_lockstep and topics.has_subscribers():
+                simulator.post(topics.publish)
+            if metrics.due():
+                simulator.post(metrics.publish)
+            if simulator.is_lockstep:
+                await node.clock.sleep(topics.period_s)
+            else:  # wall time, since a paused world is published, too
+                await asyncio.sleep(topics.period_s)
+
+    def _advertise(self, simulator: Simulator) -> None:
+        for advertise in (
+            advertise_model_services,
+            advertise_state_services,
+            advertise_load_services,
+            advertise_pause_services,
+        ):
+            advertise(self._node, simulator)
+        ode = OdeSettings()
+        for advertise in (advertise_property_getters, advertise_property_setters, advertise_options):
+            advertise(self._node, simulator, ode)
+
+    def _read_arguments(self) -> tuple[str, bool, str | None]:
+        """World, initial pause, and folder of recordings; options without effect are logged."""
+        world, paused, record = _EMPTY_WORLD, False, None
+        words = iter(self._arguments)
+        for word in words:
+            option, equals, value = word.partition("=")
+            if option in _TAKES_A_VALUE and not equals:
+                value = next(words, "")
+            if option in ("-u", "--pause"):
+                paused = True
+            elif option in ("-r", "--record"):
+                record = record or ""
+            elif option == "--record_path":
+                record = value
+            elif option in _UNSUPPORTED and not _WHAT_THIS_IS.search(value):
+                self._node.log.warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
+            elif option in ("-e", "--physics") and value not in ("ode", ""):
+                self._node.log.info(f"physics engine {value!r} is not available; using MuJoCo")
+            elif not word.startswith("-"):
+                world = word
+        return world, paused, record
+
+
+class Gazebo(GazeboServer):
+    """gazebo_ros/gazebo: server and window."""
+
+    async def run(self) -> int:
+        """Simulate and show until cancelled."""
+        if self._simulator is None:
+            return await super().run()
+        window = self._node.loop.spawn(self._simulator.show(self._node))
+        try:
+            return await super().run()
+        finally:
+            window.cancel()

@@ -1,0 +1,144 @@
+"""Conversion of map images to occupancy grids and back, by map_server's rules."""
+
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.base.atomic_write import write_atomically
+from trundle.base.diagnostics import UsageError
+from trundle.base.files import read_file
+from trundle.base.yaml_loader import load_yaml
+from trundle.robots.meshes import ignored_decoder_warnings, why_undecoded
+
+_FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
+_MAX_BYTES = 256 * 1024 * 1024
+_LARGEST_PIXELS = 100_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OccupancyGrid:
+    """Grid of cells; row 0 is the bottom of the image."""
+
+    cells: NDArray[np.int8]
+    """(height, width): −1 unknown, 0 free … 100 occupied."""
+    resolution_m: float
+    origin: tuple[float, float, float]
+    """x, y [m] and yaw [rad] of the lower left corner."""
+
+
+def read_map(file: Path) -> OccupancyGrid:
+    """Read a map's YAML file and its image.
+
+    Raises:
+        UsageError: a file or key is missing or invalid.
+    """
+    try:
+        described: Any = load_yaml(read_file(file).decode())
+    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        raise UsageError(f"map {file}: {error}") from None
+    if not isinstance(described, dict):
+        raise UsageError(f"map {file}: not a YAML mapping")
+    try:
+        picture = file.parent / str(described["image"])
+        x, y, yaw = (float(v) for v in described["origin"])
+        resolution_m = float(described["resolution"])
+        negate = bool(int(described["negate"]))
+        occupied, free = float(described["occupied_thresh"]), float(described["free_thresh"])
+    except KeyError as error:
+        raise UsageError(f"map {file}: the key {error} is missing") from None
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"map {file}: {error}") from None
+    mode = str(described.get("mode", "trinary"))
+    if mode not in ("trinary", "scale", "raw"):
+        raise UsageError(f"map {file}: no mode {mode!r}; there are trinary, scale, raw")
+    cells = read_cells(picture, negate=negate, occupied=occupied, free=free, mode=mode)
+    return OccupancyGrid(cells=cells, resolution_m=positive(resolution_m, file), origin=(x, y, yaw))
+
+
+def positive(resolution_m: float, file: Path) -> float:
+    """Check a map's resolution.
+
+    Raises:
+        UsageError: the resolution is not positive and finite.
+    """
+    if not 0.0 < resolution_m < math.inf:
+        raise UsageError(f"map {file}: resolution must be > 0 m, got {resolution_m:g}")
+    return resolution_m
+
+
+def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mode: str = "trinary") -> NDArray[np.int8]:
+    """Read an image as occupancies.
+
+    Args:
+        picture: image; dark is occupied.
+        negate: True: light is occupied.
+        occupied: threshold of occupancy [0, 1]; cells above are occupied.
+        free: threshold of occupancy [0, 1]; cells below are free.
+        mode: cells in between become unknown (trinary) or a number (scale); raw uses grey values as occupancies.
+
+    Raises:
+        UsageError: the file is not an image.
+    """
+    return _cells(_pixels(picture), negate=negate, occupied=occupied, free=free, mode=mode)
+
+
+def _pixels(picture: Path) -> NDArray[np.float64]:
+    """Pixels (height, width, channels) 0 … 255; the last of two or four channels is alpha."""
+    try:
+        with ignored_decoder_warnings(), Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
+            if image.width * image.height > _LARGEST_PIXELS:
+                raise UsageError(
+                    f"{picture}: {image.width} × {image.height} pixels exceed the limit of {_LARGEST_PIXELS} for maps"
+                )
+            plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
+            pixels = np.asarray(plain, dtype=np.float64)
+    except UsageError:
+        raise
+    except Exception as error:  # every decoder of Pillow has its own exceptions
+        raise UsageError(f"{picture}: {why_undecoded(error)}") from None
+    return pixels[:, :, None] if pixels.ndim == 2 else pixels
+
+
+def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: float, mode: str) -> NDArray[np.int8]:
+    has_opacity = pixels.shape[2] in (2, 4)
+    # In trinary mode, the original averages alpha with the colours.
+    colours = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
+    shade = 255.0 - colours.mean(axis=2) if negate else colours.mean(axis=2)
+    if mode == "raw":  # byte by byte: 255 is −1
+        return np.flipud(shade).astype(np.uint8).view(np.int8)
+    occupancy = (255.0 - shade) / 255.0
+    between = np.full_like(occupancy, _UNKNOWN)
+    if mode == "scale":
+        between = np.floor(1.0 + 98.0 * (occupancy - free) / (occupied - free))
+        if has_opacity:
+            between[pixels[:, :, -1] < 1.0] = _UNKNOWN
+    cells = np.where(occupancy > occupied, _OCCUPIED, np.where(occupancy < free, _FREE, between))
+    return np.flipud(cells).astype(np.int8)
+
+
+def write_map(file: Path, grid: OccupancyGrid, *, occupied: int, free: int) -> None:
+    """Write NAME.pgm and NAME.yaml, `file` being NAME; cells between the thresholds [%] become unknown's grey.
+
+    Raises:
+        UsageError: a file cannot be written.
+    """
+    cells = np.flipud(grid.cells)
+    shades = np.full(cells.shape, 205, dtype=np.uint8)
+    shades[(cells >= 0) & (cells <= free)] = 254
+    shades[cells >= occupied] = 0
+    picture, pixels = file.with_name(f"{file.name}.pgm"), io.BytesIO()
+    Image.fromarray(shades).save(pixels, format="PPM")
+    write_atomically(picture, pixels.getvalue())
+    x, y, yaw = grid.origin
+    write_atomically(
+        file.with_name(f"{file.name}.yaml"),
+        f"image: {picture.name}\nresolution: {grid.resolution_m:f}\norigin: [{x:f}, {y:f}, {yaw:f}]\n"
+        "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n\n",
+    )

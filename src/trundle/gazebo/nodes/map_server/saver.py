@@ -1,0 +1,68 @@
+"""map_server/map_saver: saves the next message on /map as an image and YAML."""
+
+import asyncio
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros import Message, Node
+
+from ..host import NodeHost
+from .occupancy_grid import OccupancyGrid, write_map
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import nav_msgs
+
+_USAGE = "usage: map_saver [--occ 1…100] [--free 0…100] [-f NAME]"
+
+
+class MapSaver:
+    """Saves one map and exits."""
+
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
+        del host
+        self._node = node
+        self._arguments = arguments
+
+    async def run(self) -> int:
+        """Save; exit code 1 on invalid options or write errors."""
+        node = self._node
+        if "-h" in self._arguments:
+            print(_USAGE)
+            return 0
+        options = {"-f": "map", "--occ": "65", "--free": "25"}
+        words = iter(self._arguments)
+        for word in words:
+            if word not in options:
+                node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
+                return 1
+            options[word] = next(words, "")
+        try:
+            occupied, free = int(options["--occ"]), int(options["--free"])
+        except ValueError:
+            occupied = free = -1
+        if not 0 <= free < occupied <= 100:
+            node.log.error(f"{_USAGE}; --free must lie below --occ")
+            return 1
+        heard: asyncio.Queue[Message] = asyncio.Queue()
+        node.log.info("Waiting for the map")
+        node.subscribe("map", "nav_msgs/OccupancyGrid", heard.put_nowait, queue_size=1)
+        message = await heard.get()
+        try:
+            await asyncio.to_thread(write_map, Path(options["-f"]), _grid_of(message), occupied=occupied, free=free)
+        except UsageError as error:
+            node.log.error(str(error))
+            return 1
+        node.log.info(f"Received a {message.info.width} X {message.info.height} map; wrote {options['-f']}.pgm")
+        return 0
+
+
+def _grid_of(message: "nav_msgs.OccupancyGrid") -> OccupancyGrid:
+    info, turn = message.info, message.info.origin.orientation
+    cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
+    yaw = math.atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2))
+    where = info.origin.position
+    return OccupancyGrid(cells=cells, resolution_m=float(info.resolution), origin=(where.x, where.y, yaw))

@@ -1,0 +1,156 @@
+"""Graphical tools: image_view and rqt; the page replaces all of them."""
+
+from typing import TYPE_CHECKING
+
+from trundle.base.diagnostics import TrundleError
+from trundle.ros import Node
+
+from .host import Display, NodeHost
+from .private_parameters import private_parameters
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
+
+
+class Window:
+    """Any rqt program: opens the page, if there is one."""
+
+    panel = ""
+    """Program whose panel is opened; empty: none in particular."""
+
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
+        self._node = node
+        self._arguments = arguments
+        self._display = host.display
+
+    async def run(self) -> int:
+        """Show until the page is closed."""
+        if self._display is not None:
+            self._prepare(self._display)
+            return await self._display.show(self._node, config=None, fixed_frame=None)
+        await self._node.closed.wait()
+        return 0
+
+    def _prepare(self, display: Display) -> None:
+        """Request the window's content from the page."""
+        if self.panel:
+            display.open_panel(self.panel)
+
+
+class ImageView(Window):
+    """image_view/image_view: images of `image`; logs their size and encoding once."""
+
+    panel = "rqt_image_view"
+
+    def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
+        super().__init__(node, arguments, host)
+        self._seen = False
+
+    async def run(self) -> int:
+        """Show until the page is closed."""
+        images = self._node.subscribe("image", "sensor_msgs/Image", self._on_image, queue_size=1)
+        self._node.log.info(f"listening to {images.topic}")
+        return await super().run()
+
+    def _prepare(self, display: Display) -> None:
+        super()._prepare(display)
+        display.show_image(self._node.resolve("image"))
+
+    def _on_image(self, image: "sensor_msgs.Image") -> None:
+        if not self._seen:
+            self._node.log.info(f"images of {image.width} × {image.height} pixels, {image.encoding}")
+        self._seen = True
+
+
+class RqtImageView(Window):
+    """rqt_image_view: images of the given topic."""
+
+    panel = "rqt_image_view"
+
+    def _prepare(self, display: Display) -> None:
+        super()._prepare(display)
+        for word in self._arguments:
+            if not word.startswith("-"):
+                display.show_image(self._node.resolve(word))
+
+
+class RqtRobotSteering(Window):
+    """rqt_robot_steering: the page's pad publishes on ~default_topic."""
+
+    panel = "rqt_robot_steering"
+
+    async def run(self) -> int:
+        """Show until the page is closed."""
+        node = self._node
+        try:
+            self._topic = (await private_parameters(node)).text("default_topic", "/cmd_vel")
+        except TrundleError as error:
+            node.log.error(str(error))
+            return 1
+        return await super().run()
+
+    def _prepare(self, display: Display) -> None:
+        super()._prepare(display)
+        display.drive_on(self._node.resolve(self._topic))
+
+
+class RqtPlot(Window):
+    """rqt_plot: plots the given fields, `/topic/field:field`, separated by spaces or commas."""
+
+    def _prepare(self, display: Display) -> None:
+        words = [word for given in self._arguments if not given.startswith("-") for word in given.split(",")]
+        display.plot([self._node.resolve(word) for word in words if word])
+
+
+class RqtBag(Window):
+    """rqt_bag: the timeline."""
+
+    panel = "rqt_bag"
+
+
+class RqtConsole(Window):
+    """rqt_console: the log."""
+
+    panel = "rqt_console"
+
+
+class RqtGraph(Window):
+    """rqt_graph: nodes and topics."""
+
+    panel = "rqt_graph"
+
+
+class RqtPublisher(Window):
+    """rqt_publisher: publishes messages typed in."""
+
+    panel = "rqt_publisher"
+
+
+class RqtReconfigure(Window):
+    """rqt_reconfigure and reconfigure_gui: the options of all nodes."""
+
+    panel = "rqt_reconfigure"
+
+
+class RqtRobotMonitor(Window):
+    """rqt_robot_monitor: diagnostics."""
+
+    panel = "rqt_robot_monitor"
+
+
+class RqtServiceCaller(Window):
+    """rqt_service_caller: calls services."""
+
+    panel = "rqt_service_caller"
+
+
+class RqtTfTree(Window):
+    """rqt_tf_tree: frames and their parents."""
+
+    panel = "rqt_tf_tree"
+
+
+class RqtTopic(Window):
+    """rqt_topic: topics with rate, bandwidth and messages."""
+
+    panel = "rqt_topic"

@@ -1,0 +1,69 @@
+"""Gazebo's joint controller: lasting efforts and PID loops of one joint."""
+
+from dataclasses import dataclass, field
+
+from trundle.sim.control import Pid
+from trundle.sim.simulation import JointHandle, Simulation
+
+
+def gazebo_pid() -> Pid:
+    """Default gains of a joint in Gazebo."""
+    return Pid(p=1.0, i=0.1, d=0.01, i_min=-1.0, i_max=1.0)
+
+
+@dataclass(slots=True)
+class _Loop:
+    pid: Pid = field(default_factory=gazebo_pid)
+    target: float | None = None
+
+
+class ControlledJoint:
+    """First axis of one joint; commanded effort, position and velocity loops add up."""
+
+    def __init__(self, joint: JointHandle) -> None:
+        self.joint = joint
+        self._effort: float | None = None
+        self._once = 0.0
+        self._position, self._velocity = _Loop(), _Loop()
+        self._is_idle = True
+
+    def command_effort(self, effort: float) -> None:
+        """Set the lasting effort [N·m or N]."""
+        self._effort = effort
+
+    def apply_effort(self, effort: float) -> None:
+        """Add an effort [N·m or N] for one step."""
+        self._once += effort
+
+    def command_position(self, target: float | None, pid: Pid | None = None) -> None:
+        """Set the target position [rad or m]; None keeps the target, or the gains."""
+        self._position = _Loop(pid or self._position.pid, self._position.target if target is None else target)
+
+    def command_velocity(self, target: float | None, pid: Pid | None = None) -> None:
+        """Set the target velocity [rad/s or m/s]; None keeps the target, or the gains."""
+        self._velocity = _Loop(pid or self._velocity.pid, self._velocity.target if target is None else target)
+
+    def update(self, sim: Simulation) -> None:
+        """Apply the effort of the coming step."""
+        dt = sim.step_ns / 1e9
+        effort, self._once = self._once, 0.0
+        wanted = effort != 0.0
+        if self._effort is not None:
+            effort, wanted = effort + self._effort, True
+        for loop, now in ((self._position, self.joint.position), (self._velocity, self.joint.velocity)):
+            if loop.target is not None:
+                effort, wanted = effort + loop.pid.command(now - loop.target, dt), True
+        if wanted or not self._is_idle:
+            self.joint.command_effort(effort)
+        self._is_idle = not wanted
+
+    def clear(self) -> None:
+        """Clear all commands."""
+        self._effort = self._position.target = self._velocity.target = None
+        self.reset()
+
+    def reset(self) -> None:
+        """Reset the PID loops; commands stay."""
+        self._once = 0.0
+        self._position.pid.reset()
+        self._velocity.pid.reset()

@@ -1,0 +1,117 @@
+"""libgazebo_ros_camera.so: images and camera_info of a camera."""
+
+from collections.abc import Callable
+from typing import Any
+
+from trundle.robots.parameters import TagParameters
+from trundle.ros import Option, Options, ReconfigureServer
+from trundle.ros.bridge import camera_info_message, image_encoder
+from trundle.sim.sensors import CameraReading, CameraSensor
+
+from .plugin_names import PluginNames
+from .sensor_publisher import SensorPublisher
+
+_FASTEST_HZ = 1000.0
+_SIDES = ["left", "right"]
+
+
+def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
+    """Publish images and camera_info.
+
+    Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
+    camera_info, <frameName> /world, <updateRate> 0 (the sensor's), and for camera_info alone <Cx>, <Cy>,
+    <focalLength> 0 (the image's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Without <borderCrop> (true) a
+    distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
+    one, by default that of the file.
+    """
+    attach_images(sensor, parameters, names, image_encoder(sensor.optics.format))
+
+
+def attach_images(
+    sensor: CameraSensor,
+    parameters: TagParameters,
+    names: PluginNames,
+    image: Callable[[CameraReading], dict[str, object]],
+) -> None:
+    """Publish the messages that a function makes of readings, with the parameters of `attach`."""
+    read_border_crop(sensor, parameters)
+    frame, rate_hz = names.frame(parameters.text("frameName", "/world")), parameters.number("updateRate", 0.0)
+    image_topic = camera_topic(sensor, parameters, "imageTopicName", "image_raw")
+    pictures = SensorPublisher(names.advertise("sensor_msgs/Image", image_topic), frame, rate_hz=rate_hz)
+    info_topic = camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info")
+    infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame, rate_hz=rate_hz)
+    calibration = read_calibration(sensor, parameters)
+    parameters.ignore("autoDistortion", "triggerTopicName", "cameraName")
+
+    def publish(reading: CameraReading) -> None:
+        pictures.publish(reading, lambda: image(reading))
+        infos.publish(reading, lambda: calibration)
+
+    sensor.listen(publish, enabled=lambda: pictures.has_subscribers() or infos.has_subscribers())
+    offer_rate(sensor, parameters, names, rate_hz)
+
+
+def attach_triggered(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
+    """Publish as `attach`, one image for each std_msgs/Empty on <triggerTopicName> (image_trigger)."""
+    trigger = sensor.await_trigger()
+    topic = camera_topic(sensor, parameters, "triggerTopicName", "image_trigger")
+    names.subscribe(topic, "std_msgs/Empty", lambda _: trigger())
+    attach(sensor, parameters, names)
+
+
+def offer_rate(sensor: CameraSensor, parameters: TagParameters, names: PluginNames, plugin_rate_hz: float) -> None:
+    """Offer the camera's rate as the dynamic_reconfigure option `imager_rate`.
+
+    The option sets the sensor's rate, for all cameras of a multicamera; <updateRate> stays the limit of publishing.
+    """
+    rates = [rate for rate in (sensor.rate_hz, plugin_rate_hz) if rate > 0.0]
+
+    def apply(values: Options) -> Options:
+        sensor.set_rate(float(values["imager_rate"]))
+        return values
+
+    option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Images per second")
+    namespace = names.topic(_camera_name(sensor, parameters)).rstrip("/")
+    ReconfigureServer(names.node, [option], apply, namespace=namespace)
+
+
+def read_border_crop(sensor: CameraSensor, parameters: TagParameters) -> None:
+    """Apply <borderCrop>."""
+    if not parameters.flag("borderCrop", default=True):
+        sensor.disable_crop()
+
+
+def camera_topic(sensor: CameraSensor, parameters: TagParameters, parameter: str, default: str) -> str:
+    """Topic below the camera's name, in the robot's namespace; each camera of a multicamera has its own."""
+    topic = parameters.text(parameter, default)
+    return topic if topic.startswith("/") else "/".join(filter(None, (_camera_name(sensor, parameters), topic)))
+
+
+def _camera_name(sensor: CameraSensor, parameters: TagParameters) -> str:
+    return "/".join(filter(None, (parameters.text("cameraName", "").strip("/"), _eye(sensor))))
+
+
+def _eye(sensor: CameraSensor) -> str:
+    """Name of a multicamera's camera in topics: `left` or `right` if a pair's names contain these, else its own."""
+    names = [camera.name for camera in sensor.sensor.cameras]
+    sides = [next((side for side in _SIDES if side in name), "") for name in names]
+    return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
+
+
+def read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[str, object]:
+    """Make camera_info, with the plugin's overrides."""
+    found: dict[str, Any] = dict(camera_info_message(sensor))
+    k, p = list(found["K"]), list(found["P"])
+    focal = parameters.number("focalLength", 0.0)
+    cx, cy = parameters.number("Cx", 0.0), parameters.number("Cy", 0.0)
+    parameters.ignore("CxPrime")  # gazebo_ros does not use it
+    for index, value in ((0, focal), (4, focal), (2, cx), (5, cy)):
+        if value:
+            k[index] = value
+            p[index + index // 3] = value
+    baseline = parameters.number("hackBaseline", 0.0)
+    if baseline:
+        is_origin = len(sensor.sensor.cameras) > 1 and "right" not in sensor.optics.name
+        p[3] = 0.0 if is_origin else -p[0] * baseline
+    bends = [parameters.number(f"distortion{name}", 0.0) for name in ("K1", "K2", "T1", "T2", "K3")]
+    return {**found, "K": k, "P": p, "D": bends if any(bends) else found["D"]}

@@ -1,0 +1,55 @@
+"""Joints as controllers see them: a state to read, and a command to write."""
+
+import math
+from collections.abc import Mapping
+
+from trundle.robots.model import JointType
+from trundle.sim.control import ServoJoint, ToolboxPid
+from trundle.sim.simulation import JointHandle
+
+from .transmissions import Interface
+
+_NUMBERS: dict[Interface, int] = {
+    "EffortJointInterface": 0,
+    "VelocityJointInterface": 1,
+    "PositionJointInterface": 2,
+}
+
+
+class JointHardware(ServoJoint):
+    """One joint behind its transmission."""
+
+    def __init__(self, handle: JointHandle, interface: Interface, pid: ToolboxPid | None, *, lag_s: float) -> None:
+        """Wrap a joint.
+
+        Args:
+            handle: the simulation's joint; it has an axis.
+            interface: meaning of commands.
+            pid: efforts from position or velocity errors; None: position or velocity is driven directly.
+            lag_s: time constant of driven positions [s]; gazebo_ros_control sets them at once, through obstacles.
+        """
+        axis, kind = handle.joint.axis, handle.joint.type
+        assert axis is not None, f"{handle.name} has no axis"
+        range_ = axis.lower, axis.upper
+        super().__init__(
+            handle.motor,
+            _NUMBERS[interface],
+            pid,
+            lag_s=lag_s,
+            range=range_,
+            max_effort=axis.effort,
+            max_speed=axis.velocity,
+            is_continuous=kind is JointType.REVOLUTE and range_ == (-math.inf, math.inf),
+            is_prismatic=kind is JointType.PRISMATIC,
+        )
+        self.handle = handle
+        self.name = handle.name
+        self.interface = interface
+
+    def rebind(self) -> None:
+        """Follow the joint in a new engine, after models were spawned, deleted or edited."""
+        self.bind(self.handle.motor)
+
+
+Hardware = Mapping[str, JointHardware]
+"""Joint name → joint."""

@@ -1,0 +1,176 @@
+"""libgazebo_ros_control.so: a robot's joints behind ros_control's hardware interfaces."""
+
+import asyncio
+from typing import Self
+
+from trundle.base.diagnostics import TrundleError
+from trundle.robots.model import PluginTag
+from trundle.robots.parameters import RosParameters, TagParameters
+from trundle.ros import Node
+from trundle.sim.control import Servo
+from trundle.sim.simulation import ModelHandle, Simulation
+
+from ..plugin import Plugin
+from .controller import Endpoints
+from .gains import reconfigurable_pid
+from .hardware import JointHardware
+from .manager import ControllerManager
+from .transmissions import read_transmissions
+
+_DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
+_POLL_S = 0.5
+_LAG_STEPS = 5
+_OLD_INDIGO = "legacyModeNS"
+
+
+class GazeboRosControl(Plugin):
+    """Reads the transmissions of `robotParam`, and runs a controller_manager in `robotNamespace`.
+
+    Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType> (only
+    gazebo_ros_control/DefaultRobotHWSim), <controlPeriod> [s] (the step), <eStopTopic>. A joint with gains on
+    `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor. Efforts are added to
+    what other plugins do to the joint; the later of two speeds counts; a position overrides all.
+    """
+
+    def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
+        parameters = TagParameters(tag.node, sim.report)
+        self._sim = sim
+        self._model = model
+        self._node = node
+        self._namespace = "/" + parameters.text("robotNamespace", model.name).strip("/")
+        self._param = parameters.text("robotParam", "robot_description")
+        kind = parameters.text("robotSimType", _DEFAULT_SIM)
+        if kind != _DEFAULT_SIM:
+            parameters.warn(f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} takes its place")
+        self.period_ns = _period_ns(parameters, sim)
+        self._stops = False
+        self._held: list[float] = []
+        """Commands of all joints during an emergency stop."""
+        stop_topic = parameters.text("eStopTopic", "")
+        if stop_topic:
+            node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
+        parameters.ignore(_OLD_INDIGO)
+        parameters.report_unread()
+        self._endpoints = Endpoints()
+        self._hardware: dict[str, JointHardware] = {}
+        self._servo = Servo([])
+        self._manager: ControllerManager | None = None
+        node.loop.spawn(self._find_robot())
+
+    @classmethod
+    def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
+        """See `Plugin.load`."""
+        if node is None:
+            raise TrundleError("ros_control needs the ROS graph, which --no-ros leaves out")
+        return cls(sim, model, node, tag)
+
+    def is_wanted(self) -> bool:
+        """True if there is a robot to control."""
+        return self._manager is not None
+
+    def before_step(self, sim: Simulation) -> None:
+        """Read joints, update controllers and write commands."""
+        servo, joints = self._servo, self._hardware.values()
+        dt = servo.read(sim.time_ns, sim.step_ns)
+        if dt <= 0.0 or self._manager is None:  # the first step after a reset
+            return
+        if self._held and not self._stops:
+            self._held = []
+            self._manager.restart(sim.time_ns)
+        servo.update(dt)
+        self._manager.update(sim.time_ns, dt)
+        if self._stops:
+            self._held = self._held or [joint.resting_command for joint in joints]
+            for joint, command in zip(joints, self._held, strict=True):
+                joint.command = command
+        servo.write(dt)
+        sim.engine.reader.invalidate()  # kinematic drives change velocities
+
+    def step_action(self) -> tuple[Servo, float] | None:
+        """Return what reads, updates and writes at every step, until a controller has to do more."""
+        if self._manager is None or self._stops or self._held:
+            return None
+        due_ns = self._manager.due_ns(self._sim.time_ns)
+        return None if due_ns is None else (self._servo, due_ns)
+
+    def finish_stride(self) -> None:
+        """Settle goals that ended in a stride."""
+        if self._manager is not None:
+            self._manager.finish_stride()
+
+    def reset(self) -> None:
+        """Hold the joints' current positions, and restart the controllers."""
+        self._servo.restart(self._sim.time_ns)
+        for joint in self._hardware.values():
+            joint.read()
+            joint.stop()
+            joint.command = joint.resting_command
+        self._held = []
+        if self._manager is not None:
+            self._manager.restart(self._sim.time_ns)
+
+    def _stop(self, stops: bool) -> None:
+        self._stops = stops
+
+    async def _find_robot(self) -> None:
+        """Wait for the robot's description, on the loop; then continue on the simulation's thread."""
+        node, said = self._node, False
+        name = f"{self._namespace}/{self._param}"
+        while not node.closed.is_set():
+            for candidate in (name, f"/{self._param}"):  # as searchParam from the robot's namespace
+                text = await node.params.get(candidate, None)
+                if isinstance(text, str) and text.strip():
+                    gains = await node.params.get(f"{self._namespace}/gazebo_ros_control/pid_gains", {})
+                    assert node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
+                    node.deliver(lambda text=text, name=candidate, gains=gains: self._begin(text, name, gains))
+                    return
+            if not said:
+                node.log.info(f"gazebo_ros_control plugin is waiting for model URDF in parameter [{name}]")
+                said = True
+            await asyncio.sleep(_POLL_S)
+
+    def _begin(self, urdf: str, name: str, gains: object) -> None:
+        report = self._sim.report
+        settings = RosParameters(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
+        lag_s = self._lag_s
+        try:
+            for driven in read_transmissions(urdf, name, report):
+                handle = self._model.joint(driven.name)
+                if not handle.is_driven:
+                    self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")
+                    continue
+                own = settings.section(driven.name)
+                has_gains = "p" in own and driven.interface != "EffortJointInterface"
+                pid = reconfigurable_pid(self._node, own, self._endpoints) if has_gains else None
+                joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
+                joint.read()
+                joint.command = joint.resting_command
+                self._hardware[driven.name] = joint
+        except TrundleError as error:
+            self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
+            return
+        self._servo = Servo(list(self._hardware.values()))
+        self._servo.longest_ns = self.period_ns  # a state from before a reset that was undone may be old
+        self._servo.restart(self._sim.time_ns)
+        self._sim.on_change(self._rebind)
+        self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._servo, self._model)
+        self._node.log.info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
+
+    @property
+    def _lag_s(self) -> float:
+        return max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
+
+    def _rebind(self) -> None:
+        """Follow the joints in a new engine, perhaps with another time step."""
+        for joint in self._hardware.values():
+            if joint.handle.is_valid:
+                joint.rebind()
+            joint.lag_s = self._lag_s
+
+
+def _period_ns(parameters: TagParameters, sim: Simulation) -> int:
+    """Period of <controlPeriod> [ns], at least one step."""
+    period_ns = round(parameters.number("controlPeriod", 0.0) * 1e9)
+    if 0 < period_ns < sim.step_ns:
+        parameters.warn(f"controlPeriod {period_ns / 1e9:g} s is less than a step; one step is used")
+    return max(period_ns, sim.step_ns)

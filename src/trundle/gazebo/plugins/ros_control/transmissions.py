@@ -1,0 +1,97 @@
+"""Joints and interfaces of a robot's <transmission> tags."""
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.base.xmlnode import XmlNode, parse_xml
+
+Interface: TypeAlias = Literal["EffortJointInterface", "PositionJointInterface", "VelocityJointInterface"]
+INTERFACES: tuple[Interface, ...] = ("EffortJointInterface", "PositionJointInterface", "VelocityJointInterface")
+_PACKAGE = "hardware_interface/"
+
+
+@dataclass(frozen=True, slots=True)
+class DrivenJoint:
+    """One joint of a transmission."""
+
+    name: str
+    interface: Interface
+
+
+def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[DrivenJoint]:
+    """Read every joint that a transmission drives, in file order; warn of invalid ones and leave them out.
+
+    Rules of transmission_interface's TransmissionParser and gazebo_ros_control's DefaultRobotHWSim; an interface in
+    the <actuator> counts, as before Indigo.
+
+    Args:
+        urdf: the robot as XML.
+        name: of the text in messages.
+        report: takes warnings.
+
+    Raises:
+        DescriptionError: the text is not a URDF.
+    """
+    root = parse_xml(urdf, name=name, report=report)
+    if root.tag != "robot":
+        raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
+    found: dict[str, DrivenJoint] = {}
+    for transmission in root.all("transmission"):
+        if why := _fault(transmission):
+            said = transmission.attribute("name")
+            who = "a transmission" if not said else f"transmission {said!r}"
+            report.warn(transmission.at, f"{who} {why}; it is left out")
+            continue
+        for joint in transmission.all("joint"):
+            driven = _driven(transmission, joint, report)
+            if driven is None:
+                continue
+            if driven.name in found:
+                report.warn(joint.at, f"joint {driven.name!r} has a transmission already; this one is left out")
+                continue
+            found[driven.name] = driven
+    return list(found.values())
+
+
+def _fault(transmission: XmlNode) -> str | None:
+    """Fault for which the original drops a transmission with all its joints; None: valid."""
+    if not transmission.attribute("name"):
+        return "has no name"
+    if not transmission.string("type"):
+        return "has no <type>"
+    for tag in ("joint", "actuator"):
+        names = [node.attribute("name") for node in transmission.all(tag)]
+        if None in names:
+            return f"has a <{tag}> without a name"
+        if not any(names):
+            return f"has no <{tag}>"
+    joints = [joint for joint in transmission.all("joint") if joint.attribute("name")]
+    count = sum(1 for joint in joints if _interfaces(joint)) or len(joints)
+    if count > 1:
+        return f"has {count} joints, but gazebo_ros_control drives one joint per transmission"
+    return None
+
+
+def _driven(transmission: XmlNode, joint: XmlNode, report: Diagnostics) -> DrivenJoint | None:
+    name = joint.attribute("name")
+    who = f"transmission {transmission.attribute('name')!r} of joint {name!r}"
+    if not name:
+        report.warn(joint.at, f"{who}: the name is empty; it is left out")
+        return None
+    texts = _interfaces(joint) or [text for each in transmission.all("actuator") for text in _interfaces(each)]
+    if not texts:
+        report.warn(joint.at, f"{who} names no <hardwareInterface>; it is left out")
+        return None
+    if len(_interfaces(joint)) > 1:
+        report.warn(joint.at, f"{who} names {len(texts)} times a <hardwareInterface>; the first one is used")
+    interface = texts[0].removeprefix(_PACKAGE)
+    if interface not in INTERFACES:
+        what = f"{who}: no hardware interface {texts[0]!r}; there are {', '.join(INTERFACES)}; it is left out"
+        report.warn(joint.at, what)
+        return None
+    return DrivenJoint(name, interface)
+
+
+def _interfaces(node: XmlNode) -> list[str]:
+    return [each.text for each in node.all("hardwareInterface") if each.text]

@@ -1,0 +1,90 @@
+"""`gazebo` and `gzserver`: one world, with /gazebo's services, on a graph that is joined or started."""
+
+import asyncio
+import os
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from trundle.base.console import Console
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.http.access import without_query
+from trundle.gazebo.nodes import BuiltinReplacement, NodeHost, run_builtin_node
+from trundle.page import GraphAddress, read_link_files
+from trundle.page.shared_page import SharedPage
+from trundle.ros import GraphLoop, Message, Node
+
+from ..graph import Graph
+from .world import GazeboWorld
+
+OPEN_WINDOW = "/gazebo/open_window"
+"""Service, a std_srvs/Trigger, that opens the page and returns its URL, as a gzclient started later needs it.
+
+Every user of the machine may call it, so the URL has no token.
+"""
+_LOOPBACK = "127.0.0.1"
+_POLL_S = 0.5
+
+
+def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs: Path, window: bool) -> int:
+    """Simulate until interrupted; return the exit code.
+
+    Args:
+        arguments: gzserver's.
+        environment: ROS_MASTER_URI is joined, else the default master; none there: it is started.
+        logs: folder for logs and spawned models.
+        window: True: open the page at once; False: when a gzclient asks for it.
+    """
+    report = Diagnostics()
+    console = Console(sys.stderr, report)
+    with Graph.open(environment, host=_LOOPBACK) as graph:
+        console.line(graph.summary)
+        node = Node("gazebo", loop=graph.loop, master_uri=graph.master_uri, host=_LOOPBACK)
+        world = GazeboWorld(
+            graph=graph,
+            start=Path.cwd(),
+            env=environment,
+            report=report,
+            folder=logs / "spawned",
+            say=console.line,
+            page=SharedPage(say=console.line, graph=GraphAddress(master_uri=graph.master_uri, host=graph.host)),
+        )
+        node.advertise_service(OPEN_WINDOW, "std_srvs/Trigger", lambda _: _open_window(world, node))
+        kind = "Gazebo" if window else "GazeboServer"
+        printing = graph.loop.spawn(_print_findings(console))
+        try:
+            host = NodeHost(simulator=world)
+            built_in = BuiltinReplacement(f"trundle.gazebo.nodes.gazebo:{kind}")
+            return graph.loop.run(run_builtin_node(built_in, node, list(arguments), host), None)
+        finally:
+            printing.cancel()
+            world.close()
+            console.findings()
+
+
+def open_window(loop: GraphLoop, node: Node) -> str | None:
+    """Ask a running gazebo for its page, once its world is open; return the link, or None if it cannot be served.
+
+    The link has the token where the page is this user's.
+    """
+    while True:
+        response: Message = loop.run(node.call_service(OPEN_WINDOW, "std_srvs/Trigger", {}, timeout_s=None), None)
+        if response.success:
+            url = str(response.message)
+            links = (page.url for page in read_link_files(os.environ))
+            return next((link for link in links if link.startswith(f"{url}/")), url) or None
+        time.sleep(_POLL_S)
+
+
+def _open_window(world: GazeboWorld, node: Node) -> dict[str, object]:
+    """Answer with the URL, empty if the page cannot be served; no success before the world is open."""
+    if not world.is_ready:
+        return {"success": False}
+    return {"success": True, "message": without_query(world.open_window(node) or "")}
+
+
+async def _print_findings(console: Console) -> None:
+    while True:
+        console.findings()
+        await asyncio.sleep(_POLL_S)

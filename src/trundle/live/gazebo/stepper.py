@@ -1,0 +1,117 @@
+"""Steps of the simulation behind /gazebo: in real time, flat out or in lockstep with nodes, unless it is paused."""
+
+from collections.abc import Callable
+
+from trundle.gazebo.plugin_error import plugin_error
+from trundle.ros import GraphLoop, SimClock
+from trundle.sim.physics import SimulationUnstableError
+from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS, RealtimePacer
+from trundle.sim.simulation import Simulation
+
+from ..lockstep import Lockstep
+from .simulation_thread import SimulationThread
+
+IDLE_S = 0.01
+
+
+class GazeboStepper:
+    """Advances one simulation; on its thread."""
+
+    def __init__(
+        self,
+        loop: GraphLoop,
+        thread: SimulationThread,
+        *,
+        speed: float | None,
+        lockstep: Lockstep | None,
+        say: Callable[[str], None],
+    ) -> None:
+        """Prepare.
+
+        Args:
+            loop: of the nodes.
+            thread: of the simulation.
+            speed: times real time; None: flat out.
+            lockstep: holds time until the nodes are done; None: time is free.
+            say: prints why the simulation stopped.
+        """
+        self._loop = loop
+        self._calls = thread.calls
+        self._ending = thread.ending
+        self._lockstep = lockstep
+        self._say = say
+        self.pacer = RealtimePacer(speed)
+        self.clock = SimClock(loop)
+        """Time of the plugins' nodes."""
+        self.paused = False
+        self.is_held = True
+        """True until everything that others may call is registered."""
+        self.stop_reason: str | None = None
+        """Reason for which the simulation could not go on; None: it can."""
+
+    @property
+    def is_lockstep(self) -> bool:
+        """True if time waits for the nodes at each step."""
+        return self._lockstep is not None
+
+    @property
+    def is_over(self) -> bool:
+        """True at the end of a run in lockstep."""
+        return self._lockstep is not None and self._lockstep.over.is_set()
+
+    def set_paused(self, paused: bool) -> None:
+        """Pause, or go on."""
+        self.paused = paused
+        self.pacer.restart()
+
+    def restart(self, time_ns: int) -> None:
+        """Go on from a time that is not the next one."""
+        self.clock.set(time_ns)
+        self.pacer.restart()
+
+    def begin(self) -> None:
+        """Hold time, and the nodes' messages of a run in lockstep until it advances."""
+        self.is_held = True
+        if self._lockstep is not None:
+            self._loop.begin_batch()
+
+    def step(self, simulation: Simulation) -> None:
+        """Advance as far as the pacer says, or wait a moment while paused."""
+        if self.paused or self.is_held or not (self._lockstep is None or self._lockstep.is_ready):
+            self.pacer.restart()
+            simulation.advance(simulation.time_ns)
+            self._loop.end_batch()
+            self._ending.wait(IDLE_S)
+            return
+        try:
+            target_ns = self.pacer.next_target(simulation.time_ns)
+            if self._lockstep is None or target_ns == simulation.time_ns:
+                simulation.advance(target_ns)
+            else:
+                target_ns = simulation.time_ns + STRIDE_FLAT_OUT_NS  # not the pacer's: so that runs repeat at any speed
+                self._step_lockstep(simulation, self._lockstep, self._lockstep.target_ns(target_ns))
+        except SimulationUnstableError as error:
+            self._stop(str(error))
+        except Exception as error:  # a plugin's code may raise anything
+            self._stop(str(plugin_error(error) or f"{type(error).__name__}: {error}"))
+        self.clock.set(simulation.time_ns)
+        if self._lockstep is None and self.pacer.speed is None:
+            self._loop.flush_deliveries()  # delivery order does not depend on the machine's speed
+
+    def _step_lockstep(self, simulation: Simulation, steps: Lockstep, until_ns: int) -> None:
+        """Advance hook by hook, and wait after each until the nodes have settled."""
+        end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may have time reset amid this
+        while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self.paused and not self._ending.is_set():
+            if steps.over.is_set():
+                return
+            simulation.stride(simulation.time_ns + left_ns)
+            self.clock.set(simulation.time_ns)
+            steps.wait_settled(
+                self._calls.run_pending, lambda: self._calls.has_pending() or self._ending.is_set(), self._ending.is_set
+            )
+            steps.record_step(simulation.time_ns)
+
+    def _stop(self, why: str) -> None:
+        self.paused, self.stop_reason = True, why
+        what, *lines = why.split("\n")
+        self._say("\n".join([f"{what}; the simulation is paused (/gazebo/unpause_physics tries to go on)", *lines]))

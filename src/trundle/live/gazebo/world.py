@@ -1,0 +1,281 @@
+"""Simulation of a launch: opened by gzserver, filled by spawn_model, shown by gzclient, on a thread of its own."""
+
+import asyncio
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.page.shared_page import SharedPage
+from trundle.robots.description import load
+from trundle.robots.model import Model, World
+from trundle.robots.packages import Packages
+from trundle.robots.robot import Robot
+from trundle.ros import Node
+from trundle.ros.bridge import clock_rate_hz
+from trundle.sim.realtime_pacer import shorten_gil_interval
+from trundle.sim.renderers import RendererName
+from trundle.sim.sensors import CameraSensor, InstrumentSensor
+from trundle.sim.simulation import Simulation
+from trundle.spatial import Pose
+
+from ..graph import Graph
+from ..lockstep import Lockstep
+from .contents import GazeboContents
+from .gzclient_page import GzclientPage
+from .simulation_thread import SimulationThread
+from .stepper import IDLE_S, GazeboStepper
+from .world_file import find_world
+from .world_setup import WorldSetup
+
+_POLL_S = 0.5
+
+
+class GazeboWorld:
+    """Owner of one simulation; `trundle.gazebo.nodes.Simulator` states which thread may call what."""
+
+    def __init__(
+        self,
+        *,
+        graph: Graph,
+        start: Path,
+        env: Mapping[str, str],
+        report: Diagnostics,
+        folder: Path,
+        say: Callable[[str], None],
+        page: SharedPage | None,
+        speed: float | None = 1.0,
+        renderer: RendererName = "cpu",
+        steps: Lockstep | None = None,
+        setup: WorldSetup | None = None,
+    ) -> None:
+        """Prepare; `open` starts the simulation.
+
+        Args:
+            graph: of its nodes.
+            start: a file of the launch; packages are searched around it, too.
+            env: variables that locate packages, models and plugins.
+            report: takes findings of files and physics.
+            folder: keeps the text of each spawned model; messages name its lines.
+            say: prints a line.
+            page: of the graph's windows; None: headless.
+            speed: times real time; None: flat out.
+            renderer: draws the cameras' images.
+            steps: holds time until the nodes are done; None: time is free.
+            setup: changes the world and its models, and begins with it; None: they are simulated as read.
+        """
+        self._setup = setup
+        self._graph = graph
+        self._start = start
+        self._env = env
+        self._report = report
+        self._folder = folder
+        self._say = say
+        self._renderer: RendererName = renderer
+        self._window = GzclientPage(page, say, _Contents(self))
+        self._thread = SimulationThread(graph.loop, self._tick, self._end)
+        self._contents: GazeboContents | None = None
+        self._stepper = GazeboStepper(graph.loop, self._thread, speed=speed, lockstep=steps, say=say)
+        shorten_gil_interval()
+
+    # -- any thread
+
+    async def open(
+        self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
+    ) -> None:
+        """Read a world; `begin` starts its time."""
+        with self._graph.loop.work.pending(f"the world {world}"):
+            await self._open(node, world, paused=paused, env=env, record=record)
+
+    async def _open(self, node: Node, name: str, *, paused: bool, env: Mapping[str, str], record: str | None) -> None:
+        if self._thread.is_running:
+            raise UsageError("a simulation runs already; a launch has one")
+        self._env = {**self._env, **env}
+        packages = Packages(self._env, start=self._start)
+        self._stepper.paused = paused
+        clock_hz = await clock_rate_hz(node)
+        file = find_world(name, packages, node)
+        loaded = await asyncio.to_thread(load, file, self._report, packages=packages)
+        if loaded.kind != "world":
+            raise UsageError(f"{file} is a model; a world is needed")
+        logs = None if record is None else Path(record).expanduser() if record else self._folder.parent / "gazebo"
+        try:
+            await self._thread.start(lambda: self._build(loaded.world, node, packages, clock_hz, logs))
+        except BaseException:
+            await asyncio.to_thread(self.close)
+            raise
+        if paused:
+            self._say("the world is paused; /gazebo/unpause_physics starts it")
+
+    def begin(self) -> None:
+        """Let time advance."""
+        self._stepper.is_held = False
+
+    def post(self, call: Callable[[], object]) -> None:
+        """Queue a function for the simulation's thread, between two strides."""
+        self._thread.calls.post(call)
+
+    async def show(self, node: Node) -> int:
+        """Open the page once there is a world, and keep it until cancelled."""
+        while not node.closed.is_set():
+            if self._window.is_wanted and self._contents is not None:
+                self.post(lambda: self._window.open(self.simulation, self.sensors, node))
+            await asyncio.sleep(_POLL_S)
+        return 0
+
+    def close(self) -> None:
+        """End the thread and everything on it; afterwards a world may be opened again."""
+        if self._thread.stop() and self._contents is not None:
+            self._contents.close_plugins()
+            self._contents = None
+
+    @property
+    def is_open(self) -> bool:
+        """True if a world is open."""
+        return self._thread.is_running
+
+    @property
+    def is_ready(self) -> bool:
+        """True if an open world has its contents."""
+        return self._contents is not None
+
+    # -- on its thread
+
+    @property
+    def contents(self) -> GazeboContents:
+        """The running simulation, with its sensors and plugins."""
+        assert self._contents is not None, "open() comes first"
+        return self._contents
+
+    @property
+    def simulation(self) -> Simulation:
+        """The running simulation."""
+        return self.contents.simulation
+
+    @property
+    def sensors(self) -> Sequence[CameraSensor | InstrumentSensor]:
+        """Sensors of all models."""
+        return self.contents.sensors
+
+    @property
+    def is_lockstep(self) -> bool:
+        """True if time waits for the nodes at each step."""
+        return self._stepper.is_lockstep
+
+    @property
+    def paused(self) -> bool:
+        """True if the simulation is paused."""
+        return self._stepper.paused
+
+    @property
+    def stop_reason(self) -> str | None:
+        """Reason for which the simulation could not go on; None: it can."""
+        return self._stepper.stop_reason
+
+    def set_paused(self, paused: bool) -> None:
+        """Pause, or go on."""
+        self._stepper.set_paused(paused)
+
+    def open_window(self, node: Node) -> str | None:
+        """Open the page unless it is open; return its URL, or None if it cannot be served."""
+        self._window.open(self.simulation, self.sensors, node)
+        return self._window.url
+
+    def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
+        """Add a model."""
+        self.contents.spawn(xml, name=name, world_from_model=world_from_model, namespace=namespace)
+        self._update_page()
+        self.contents.load_plugins(name)
+
+    def insert(self, model: Model, robot: Robot | None) -> None:
+        """Add a model, already read."""
+        self.contents.insert(model, robot)
+        self._update_page()
+        self.contents.load_plugins(model.name)
+
+    def delete(self, name: str) -> None:
+        """Remove a model."""
+        self.contents.delete(name)
+        self._update_page()
+
+    def edit(self, world: World) -> None:
+        """Replace gravity, masses, limits or lights."""
+        self.simulation.edit(world)
+
+    def set_speed(self, speed: float | None) -> None:
+        """Set the real-time factor; None: flat out."""
+        self._stepper.pacer.set_speed(speed)
+
+    def reset(self, *, time: bool) -> None:
+        """Put every model back to its initial state."""
+        self.simulation.reset(time=time)
+        self._stepper.restart(self.simulation.time_ns)
+
+    # -- inside
+
+    def _tick(self) -> None:
+        """Handle the page's requests and step, once there is a simulation."""
+        if self._contents is None:
+            time.sleep(IDLE_S)
+            return
+        paused = self._stepper.paused or self._stepper.is_over
+        self._stepper.paused = self._window.update(self._stepper.pacer, paused=paused)
+        self._stepper.step(self._contents.simulation)
+
+    def _end(self) -> None:
+        self._window.close()
+        if self._contents is not None:
+            self._contents.close_logs()
+
+    def _build(self, world: World, node: Node, packages: Packages, clock_hz: float | None, logs: Path | None) -> None:
+        self._stepper.begin()
+        self._contents = GazeboContents(
+            world if self._setup is None else self._setup.world(world),
+            node,
+            graph=self._graph,
+            packages=packages,
+            env=self._env,
+            folder=self._folder,
+            report=self._report,
+            renderer=self._renderer,
+            clock=self._stepper.clock,
+            clock_hz=clock_hz,
+            deliver=self.post,
+            say=self._say,
+            setup=self._setup,
+            is_lockstep=self._stepper.is_lockstep,
+        )
+        self._contents.load(logs)
+
+    def _update_page(self) -> None:
+        self._window.set_sensors(self.sensors)
+        self._stepper.pacer.restart()
+
+
+class _Contents:
+    """World as the page inserts into it and deletes from it."""
+
+    def __init__(self, world: GazeboWorld) -> None:
+        self._world = world
+
+    @property
+    def packages(self) -> Packages:
+        """Finder of models."""
+        return self._world.contents.packages
+
+    @property
+    def environment(self) -> Mapping[str, str]:
+        """Variables that locate plugins."""
+        return self._world.contents.environment
+
+    def robot(self, model: str) -> Robot | None:
+        """Return the URDF that a model was spawned from."""
+        return self._world.contents.robot(model)
+
+    def spawn(self, model: Model, robot: Robot | None) -> None:
+        """Add a model with its sensors and plugins."""
+        self._world.insert(model, robot)
+
+    def delete(self, name: str) -> None:
+        """Remove a model with its sensors and plugins."""
+        self._world.delete(name)

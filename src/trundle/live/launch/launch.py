@@ -1,0 +1,181 @@
+"""`trundle launch`: sets a launch file's parameters and runs its nodes until they end or Ctrl-C."""
+
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from trundle.base.console import Console
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.base.signals import StopFlag, stop_flag
+from trundle.page.network_warning import warn_of_network
+from trundle.robots.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
+from trundle.robots.packages import Packages
+from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
+
+from . import printing
+from .duration import LaunchDuration
+from .loaded_launch import LoadedLaunch
+from .options import LaunchOptions
+from .request import LaunchRequest, read_request
+
+
+def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
+    """Launch; return the exit code: 0 at the end of --duration, 1 if a required node died or recording failed.
+
+    As roslaunch, it ends with its last node only if the master was not started by it.
+
+    Args:
+        words: command line: PKG FILE or FILE…, and NAME:=VALUE.
+        options: of the launch.
+        environment: None: os.environ.
+
+    Raises:
+        TrundleError: an invalid file or request.
+    """
+    read = read_files(words, options, dict(os.environ if environment is None else environment))
+    if read is None:
+        return 0
+    show = read.show
+    warn_of_network(options.host, show.line)
+    if options.verbose:
+        _print_summary(read.plan, read.params, show.line)
+        for folder, why in read.packages.skipped_folders().items():
+            show.line(f"no package is looked for in {folder}: {why}")
+    with stop_flag() as stop:
+        if options.wait_for_master and not _wait_for_master(read.env, stop, show.line):
+            return 130
+        if options.pid_file is None:
+            return _run(read, options, stop)
+        pid_file = options.pid_file.expanduser()
+        pid_file.parent.mkdir(parents=True, exist_ok=True)
+        pid_file.write_text(str(os.getpid()))
+        try:
+            return _run(read, options, stop)
+        finally:
+            pid_file.unlink(missing_ok=True)
+
+
+def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]) -> LoadedLaunch | None:
+    """Read the files of the command line; None: --nodes or the like printed them, and nothing is to run.
+
+    Raises:
+        TrundleError: an invalid file or request.
+    """
+    if options.master_port is not None:
+        env["ROS_MASTER_URI"] = f"http://localhost:{options.master_port}"
+    report = Diagnostics(strict=options.strict)
+    show = Console(sys.stderr, report)
+    packages = Packages(env, start=Path.cwd())
+    request = LaunchRequest() if options.core_only else read_request(words, packages)
+    start = request.files[0] if request.files else Path.cwd()
+    packages = packages.around(start)
+    for package, variables in packages.hook_variables().items():
+        env.update(variables)
+        show.line(f"set {', '.join(variables)} as the environment hooks of {package} do")
+    if options.only == "arguments":
+        for file in request.files:
+            declared = read_arguments(file, packages=packages, report=report, arguments=request.arguments, env=env)
+            print(printing.arguments(declared))
+        return None
+    plan = read_launch(
+        request.files,
+        packages=packages,
+        report=report,
+        arguments=request.arguments,
+        texts=request.texts,
+        env=env,
+        namespace="/" + (request.namespace or env.get("ROS_NAMESPACE", "")).strip("/"),
+    )
+    packages.warn_passed_over(report, Source(str(start)))
+    for path in packages.configured_files:
+        show.line(f"wrote {path} from its template, as catkin_make does")
+    show.findings()
+    if options.only is not None and options.only != "params":
+        print(_printed(options, plan, packages, env))
+        return None
+
+    def expand(file: Path, arguments: Mapping[str, str]) -> str:
+        from trundle.robots.description import expand_xacro
+
+        return expand_xacro(file, arguments, packages=packages, report=report)
+
+    params = resolve_params(plan, report, expand_xacro=expand, env=env)
+    show.findings()
+    if options.only == "params":
+        print(printing.parameters(params))
+        return None
+    for node in plan.nodes:
+        if node.address is None:
+            raise DescriptionError(node.at, f"node {node.name!r}: there is no machine {node.machine!r}")
+    return LoadedLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
+
+
+def _run(read: LoadedLaunch, options: LaunchOptions, stop: StopFlag) -> int:
+    from .session import ClockWarning, LaunchSession
+
+    with LaunchSession(read, options) as session:
+        running, clock = session.start(read.plan.nodes, is_ending=stop.is_set), session.clock
+        duration = None
+        if options.duration_s is not None:
+            duration = LaunchDuration(
+                clock,
+                options.duration_s,
+                in_step=session.is_lockstep,
+                is_worldless=running.is_worldless,
+                say=read.show.line,
+            )
+        over = False
+        silent = ClockWarning(clock, read.show.line)
+        while not stop.wait(0.05) and not over and not (duration is not None and duration.is_over()):
+            read.show.findings()
+            silent.check()
+            over = session.is_over or running.required_died or (running.is_over and not session.has_master)
+            over = over or session.recording_broke_off
+        required_died = running.required_died
+    if session.recording_broke_off:  # as the bag was closed, too
+        return 1
+    if stop.is_set():
+        return 130
+    return 1 if required_died else 0
+
+
+def _printed(options: LaunchOptions, plan: LaunchPlan, packages: Packages, env: Mapping[str, str]) -> str:
+    match options.only:
+        case "nodes":
+            return printing.node_names(plan)
+        case "files":
+            return printing.file_names(plan)
+        case "find-node":
+            return printing.node_file(plan, options.node)
+        case "translation":
+            return printing.translations(plan, packages, env)
+        case _:
+            return printing.node_command(plan, options.node, packages, env)
+
+
+def _print_summary(plan: LaunchPlan, params: Sequence[LaunchParam], say: Callable[[str], None]) -> None:
+    for file in plan.files:
+        say(f"... loading XML file [{file}]")
+    for param in params:
+        say(f"Added parameter [{param.name}]")
+    for node in plan.nodes:
+        say(f"Added node of type [{node.package}/{node.type}] in namespace [{node.namespace}]")
+
+
+def _wait_for_master(env: Mapping[str, str], stop: StopFlag, say: Callable[[str], None]) -> bool:
+    """Wait until a master answers; return False if stopped first."""
+    proxy = MasterProxy(env.get("ROS_MASTER_URI") or master_uri_from_env())
+    said = False
+    while True:
+        try:
+            proxy.call("getPid")
+        except MasterUnreachableError:
+            if not said:
+                say("roscore/master is not yet running, will wait for it to start")
+            said = True
+        else:
+            say("master has started, initiating launch")
+            return True
+        if stop.wait(0.1):
+            return False

@@ -1,0 +1,24 @@
+"""A launch file as read; a module of its own, so that `--nodes` and the like load nothing that runs nodes."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.base.console import Console
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.launch import LaunchParam, LaunchPlan
+from trundle.robots.packages import Packages
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedLaunch:
+    """A launch as read: its commands have run, no node is started."""
+
+    plan: LaunchPlan
+    params: Sequence[LaunchParam]
+    packages: Packages
+    start: Path
+    """File or folder around which packages are searched."""
+    env: Mapping[str, str]
+    report: Diagnostics
+    show: Console

@@ -1,0 +1,91 @@
+"""Calls to the parent: the roslaunch on another machine that started this child."""
+
+import contextlib
+import socket
+import threading
+from queue import Full, Queue
+from typing import Self
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros import MasterProxy, RosError, host_and_port
+
+_ANSWER_S = 10.0
+"""Timeout of a call; roslaunch gives its children as long to register."""
+_MAX_NEWS = 1000
+_CLOSING_S = 2.0
+_INFO, _ERROR = 2, 8
+"""Levels of rosgraph_msgs/Log."""
+
+
+class ParentLaunch:
+    """Queue of calls to the parent, sent in order by a thread, so that nothing waits for it. Also a context manager."""
+
+    def __init__(self, name: str, uri: str, run_id: str) -> None:
+        """Prepare.
+
+        Args:
+            name: this child's name.
+            uri: of the parent's XML-RPC server.
+            run_id: of the master, which may start after its children.
+        """
+        self.uri = uri
+        self.run_id = run_id
+        self._name = name
+        self._news: Queue[tuple[str, str, object] | None] = Queue(_MAX_NEWS)
+        self._thread = threading.Thread(target=self._send, name="news for the parent", daemon=True)
+
+    def register(self, ours: str, bind: str) -> None:
+        """Register this child's address with the parent.
+
+        Args:
+            ours: URI of this child's XML-RPC server.
+            bind: address that the server listens at.
+
+        Raises:
+            UsageError: it does not answer, does not know the name, or is on another machine while `bind` is loopback.
+        """
+        try:
+            with socket.create_connection(host_and_port(self.uri), timeout=_ANSWER_S) as link:
+                is_elsewhere = link.getsockname()[0] != link.getpeername()[0]
+            if is_elsewhere and bind.startswith(("127.", "::1", "localhost")):
+                raise UsageError(
+                    f"the roslaunch at {self.uri} cannot reach {ours}; let its env-loader add --host 0.0.0.0"
+                )
+            self._call(self._name, "register", ours)
+        except (OSError, ValueError, RosError) as error:
+            raise UsageError(f"no roslaunch at {self.uri} that takes {self._name!r} as its child: {error}") from None
+
+    def log(self, text: str, *, error: bool = False) -> None:
+        """Send a line for the parent to print."""
+        self._put((self._name, text, _ERROR if error else _INFO))
+
+    def process_died(self, process: str, code: int) -> None:
+        """Report that a process has ended by itself."""
+        self._put((process, "", code))
+
+    def _put(self, news: tuple[str, str, object] | None) -> None:
+        with contextlib.suppress(Full):  # the parent has not answered for a thousand calls
+            self._news.put_nowait(news)
+
+    def _send(self) -> None:
+        while (news := self._news.get()) is not None:
+            name, text, number = news
+            try:
+                if text:
+                    self._call(name, "log", number, text)
+                else:
+                    self._call(name, "process_died", number)
+            except RosError:
+                continue  # it has ended, or refuses the call; the nodes run on until its shutdown call
+
+    def _call(self, first: str, method: str, *rest: object) -> None:
+        """Call a method of the parent; as with the master's, its first argument is a name."""
+        MasterProxy(self.uri, first, timeout_s=_ANSWER_S).call(method, *rest)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._put(None)
+        self._thread.join(_CLOSING_S)

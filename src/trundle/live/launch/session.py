@@ -1,0 +1,381 @@
+"""One launch: its graph, parameters, recording, page, simulation and nodes."""
+
+import time
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from trundle.base.console import say
+from trundle.base.diagnostics import TrundleError
+from trundle.base.garbage import no_garbage
+from trundle.base.http.page_address import PageAddress
+from trundle.base.supervisor import Event, ProcessTree, StopTimeouts
+from trundle.gazebo.nodes import WORLDS, Executable, NodeHost, Simulator, find_node
+from trundle.robots.launch import LaunchNode, LaunchPlan
+from trundle.ros import DISTROS, Clock, Node, Recorder, RecorderOptions, StepRecorder, follow_time
+from trundle.spatial import NS_PER_S
+
+from ..graph import Graph
+from ..lockstep import Lockstep
+from . import printing
+from .clock_publisher import ClockPublisher
+from .loaded_launch import LoadedLaunch
+from .logs import LaunchLog, log_folder
+from .nodes import NodeStarter
+from .options import LaunchOptions
+from .pages import await_url, opens_page, reserved_ports
+from .params import set_params
+from .running_nodes import Listener, RunningNodes, what_runs
+from .terminals import NodeTerminals
+
+if TYPE_CHECKING:
+    from trundle.page import PageServer
+    from trundle.page.graph_page import GraphPage
+    from trundle.page.shared_page import SharedPage
+
+    from ..gazebo.world import GazeboWorld
+    from ..gazebo.world_setup import WorldSetup
+
+_SILENCE_S = 5.0
+
+
+class LaunchSession:
+    """A graph with the launch's parameters on it, and its nodes once they are started."""
+
+    def __init__(
+        self,
+        read: LoadedLaunch,
+        options: LaunchOptions,
+        *,
+        ports: Sequence[int] = (),
+        rosout: bool = True,
+        listener: Listener = lambda _event, _text: None,
+        setup: "WorldSetup | None" = None,
+    ) -> None:
+        """Join or start a graph and set the parameters.
+
+        Args:
+            read: the launch.
+            options: of the launch.
+            ports: as `Graph.open`.
+            rosout: as `Graph.open`.
+            listener: takes each node's events, on the graph's thread.
+            setup: of the simulated world.
+        """
+        self._setup = setup
+        self._gazebo: GazeboWorld | None = None
+        self._read = read
+        self._options = options
+        self._listener = listener
+        self._open_things = ExitStack()
+        self._running: RunningNodes | None = None
+        self.recording_broke_off = False
+        self._lockstep: Lockstep | None = None
+        self._page: SharedPage | None = None
+        self._display: GraphPage | None = None
+        try:
+            with no_garbage():
+                self._open(ports, rosout=rosout)
+        except BaseException:
+            self._open_things.close()
+            raise
+
+    def _open(self, ports: Sequence[int], *, rosout: bool) -> None:
+        read, options, show = self._read, self._options, self._read.show
+        graph = self.graph = self._open_things.enter_context(
+            Graph.open(
+                read.env, host=options.host, ports=ports, rosout=rosout, log_folder=partial(log_folder, read.env)
+            )
+        )
+        show.line(graph.summary)
+        launcher = self._launcher = Node(
+            "/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False
+        )
+        logs = log_folder(read.env, str(graph.loop.run(launcher.params.get("/run_id", ""))))
+        self._log = LaunchLog(logs)
+        self._open_things.callback(self._log.close)
+        show.log_to(self._log.write)
+        if options.distro is not None:
+            profile = DISTROS[options.distro]
+            for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
+                graph.loop.run(launcher.params.set(name, f"{value}\n"))
+        if options.summary and not options.core_only:
+            core = {name: str(graph.loop.run(launcher.params.get(name, ""))).strip() for name in _SHOWN}
+            values = {**core, **{param.name: param.value for param in read.params}}
+            self._say(printing.summary(read.plan, values))
+        graph.loop.run(set_params(launcher, read.plan, read.params))
+        programs = self._programs()
+        may_wait = options.speed is None or options.in_step
+        publishes_clock = may_wait and not programs and self._may_publish_clock(launcher)
+        in_step = publishes_clock or (may_wait and _has_world(read.plan))
+        if publishes_clock or (in_step and not graph.loop.run(launcher.params.has("/use_sim_time"))):
+            graph.loop.run(launcher.params.set("/use_sim_time", True))
+        self.clock = graph.loop.run(follow_time(launcher))
+        recorder = None if options.record is None else self._record(options.record, in_step, programs)
+        if in_step:
+            end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
+            settle = None if self._setup is None else self._setup.settle
+            self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line, settle=settle)
+            if publishes_clock:
+                show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
+                self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
+        page = self._page = None if options.headless else self._shared_page()
+        if page is not None:
+            from trundle.page.graph_page import GraphPage
+
+            self._display = GraphPage(page, read.report)
+        display = self._display
+        terminals = NodeTerminals(None if display is None else display.terminals, reads_keys=options.reads_keys)
+        self._open_things.callback(terminals.close)
+        tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
+        self.starter = NodeStarter(
+            graph=graph,
+            packages=read.packages,
+            env=read.env,
+            report=read.report,
+            host=NodeHost(display=display, simulator=self._simulator(logs) if _simulates(read.plan) else None),
+            terminals=terminals,
+            tree=tree,
+            log_folder=logs,
+            output=options.output,
+            all_required=options.all_required,
+        )
+
+    def _shared_page(self) -> "SharedPage":
+        from trundle.page import GraphAddress  # a launch without a page does not wait for it
+        from trundle.page.shared_page import SharedPage
+
+        graph, options, read = self.graph, self._options, self._read
+        page = SharedPage(
+            say=read.show.line,
+            at=PageAddress(
+                host=options.host,
+                port=options.view_port,
+                reserved_ports=reserved_ports(read.plan),
+                allowed=options.allowed,
+                view_only=options.view_only,
+            ),
+            graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
+            source=next(iter(read.plan.files), None),
+            opens_browser=options.opens_browser,
+        )
+        self._open_things.callback(page.close)
+        return page
+
+    def _record(self, file: Path, in_step: bool, programs: Sequence[str]) -> StepRecorder | None:
+        """Record every topic into a bag; return the recorder if it writes in lockstep with the nodes."""
+        graph = self.graph
+        if in_step and not programs:
+            steps = StepRecorder(
+                graph.loop,
+                file,
+                complain=self._complain,
+                from_ns=round(self._options.record_from_s * NS_PER_S),
+                without_types=self._options.record_without,
+            )
+            self._open_things.callback(steps.close)
+            self._read.show.line(
+                f"{file} will be the same whenever this is run; /rosout and other programs are left out"
+            )
+            return steps
+        if self._options.speed is None:
+            why = (
+                f"{', '.join(programs)} run as programs of their own"
+                if programs
+                else "another program publishes /clock"
+            )
+            self._read.show.line(f"{file} will differ from run to run: {why}")
+        node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
+        self._open_things.callback(lambda: graph.loop.run(node.shutdown()))
+        graph.loop.run(follow_time(node))
+        options = RecorderOptions(all_topics=True, path=file, without_types=self._options.record_without)
+        recorder = Recorder(node, options, say=node.log.debug, complain=self._complain)
+        recorder.start()
+        self._open_things.callback(recorder.stop)
+        return None
+
+    def _complain(self, why: str) -> None:
+        self.recording_broke_off = True
+        self._read.show.line(why)
+
+    def _may_publish_clock(self, launcher: Node) -> bool:
+        """True if nothing else publishes it: a simulation, a graph joined, or a bag to be played."""
+        graph = self.graph
+        if _has_world(self._read.plan) or graph.core is None:
+            return False
+        return graph.loop.run(launcher.params.get("/use_sim_time", False)) is not True
+
+    def _programs(self) -> list[str]:
+        """Names of the nodes that run as processes."""
+        read, find = self._read, self._read.packages.find_package
+        return [
+            n.name for n in read.plan.nodes if isinstance(find_node(n.package, n.type, find, env=read.env), Executable)
+        ]
+
+    @property
+    def has_master(self) -> bool:
+        """True if the master was started here: as roslaunch, the launch then outlives its last node."""
+        return self.graph.core is not None
+
+    @property
+    def is_over(self) -> bool:
+        """True if a launch in lockstep has reached its --duration and recorded it, or its setup says so."""
+        return self._lockstep is not None and self._lockstep.over.is_set()
+
+    def rewind(self) -> None:
+        """Go on after the end of a launch in lockstep, whose world was reset."""
+        if self._lockstep is not None:
+            self._lockstep.rewind()
+
+    @property
+    def nodes(self) -> Sequence[LaunchNode]:
+        """Nodes of the launch."""
+        return self._read.plan.nodes
+
+    @property
+    def is_paused(self) -> bool:
+        """True if its world is paused."""
+        return self._gazebo is not None and self._gazebo.paused
+
+    @property
+    def is_busy(self) -> bool:
+        """True while something in this process is at work that needs no time to pass."""
+        return self.graph.loop.work.is_busy
+
+    @property
+    def stop_reason(self) -> str | None:
+        """Reason for which its world could not go on; None: it can."""
+        return None if self._gazebo is None else self._gazebo.stop_reason
+
+    @property
+    def is_lockstep(self) -> bool:
+        """True if time waits for the nodes at each step."""
+        return self._lockstep is not None
+
+    def _simulator(self, logs: Path) -> Simulator:
+        from ..gazebo.world import GazeboWorld  # a launch without Gazebo does not wait for the physics
+
+        options, read = self._options, self._read
+        gazebo = GazeboWorld(
+            graph=self.graph,
+            start=read.start,
+            env=read.env,
+            report=read.report,
+            folder=logs / "spawned",
+            say=read.show.line,
+            page=self._page,
+            speed=options.speed,
+            renderer=options.renderer,
+            steps=self._lockstep,
+            setup=self._setup,
+        )
+        self._gazebo = gazebo
+        self._open_things.callback(gazebo.close)
+        return gazebo
+
+    def show_world(self) -> "PageServer":
+        """Serve the page and show the world there once there is one, as gzclient does; return the page's server.
+
+        Raises:
+            UsageError: the port asked for is taken.
+        """
+        assert self._page is not None, "the launch is headless"
+        assert self._gazebo is not None, "the launch has no world"
+        server = self._page.acquire(self._launcher, shows_world=True)
+        window = self.graph.loop.spawn(self._gazebo.show(self._launcher))
+        self._open_things.callback(window.cancel)
+        return server
+
+    def start(
+        self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False, begins: bool = True
+    ) -> RunningNodes:
+        """Start nodes, unless the end comes first, and print the table of them.
+
+        Args:
+            nodes: of the launch.
+            is_ending: polled; True ends the start.
+            begins: False: time stays at zero until `begin`, in lockstep.
+        """
+        loop, options = self.graph.loop, self._options
+        timeouts = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
+        running = self._running = RunningNodes(
+            self.starter, nodes, timeouts=timeouts, quiet=options.quiet, listener=self._on_event
+        )
+        steps = self._lockstep
+        loop.run(running.start(is_ending, None if steps is None else steps.wait_started))
+        if begins:
+            self.begin()
+        if self._display is not None and self._display.terminals:
+            self._open_things.callback(loop.spawn(self._show_terminals(self._display)).cancel)
+        self._read.show.findings()
+        if running.launched and not options.quiet:
+            page = self._page if opens_page(running.launched) else None
+            url = None if page is None else await_url(page, lambda: is_ending() or running.is_over)
+            self._say(what_runs(running.launched, url))
+        return running
+
+    async def _show_terminals(self, display: "GraphPage") -> None:
+        """Serve the page, whichever other windows the launch has."""
+        try:
+            await display.serve(self._launcher)
+        except TrundleError as error:
+            self._read.show.line(f"the terminals of nodes cannot be shown: {error}")
+
+    def begin(self) -> None:
+        """Let time advance, in lockstep."""
+        if self._lockstep is not None:
+            self._lockstep.start()
+
+    def _say(self, text: str) -> None:
+        say(text)
+        self._log.write(text)
+
+    def _on_event(self, event: Event, text: str) -> None:
+        self._log.write(text)
+        self._listener(event, text)
+
+    def close(self) -> None:
+        """Stop the nodes, the last started first, then everything else."""
+        try:
+            if self._running is not None:
+                self.graph.loop.run(self._running.stop())
+        finally:
+            self._open_things.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+_SHOWN = ("/rosdistro", "/rosversion")
+"""Core parameters that roslaunch's summary shows."""
+
+
+class ClockWarning:
+    """Warns once if /use_sim_time is true and nothing publishes /clock, which stops every node's time."""
+
+    def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
+        self._clock = clock
+        self._say: Callable[[str], None] | None = say
+        self._due = time.monotonic() + _SILENCE_S
+
+    def check(self) -> None:
+        """Warn if no time has come for 5 s; to be polled."""
+        if self._say is None or self._clock.now_ns() > 0:
+            self._say = None
+        elif time.monotonic() > self._due:
+            self._say("/use_sim_time is true, but nothing has published a time on /clock yet (a simulation, a bag?)")
+            self._say = None
+
+
+def _simulates(plan: LaunchPlan) -> bool:
+    return any(node.package == "gazebo_ros" for node in plan.nodes)
+
+
+def _has_world(plan: LaunchPlan) -> bool:
+    """True if one of its nodes runs Gazebo's world, and so publishes /clock; a spawner alone does not."""
+    return any((node.package, node.type) in WORLDS for node in plan.nodes)

@@ -1,0 +1,209 @@
+"""Result of `trundle.load`: a simulation with its sensors by name, its plugins and its ROS graph."""
+
+import os
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.robots.packages import Packages
+from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS
+from trundle.sim.renderers import RENDERERS
+from trundle.sim.simulation import Simulation
+
+from .world_setup import LoadedWorld, load_built, load_world
+
+if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
+    from trundle.page.profile.stride_profile import StrideProfile
+    from trundle.robots.description import Model, World
+    from trundle.ros import GraphLoop, Node
+    from trundle.sim.physics import CompiledWorld
+    from trundle.sim.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
+
+    from .run.ros_interface import RosInterface
+
+
+class LoadedSimulation(Simulation):
+    """One world in motion, with its sensors, plugins and ROS graph.
+
+    If it is part of a ROS graph, `close` it, or use it in a `with` statement.
+    """
+
+    def __init__(
+        self, stage: LoadedWorld, report: Diagnostics, *, seed: int = 0, compiled: "CompiledWorld | None" = None
+    ) -> None:
+        """Compile a world; time is zero.
+
+        Args:
+            stage: the world to compile.
+            report: takes repairs by physics.
+            seed: of all random numbers.
+            compiled: the world, compiled already.
+        """
+        super().__init__(stage.world, report, seed=seed, compiled=compiled)
+        self._stage = stage
+        self._ros: RosInterface | None = None
+
+    def camera(self, name: str) -> "CameraHandle":
+        """Camera by name.
+
+        Args:
+            name: `model::link::sensor`, as in Gazebo, or a unique end of it; of a multicamera: `sensor/camera`.
+
+        Raises:
+            UsageError: none or several; the message lists the names there are.
+        """
+        return self._sensors.camera(name)
+
+    def sensor(self, name: str) -> "SensorHandle":
+        """Sensor of any type by name.
+
+        Args:
+            name: `model::link::sensor`, as in Gazebo, or a unique end of it; of a joint: `model::joint::sensor`.
+
+        Raises:
+            UsageError: none or several; the message lists the names there are.
+        """
+        return self._sensors.sensor(name)
+
+    def range_sensor(self, name: str) -> "RangeSensor":
+        """Lidar or ray sensor itself by name, for readings with another noise than its own.
+
+        Raises:
+            UsageError: none or several, or of another type; the message lists the names there are.
+        """
+        return self._sensors.range_sensor(name)
+
+    @property
+    def camera_names(self) -> tuple[str, ...]:
+        """`model::link::sensor` of each camera, in file order."""
+        return self._sensors.camera_names()
+
+    @property
+    def sensor_names(self) -> tuple[str, ...]:
+        """`model::link::sensor` of each sensor, cameras too; in file order."""
+        return self._sensors.names()
+
+    @cached_property
+    def _sensors(self) -> "MountedSensors":
+        from trundle.sim.sensors import MountedSensors
+
+        return MountedSensors(self, RENDERERS["cpu"])
+
+    def profile(self) -> "StrideProfile":
+        """Profiler of where wall time goes: `with sim.profile() as profile: sim.run(10)`, then `profile.read()`."""
+        from trundle.page.profile.stride_profile import StrideProfile
+
+        return StrideProfile(self, None if self._ros is None else self._ros.graph.loop)
+
+    # -- the ROS graph
+
+    def open_graph(
+        self, environment: Mapping[str, str], *, on_open: "Callable[[GraphLoop], None]" = lambda _loop: None
+    ) -> None:
+        """Advertise clock, frames, sensors and joints on a ROS graph, as `trundle run` does.
+
+        Args:
+            environment: ROS_MASTER_URI is the master to join; without it a master is started here.
+            on_open: called with the loop of the graph, before anything is advertised.
+
+        Raises:
+            UsageError: that master does not answer.
+        """
+        from .run.ros_interface import RosInterface
+
+        sensors = self._sensors
+        sensors.start()
+        self._ros = RosInterface.open(
+            self,
+            self._stage,
+            sensors.cameras,
+            sensors.instruments,
+            environment,
+            host="127.0.0.1",
+            on_open=on_open,
+        )
+
+    @property
+    def ros_master_uri(self) -> str:
+        """URI of its ROS master.
+
+        Raises:
+            UsageError: it has no ROS graph.
+        """
+        return self._graph.graph.master_uri
+
+    def make_node(self, name: str) -> "Node":
+        """Make a node on simulation time; its callbacks run on this thread, between two steps.
+
+        Raises:
+            UsageError: the simulation is part of no graph.
+        """
+        return self._graph.make_node(name)
+
+    @property
+    def _graph(self) -> "RosInterface":
+        if self._ros is None:
+            raise UsageError("the simulation is part of no ROS graph; load it with ros=True")
+        return self._ros
+
+    def load_plugins(self, environment: Mapping[str, str]) -> None:
+        """Load the plugins of the world and its models; `report` lists them."""
+        from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
+
+        def say(line: str) -> None:
+            self.report.info(self.world.at, line)
+
+        make_node = None if self._ros is None else self._ros.make_node
+        load_plugins(self, make_node, environment, say=say)
+        load_world_plugins(self, make_node, environment, say=say)
+
+    def advance(self, until_ns: int) -> None:
+        """See `Simulation.advance`; messages reach the nodes of this process within 50 ms of simulation time."""
+        if self._ros is None:
+            super().advance(until_ns)
+            return
+        self._ros.settle()
+        left_ns = until_ns - self.time_ns
+        while left_ns > 0:
+            before_ns = self.simulated_ns
+            super().advance(self.time_ns + min(left_ns, STRIDE_FLAT_OUT_NS))
+            left_ns -= self.simulated_ns - before_ns
+            self._ros.tick(wait=True)
+            self._drain()
+
+    def close(self) -> None:
+        """Leave the ROS graph; stop its master if it was started here."""
+        ros, self._ros = self._ros, None
+        if ros is not None:
+            ros.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def load_simulation(
+    file: "str | Model | World", *, seed: int = 0, plugins: bool = False, ros: bool | str = False
+) -> LoadedSimulation:
+    """Read and compile a file, with os.environ; see `trundle.load`."""
+    environment = dict(os.environ)
+    report = Diagnostics()
+    packages = Packages(environment, start=Path.cwd())
+    if isinstance(file, str):
+        stage = load_world(file, packages, report, seed=seed)
+    else:
+        stage = load_built(file, packages, report, seed=seed)
+    simulation = LoadedSimulation(stage, report, seed=seed)
+    try:
+        if ros:
+            simulation.open_graph(environment if ros is True else environment | {"ROS_MASTER_URI": ros})
+        if plugins:
+            simulation.load_plugins(environment)
+    except BaseException:
+        simulation.close()
+        raise
+    return simulation

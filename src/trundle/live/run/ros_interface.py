@@ -1,0 +1,151 @@
+"""ROS interface of a simulation: its node, clock, frames, sensor topics and parameters on the graph."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Self
+
+from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
+from trundle.ros.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms
+from trundle.sim.sensors import CameraSensor, InstrumentSensor
+from trundle.sim.simulation import Simulation
+
+from ..graph import DEFAULT_PORT, Graph
+from ..model_nodes import ModelNodes
+from ..model_topics import ModelTopics
+from ..world_setup import LoadedWorld
+
+NODE_NAME = "/trundle"
+
+
+class SimulationClock(SimClock):
+    """Simulation time, exact at every step; sleeping nodes wake at the end of a stride."""
+
+    def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
+        super().__init__(loop)
+        self._simulation = simulation
+
+    def now_ns(self) -> int:
+        """Simulation time [ns]."""
+        return self._simulation.time_ns
+
+
+class RosInterface:
+    """Node, topics and parameters of one simulation."""
+
+    def __init__(
+        self,
+        graph: Graph,
+        simulation: Simulation,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+        stage: LoadedWorld,
+    ) -> None:
+        self._graph = graph
+        self._simulation = simulation
+        self._nodes: list[Node] = []
+        self.clock = SimulationClock(graph.loop, simulation)
+        self.node = self.make_node(NODE_NAME)
+        loop = graph.loop
+        loop.run(self.node.wait_registered())
+        loop.run(self.node.params.set("/use_sim_time", True))
+        ClockTopic(self.node).attach(simulation)
+        static_broadcaster = StaticTransformBroadcaster(self.node)
+        frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
+        simulation.on_change(lambda: frames.set_world(simulation.world, simulation.snapshot()))
+        simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled, name="/tf")
+        self._sensor_topics = ModelTopics(self.node, static_broadcaster, simulation)
+        self.plugin_nodes = ModelNodes(loop, self.make_node)
+        self._frame_names = FrameNames.from_world(stage.world, stage.robot)
+        self.advertise(cameras, sensors)
+        if stage.urdf is not None:
+            loop.run(self.node.params.set("/robot_description", stage.urdf))
+            states, robot = JointStatesTopic(self.node, simulation.models[0]), simulation.models[0].name
+            simulation.on_change(
+                lambda: states.set_model(next((each for each in simulation.models if each.name == robot), None))
+            )
+            simulation.add_hook(states, period_ns=states.period_ns, enabled=states.enabled, name="/joint_states")
+
+    @classmethod
+    def open(
+        cls,
+        simulation: Simulation,
+        stage: LoadedWorld,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+        environment: Mapping[str, str],
+        *,
+        host: str,
+        on_open: Callable[[GraphLoop], None] = lambda _loop: None,
+    ) -> Self:
+        """Join or start a graph, call `on_open` with its loop, and advertise the simulation."""
+        graph = Graph.open(environment, host=host, ports=(DEFAULT_PORT, 0))
+        try:
+            on_open(graph.loop)
+            return cls(graph, simulation, cameras, sensors, stage)
+        except BaseException:
+            graph.close()
+            raise
+
+    @property
+    def graph(self) -> Graph:
+        """ROS graph of the simulation."""
+        return self._graph
+
+    def make_node(self, name: str) -> Node:
+        """Make a node on simulation time, whose callbacks run on the simulation's thread between two steps."""
+        simulation = self._simulation
+        node = Node(
+            name,
+            loop=self._graph.loop,
+            master_uri=self._graph.master_uri,
+            clock=self.clock,
+            deliver=simulation.post_input,
+            host=self._graph.host,
+        )
+        self._nodes.append(node)
+        return node
+
+    def advertise(self, cameras: Sequence[CameraSensor], sensors: Sequence[InstrumentSensor]) -> None:
+        """Advertise the topics of sensors."""
+        self._sensor_topics.advertise(cameras, sensors, self._frame_names)
+
+    def unload(self, model: str) -> None:
+        """Shut down the nodes of a deleted model, and unregister the topics of its sensors."""
+        self.plugin_nodes.shut_down(model)
+        self._sensor_topics.unregister(model)
+
+    def settle(self) -> None:
+        """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""
+        self._graph.loop.wait_idle()
+
+    def tick(self, *, wait: bool) -> None:
+        """Set the nodes' clock at the end of a stride.
+
+        Args:
+            wait: wait until every message published so far has reached the nodes of this process. Flat-out runs do,
+                so that delivery order does not depend on the machine's speed.
+        """
+        self.clock.set(self._simulation.time_ns)
+        if wait:
+            self._graph.loop.flush_deliveries()
+
+    def replaced(
+        self,
+        simulation: Simulation,
+        stage: LoadedWorld,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+    ) -> Self:
+        """Leave the graph and return the interface of another simulation on it."""
+        for node in self._nodes:
+            self._graph.loop.run(node.shutdown())
+        return type(self)(self._graph, simulation, cameras, sensors, stage)
+
+    def close(self) -> None:
+        """Leave the graph; stop it if it was started here."""
+        self._graph.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,174 @@
+"""State logs of a simulation, for `trundle play`."""
+
+import itertools
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.robots.description import write_sdf, written_uri
+from trundle.robots.model import World
+from trundle.sim.simulation import Simulation, Snapshot, StateRecorder
+
+
+def start_state_log(path: Path, simulation: Simulation, world: World, report: Diagnostics) -> StateRecorder:
+    """Start a log with the current state; `world` is the one that `trundle play` will show.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    compiled = simulation.engine.compiled
+    sdf = write_sdf(world, is_world=True, uri_of=written_uri, report=report)
+    recorder = StateRecorder(path, links=compiled.link_names, joints=compiled.joint_names, sdf=sdf)
+    recorder.after_step(simulation.snapshot())
+    return recorder
+
+
+class RunRecorder:
+    """Hook that logs a run until a write fails."""
+
+    period_ns = StateRecorder.period_ns
+
+    def __init__(self, recorder: StateRecorder, say: Callable[[str], None]) -> None:
+        self._recorder = recorder
+        self._say = say
+        self.has_failed = False
+        """True after a failed write; no more is written."""
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Write the state, unless a write has failed."""
+        if self.has_failed:
+            return
+        try:
+            self._recorder.after_step(snapshot)
+        except OSError as error:
+            self._say(f"recording failed: {error.filename}: {error.strerror}; trundle play shows what was recorded")
+            self.has_failed = True
+
+    def close(self) -> None:
+        """Close the file."""
+        self._recorder.close()
+
+
+class WorldRecorder:
+    """Hook that logs a world whose models come and go; each change starts the next file."""
+
+    period_ns = StateRecorder.period_ns
+
+    def __init__(self, simulation: Simulation, folder: Path, say: Callable[[str], None]) -> None:
+        """Record into `state.log`, then `state-2.log` and so on.
+
+        Args:
+            simulation: the one to record.
+            folder: is made; files of earlier recordings are overwritten.
+            say: prints each file, and a failed write.
+        """
+        self._simulation = simulation
+        self._folder = folder
+        self._say = say
+        self._files = 0
+        self._names: object = None
+        self._recorder: StateRecorder | None = None
+
+    def after_step(self, snapshot: Snapshot) -> None:
+        """Write the state."""
+        compiled = self._simulation.engine.compiled
+        names = (compiled.link_names, compiled.joint_names)
+        try:
+            if names != self._names:
+                self._names = names
+                self._begin()
+            elif self._recorder is not None:
+                self._recorder.after_step(snapshot)
+        except OSError as error:
+            self.close()
+            self._say(f"recording ends: {self._folder}: {error.strerror}")
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._recorder is not None:
+            self._recorder.close()
+            self._recorder = None
+
+    @property
+    def is_recording(self) -> bool:
+        """True while a file is open."""
+        return self._recorder is not None
+
+    def _begin(self) -> None:
+        self.close()
+        self._files += 1
+        self._folder.mkdir(parents=True, exist_ok=True)
+        path = self._folder / ("state.log" if self._files == 1 else f"state-{self._files}.log")
+        simulation = self._simulation
+        self._recorder = start_state_log(path, simulation, simulation.world, simulation.report)
+        self._say(f"recording into {path}; trundle play shows it")
+
+
+class PageRecording:
+    """Recording that a person at the page begins and ends, each into a folder of its own."""
+
+    def __init__(self, simulation: Simulation, say: Callable[[str], None]) -> None:
+        """Prepare.
+
+        Args:
+            simulation: the one to record.
+            say: prints the files' names.
+        """
+        self._simulation = simulation
+        self._say = say
+        self._recorder: WorldRecorder | None = None
+        self._since_ns = 0
+
+    @property
+    def since_ns(self) -> int | None:
+        """Simulation time at its begin; None: nothing is recorded."""
+        recorder = self._recorder
+        return self._since_ns if recorder is not None and recorder.is_recording else None
+
+    def set(self, on: bool) -> None:
+        """Begin or end a recording in `recorded/<date and time>` below the working directory.
+
+        Raises:
+            UsageError: it cannot be written.
+        """
+        if on == (self.since_ns is not None):
+            return
+        if self._recorder is not None:
+            self._simulation.remove_hook(self._recorder)
+            self._recorder.close()
+            self._recorder = None
+        if on:
+            folder = _make_folder()
+            recorder = self._recorder = WorldRecorder(self._simulation, folder, self._say)
+            self._since_ns = self._simulation.time_ns
+            recorder.after_step(self._simulation.snapshot())
+            if not recorder.is_recording:
+                self._recorder = None
+                raise UsageError(f"{folder} cannot be written")
+            self._simulation.add_hook(recorder, period_ns=recorder.period_ns)
+
+    def follow(self) -> None:
+        """Go on after the simulation went to another moment, at which it may not have been recorded."""
+        if self._recorder is not None:
+            self._simulation.remove_hook(self._recorder)
+            self._simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
+
+
+def _make_folder() -> Path:
+    """Make a folder named after the date and time.
+
+    Raises:
+        UsageError: it cannot be made.
+    """
+    name = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+    numbered = (Path("recorded", f"{name}-{number}") for number in itertools.count(2))
+    for folder in itertools.chain((Path("recorded", name),), numbered):
+        try:
+            folder.mkdir(parents=True)
+        except OSError as error:
+            if not folder.exists():
+                raise UsageError(f"{folder} cannot be written: {error.strerror}") from None
+        else:
+            return folder
+    raise AssertionError

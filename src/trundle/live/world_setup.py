@@ -1,0 +1,89 @@
+"""Worlds to simulate, from any description."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots import model
+from trundle.robots.description import LoadedDescription, load, load_text
+from trundle.robots.model import flattened
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import with_actors
+
+if TYPE_CHECKING:  # SDF loads neither the URDF reader nor the builder
+    from trundle.robots.description import Model, World
+    from trundle.robots.robot import Robot
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedWorld:
+    """World ready to compile, and the URDF that it came from, if any."""
+
+    world: model.World
+    """Nested models are merged into the outer ones, as physics needs it."""
+    written: model.World
+    """The same world, nested as in the file."""
+    robot: "Robot | None"
+    urdf: str | None
+    """Expanded XML, for the parameter /robot_description."""
+
+
+def load_world(
+    file: str,
+    packages: Packages,
+    report: Diagnostics,
+    *,
+    seed: int = 0,
+    arguments: Mapping[str, str] = MappingProxyType({}),
+) -> LoadedWorld:
+    """Read a file; a robot or model is put on a ground plane under a sun, a world is taken as it is.
+
+    Args:
+        file: as `trundle.robots.description.load` takes it.
+        packages: resolves URIs.
+        report: takes all findings.
+        seed: of random placement in SDF.
+        arguments: of a xacro file.
+
+    Raises:
+        DescriptionError: the file cannot be read.
+    """
+    return place(load(file, report, packages=packages, seed=seed, arguments=arguments), packages, report)
+
+
+def load_built(built: "Model | World", packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:
+    """Take what was built in code, by way of its SDF; a model alone is put on a ground plane under a sun.
+
+    Raises:
+        DescriptionError: something of it cannot be made sense of.
+    """
+    text = built.to_sdf().encode()
+    name = f"<{built.name}>"
+    return place(
+        load_text(text, name=name, folder=Path.cwd(), packages=packages, report=report, seed=seed), packages, report
+    )
+
+
+def place(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> LoadedWorld:
+    """Put a robot alone on a ground plane under a sun; take a world as it is."""
+    world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
+    return LoadedWorld(world=with_actors(flattened(world), report), written=world, robot=loaded.robot, urdf=loaded.urdf)
+
+
+def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> model.World:
+    ground = load("model://ground_plane", report, packages=packages).world.models
+    sun = load("model://sun", report, packages=packages).world.lights
+    world = loaded.world
+    return replace(
+        world,
+        models=(
+            *world.models,
+            *(replace(m, added=True) for m in ground if m.name not in {t.name for t in world.models}),
+        ),
+        lights=(*world.lights, *(replace(light, added=True) for light in sun)),
+    )

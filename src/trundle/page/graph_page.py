@@ -1,0 +1,198 @@
+"""Page as a window of the ROS graph: what rviz, rqt's programs and sliders show there."""
+
+import asyncio
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from trundle.base.atomic_write import write_atomically
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, TrundleError, UsageError
+from trundle.base.files import read_file
+from trundle.base.http.access import without_query
+from trundle.gazebo.nodes import Slider
+from trundle.page import (
+    JointSlider,
+    MoveJoystick,
+    MoveSlider,
+    PageAction,
+    PageServer,
+    RenderView,
+    RvizFile,
+    SaveRviz,
+    Session,
+)
+from trundle.ros import Node
+
+from .shared_page import CMD_VEL, SharedPage
+from .terminals import PageTerminals
+
+_PERIOD_S = 1 / 50
+_MAX_CONFIG_BYTES = 4_000_000
+
+MoveJoint = Callable[[str, float], None]
+MoveAxes = Callable[[Sequence[float], Sequence[int]], None]
+
+
+class GraphPage:
+    """Collects what windows of the graph ask for, and handles the requests to them.
+
+    All methods but the properties and `close` are called on the graph's loop.
+    """
+
+    def __init__(self, page: SharedPage, report: Diagnostics | None = None) -> None:
+        """Prepare; `show` serves the page.
+
+        Args:
+            page: which a simulation may share.
+            report: takes warnings about the files of the launch; the page shows them.
+        """
+        self._page = page
+        self._report = report
+        self._config: Path | None = None
+        self._owner: Node | None = None
+        self._move_slider: MoveJoint | None = None
+        self._joysticks: list[MoveAxes] = []
+        self.terminals = PageTerminals(page)
+
+    @property
+    def url(self) -> str | None:
+        """URL of the page; None before it is served."""
+        return self._page.url
+
+    @property
+    def is_over(self) -> bool:
+        """True if the page was closed, or could not be served."""
+        return self._page.is_over
+
+    @property
+    def _session(self) -> Session:
+        return self._page.session
+
+    def offer_sliders(self, sliders: Sequence[Slider], move: MoveJoint) -> None:
+        """Show joint sliders; `move` is called with a joint's name and position [rad or m], on the graph's loop."""
+        self._move_slider = move
+        shown = (
+            JointSlider(name=slider.name, lower=slider.lower, upper=slider.upper, position=slider.position)
+            for slider in sliders
+        )
+        self._page.change(sliders=tuple(shown), panels=_with(self._session.panels, "joint_state_publisher_gui"))
+
+    def offer_joystick(self, move: MoveAxes) -> None:
+        """Show a joystick; `move` is called with axes and buttons as in sensor_msgs/Joy, on the graph's loop."""
+        self._joysticks.append(move)
+        self._page.change(joystick=True, panels=_with(self._session.panels, "joy"))
+
+    def drive_on(self, topic: str) -> None:
+        """Drive with this velocity topic; the first call wins."""
+        if self._session.drive_topic in (None, CMD_VEL):
+            self._page.change(drive_topic=topic)
+
+    def show_image(self, topic: str) -> None:
+        """Show an image topic, besides those of an rviz configuration."""
+        self._page.change(images=_with(self._session.images, topic))
+
+    def open_panel(self, program: str) -> None:
+        """Open the panel that takes the place of a program: `rqt_graph`."""
+        self._page.change(panels=_with(self._session.panels, program))
+
+    def plot(self, fields: Sequence[str]) -> None:
+        """Plot message fields `/topic/field/…` over time."""
+        self._page.change(plots=_with(self._session.plots, *fields), panels=_with(self._session.panels, "rqt_plot"))
+
+    async def show(self, node: Node, *, config: str | None = None, fixed_frame: str | None = None) -> int:
+        """Show until the page's server is gone or the call is cancelled; returns an exit code.
+
+        Args:
+            node: the node with the window. The first one serves the page; later ones add what they show.
+            config: path of an .rviz file, which may not exist.
+            fixed_frame: overrides that of `config`.
+
+        Raises:
+            DescriptionError: the configuration cannot be read.
+            UsageError: the port asked for is taken.
+        """
+        if config is not None and os.path.exists(config):
+            self._config = Path(config)
+            self._page.change(rviz=read_rviz_file(self._config), fixed_frame=None)  # the file has one
+        if config is not None or self._owner is None:
+            self._page.change(namespace=node.name.rpartition("/")[0] or "/", remappings=dict(node.remappings))
+        if fixed_frame is not None:
+            self._page.change(fixed_frame=fixed_frame)
+        if self._owner is not None:
+            where = without_query(self.url or "") or "an address that it will print"
+            node.log.info(f"the page is {self._owner.name}'s, at {where}")
+        else:
+            self._owner = node
+        try:
+            await self.serve(node)
+        finally:
+            if self._owner is node:
+                self._owner = None
+        return 0
+
+    async def serve(self, node: Node) -> None:
+        """Serve the page until its server is gone or the call is cancelled.
+
+        Args:
+            node: publishes the stop of a robot that is driven when the server dies.
+
+        Raises:
+            UsageError: the port asked for is taken.
+        """
+        server = await asyncio.to_thread(self._page.acquire, node)
+        try:
+            while server.alive and not node.closed.is_set():
+                self._handle_requests(server)
+                self.terminals.update(server)
+                if self._report is not None:
+                    self._page.show_findings(self._report)
+                await asyncio.sleep(_PERIOD_S)
+        finally:
+            self._page.release()
+
+    def close(self) -> None:
+        """Close the page; may be called twice and on any thread."""
+        self._page.close()
+
+    def _handle_requests(self, server: PageServer) -> None:
+        for request in self._page.requests(of_world=False):
+            error = None
+            try:
+                self._handle(request.action)
+            except TrundleError as fault:
+                error = str(fault)
+            server.respond(request.id, error)
+
+    def _handle(self, action: PageAction) -> None:
+        match action:
+            case MoveSlider(joint, position) if self._move_slider is not None:
+                if joint not in {slider.name for slider in self._session.sliders}:
+                    raise UsageError(f"no slider moves a joint '{joint}'")
+                self._move_slider(joint, position)
+            case MoveJoystick(axes, buttons) if self._joysticks:
+                for move in self._joysticks:
+                    move(axes, buttons)
+            case SaveRviz(text) if self._config is not None:
+                write_atomically(self._config, text)
+                self._page.change(rviz=read_rviz_file(self._config))
+            case RenderView():
+                raise UsageError("a ROS graph is drawn by browsers with WebGL alone")
+            case _:
+                raise UsageError("this page shows a ROS graph; it has no simulation, recording or file of that kind")
+
+
+def _with(names: tuple[str, ...], *more: str) -> tuple[str, ...]:
+    return (*names, *(name for name in dict.fromkeys(more) if name not in names))
+
+
+def read_rviz_file(path: Path) -> RvizFile:
+    """Read a configuration of rviz; the client understands it.
+
+    Raises:
+        DescriptionError: it cannot be read.
+    """
+    try:
+        text = read_file(path, max_bytes=_MAX_CONFIG_BYTES).decode("utf-8", "replace")
+    except OSError as error:
+        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+    return RvizFile(name=path.name, text=text, writable=os.access(path, os.W_OK))

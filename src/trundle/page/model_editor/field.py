@@ -1,0 +1,153 @@
+"""Values of an element that a form shows: read from its children, and written there."""
+
+import math
+from typing import Any, Literal, TypeAlias
+
+from msgspec import Struct
+
+from trundle.base.diagnostics import UsageError
+from trundle.base.xmlnode import XmlElement, parse_numbers
+from trundle.page import Value
+
+Kind: TypeAlias = Literal["text", "number", "vector", "pose", "colour", "choice", "flag"]
+_COUNTS: dict[str, int] = {"number": 1, "pose": 6, "colour": 4}
+_ANGLE_ATTRIBUTES = ("degrees", "rotation_format")
+
+
+class Field(Struct, frozen=True, kw_only=True):
+    """One value of a part."""
+
+    name: str
+    """Path of the element, "inertial/mass"; an attribute ends in "@name"."""
+    label: str
+    kind: Kind = "number"
+    unit: str = ""
+    labels: tuple[str, ...] = ()
+    """Names of a vector's numbers."""
+    default: str = ""
+    """Text where the file has none."""
+    choices: tuple[str, ...] = ()
+    least: float = -1e9
+    most: float = 1e9
+    also: tuple[str, ...] = ()
+    """Paths that get the same value."""
+    derived: tuple[float, ...] | None = None
+    """Value of a field that is computed, without an element of its own."""
+
+
+class Section(Struct, frozen=True, kw_only=True):
+    """Fields below one heading."""
+
+    title: str
+    fields: tuple[Field, ...]
+
+
+def field_json(element: XmlElement, field: Field) -> dict[str, object]:
+    """Return a field with its value as the client shows it."""
+    text = read_text(element, field.name)
+    shown: dict[str, Any] = {"name": field.name, "label": field.label, "kind": field.kind, "value": text}
+    if field.kind in ("number", "vector", "pose", "colour"):
+        numbers = list(field.derived) if field.derived is not None else _numbers(text, field)
+        shown |= {"value": numbers, "default": _numbers(field.default, field)}
+        shown |= {"least": field.least, "most": field.most}
+    elif field.kind == "flag":
+        shown |= {"value": None if text is None else text in ("1", "true"), "default": field.default == "true"}
+    else:
+        shown["default"] = field.default
+    if field.unit:
+        shown["unit"] = field.unit
+    if field.labels:
+        shown["labels"] = field.labels
+    if field.choices:
+        shown["choices"] = field.choices
+    return shown
+
+
+def _numbers(text: str | None, field: Field) -> list[float] | None:
+    numbers = parse_numbers(text or "")
+    if not numbers or not all(map(math.isfinite, numbers)):
+        return None
+    if field.kind == "colour":
+        numbers = [*numbers, 1.0] if len(numbers) == 3 else numbers
+    return numbers if len(numbers) == count_of(field) else None
+
+
+def count_of(field: Field) -> int:
+    """Return how many numbers a field has."""
+    return _COUNTS.get(field.kind, len(field.labels))
+
+
+def read_text(element: XmlElement, path: str) -> str | None:
+    """Return the text at a path, or None."""
+    at: XmlElement | None = element
+    for step in path.split("/"):
+        if step.startswith("@"):
+            return None if at is None else at.get(step[1:])
+        at = None if at is None else at.find(step)
+    return None if at is None else at.text
+
+
+def write_value(element: XmlElement, field: Field, value: Value) -> None:
+    """Write a value to its element, made if there is none; None removes it.
+
+    Raises:
+        UsageError: it is no value of the field.
+    """
+    text = _checked(element, field, value)
+    for path in (field.name, *field.also):
+        if text is None:
+            _remove(element, path)
+        else:
+            _write(element, path, text)
+
+
+def _checked(element: XmlElement, field: Field, value: Value) -> str | None:
+    """Return a value as text."""
+    if value is None:
+        return None
+    if field.kind in ("text", "choice", "flag"):
+        if not isinstance(value, str):
+            raise UsageError(f"{field.label} is a text")
+        if field.choices and value not in field.choices:
+            raise UsageError(f"{field.label} is one of: {', '.join(field.choices)}")
+        if field.kind == "flag" and value not in ("true", "false"):
+            raise UsageError(f"{field.label} is true or false")
+        if any(ord(letter) < 32 for letter in value):
+            raise UsageError(f"{field.label}: a text of one line, please")
+        return value
+    if isinstance(value, str) or len(value) != count_of(field):
+        raise UsageError(f"{field.label} has {count_of(field)} numbers")
+    if not all(each is None or field.least <= each <= field.most for each in value):
+        raise UsageError(f"{field.label}: from {field.least:g} to {field.most:g}, please")
+    there = _numbers(read_text(element, field.name), field) or _numbers(field.default, field) or [0.0] * len(value)
+    return number_text([old if new is None else new for new, old in zip(value, there, strict=True)])
+
+
+def number_text(numbers: "tuple[float, ...] | list[float]") -> str:
+    """Return numbers as text, without the rounding errors of a computation."""
+    return " ".join(f"{0.0 if abs(each) < 1e-14 else each:.12g}" for each in numbers)
+
+
+def _write(element: XmlElement, path: str, text: str) -> None:
+    at = element
+    for step in path.split("/"):
+        if step.startswith("@"):
+            at.set(step[1:], text)
+            return
+        at = at.put(step)
+    for attribute in _ANGLE_ATTRIBUTES if at.tag == "pose" else ():
+        at.set(attribute, None)
+    at.text = text
+
+
+def _remove(element: XmlElement, path: str) -> None:
+    at: XmlElement | None = element
+    for step in path.split("/"):
+        if at is None:
+            return
+        if step.startswith("@"):
+            at.set(step[1:], None)
+            return
+        at = at.find(step)
+    if at is not None:
+        at.remove()

@@ -1,0 +1,158 @@
+"""Profiler of a simulation: charges the wall time of its strides to what they call."""
+
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from threading import get_ident
+from typing import TYPE_CHECKING, Self
+
+from trundle.sim.simulation import Simulation, StridePart
+from trundle.spatial import NS_PER_S
+
+from .part_names import LoopPart, group_and_name
+from .physics_shares import PhysicsShares
+from .profile import Profile, ProfilePart
+
+if TYPE_CHECKING:  # a simulation without a graph starts without its modules
+    from trundle.ros import GraphLoop
+
+_PHYSICS = StridePart.PHYSICS
+
+
+class StrideProfile:
+    """Profiler of one simulation, on its thread; in a `with` statement it measures from the beginning to the end."""
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        loop: "GraphLoop | None",
+        *,
+        wall_ns: Callable[[], int] = time.perf_counter_ns,
+    ) -> None:
+        """Prepare; `start` begins.
+
+        Args:
+            simulation: the running one.
+            loop: of the nodes of its plugins; None: without ROS.
+            wall_ns: the wall clock [ns].
+        """
+        self._simulation = simulation
+        self._loop = loop
+        self._wall_ns = wall_ns
+        self._thread = get_ident()
+        self._physics = PhysicsShares(simulation)
+        self.restart()
+
+    @property
+    def is_on(self) -> bool:
+        """True from `start` to `stop`."""
+        return self._simulation.profiler is self
+
+    @property
+    def simulated_ns(self) -> int:
+        """Simulated time since the beginning [ns]."""
+        return self._simulation.simulated_ns - self._begin[0]
+
+    def start(self) -> None:
+        """Begin."""
+        self._simulation.profiler = self
+        if self._loop is not None:
+            self._loop.publish_timer = self._publishing
+        self.restart()
+
+    def stop(self) -> None:
+        """End; strides cost what they did before."""
+        if self.is_on:
+            self._simulation.profiler = None
+            if self._loop is not None:
+                self._loop.publish_timer = None
+            self._physics.stop()
+
+    def restart(self) -> None:
+        """Forget what was measured."""
+        self._physics.stop()
+        self._physics = PhysicsShares(self._simulation)
+        self._parts: dict[int, object] = {}
+        self._costs: dict[int, float] = {}
+        """Wall time of parts [ns]; both by the part's id."""
+        self._inner_ns = 0
+        """Time charged already since the last lap [ns]."""
+        self._begin = (self._simulation.simulated_ns, self._simulation.simulated_steps)
+        self._graph_begin_ns = self._graph_ns
+        self._begin_ns = self._last_ns = self._wall_ns()
+
+    @property
+    def _graph_ns(self) -> int | None:
+        return None if self._loop is None else self._loop.processor_ns
+
+    def _graph_s(self) -> float | None:
+        """Processor time of the graph's thread since the beginning [s]."""
+        begin_ns, now_ns = self._graph_begin_ns, self._graph_ns
+        return None if begin_ns is None or now_ns is None else (now_ns - begin_ns) / NS_PER_S
+
+    def lap(self, *parts: object) -> None:
+        """Charge the time since the last lap to parts, in equal shares; see `trundle.sim.simulation.Profiler`."""
+        now = self._wall_ns()
+        spent = now - self._last_ns - self._inner_ns
+        self._last_ns, self._inner_ns = now, 0
+        for part in parts:
+            self._charge(part, spent / len(parts))
+        if _PHYSICS in parts:
+            self._physics.end_stride()
+
+    def _charge(self, part: object, spent_ns: float) -> None:
+        key = id(part)
+        if key in self._costs:
+            self._costs[key] += spent_ns
+        else:
+            self._parts[key], self._costs[key] = part, spent_ns
+
+    @contextmanager
+    def _publishing(self) -> Generator[None]:
+        """Charge a message that is published amid another part; those of other threads take no time of this one."""
+        if get_ident() != self._thread:
+            yield
+            return
+        begin = self._wall_ns()
+        try:
+            yield
+        finally:
+            spent = self._wall_ns() - begin
+            self._charge(LoopPart.PUBLISHING, spent)
+            self._inner_ns += spent
+
+    def read(self) -> Profile:
+        """Return what was measured since the last call, up to the last lap, and begin again."""
+        simulation = self._simulation
+        profile = Profile(
+            wall_s=(self._last_ns - self._begin_ns) / NS_PER_S,
+            simulated_s=self.simulated_ns / NS_PER_S,
+            steps=simulation.simulated_steps - self._begin[1],
+            contacts=simulation.engine.contact_count,
+            bodies=len(simulation.engine.compiled.link_names),
+            asleep=simulation.engine.asleep,
+            graph_s=self._graph_s(),
+            parts=tuple(sorted(self._measured(), key=lambda part: -part.wall_s)),
+        )
+        self.restart()
+        return profile
+
+    def _measured(self) -> list[ProfilePart]:
+        physics: list[ProfilePart] = []
+        others: dict[tuple[object, ...], ProfilePart] = {}
+        for key, spent_ns in self._costs.items():
+            part = self._parts[key]
+            if part is _PHYSICS:
+                physics = self._physics.parts(spent_ns / NS_PER_S)
+                continue
+            group, name = group_and_name(part, self._simulation)
+            before_s = others[group, name].wall_s if (group, name) in others else 0.0
+            others[group, name] = ProfilePart(group=group, name=name, wall_s=before_s + spent_ns / NS_PER_S)
+        return [*physics, *others.values()]
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()

@@ -1,0 +1,276 @@
+"""The draft: a copy of a model that a person at the page edits, checked and drawn on a thread of its own."""
+
+import os
+import queue
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import Diagnostics, TrundleError, UsageError
+from trundle.page import (
+    AddPart,
+    BeginDraft,
+    CopyPart,
+    DeleteModel,
+    DraftAction,
+    FinishDraft,
+    LeaveDraft,
+    ListOffers,
+    Part,
+    PlaceLink,
+    RedoDraft,
+    RemovePart,
+    RestoreModel,
+    SaveDraft,
+    SetField,
+    UndoDraft,
+)
+from trundle.robots.description import copy_model
+from trundle.robots.model import Model
+from trundle.sim.simulation import Simulation
+from trundle.spatial import Pose
+
+from ..model_editor.draft import Draft
+from ..model_editor.model_files import folder_name
+from ..model_editor.new_parts import new_model
+from ..model_editor.offers import draft_offers
+from ..model_editor.overview import draft_overview
+from ..model_editor.reader import ModelReader
+from ..world_contents import WorldContents
+from .code_consent import CodeConsent
+from .controls import reason_of
+from .current_world import current_world
+from .edits import find_model
+from .insertion import free_name
+from .model_edits import ModelEdits
+from .model_saver import save_draft
+from .world_files import WorldFiles
+
+Json = dict[str, Any]
+FIRST_BODY = 65536
+"""Number of the draft's first link among the bodies that the client draws."""
+_MAX_WAITING = 20
+
+
+class ShownDraft(Struct, frozen=True, kw_only=True):
+    """Draft as the client shows it."""
+
+    entry: Json | None
+    """Entry `draft` of the manifest."""
+    resources: list[str]
+    """URLs of all files that it needs."""
+    files: dict[str, bytes]
+    """URL → content, of new files."""
+
+
+class _Finished(Struct, frozen=True, kw_only=True):
+    """Draft that is to be put into the world."""
+
+    request_id: int
+    model: Model
+    of: str | None
+
+
+class Drafting:
+    """Edits one draft; used on the simulation's thread, but for `respond`, which is called on the draft's own, too."""
+
+    def __init__(self, respond: Callable[..., None], contents: WorldContents, root: Path, consent: CodeConsent) -> None:
+        """Prepare.
+
+        Args:
+            respond: answers a request by its id, with an error or fields.
+            contents: adds models with what belongs to them.
+            root: folder to write below.
+            consent: asks before code is run.
+        """
+        self._respond, self._consent = respond, consent
+        self._contents = contents
+        self._reader = ModelReader(contents.packages, contents.environment, root)
+        self._root = root
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-draft")
+        self._shown: queue.SimpleQueue[ShownDraft] = queue.SimpleQueue()
+        self._finished: queue.SimpleQueue[_Finished] = queue.SimpleQueue()
+        self._waiting = 0
+        self._is_open = False
+        self._draft: Draft | None = None
+        self._files = WorldFiles()
+
+    @property
+    def is_open(self) -> bool:
+        """True while a model is edited."""
+        return self._is_open
+
+    def handle(self, request_id: int, action: DraftAction, simulation: Simulation) -> None:
+        """Do what a person asks for, later; the request is answered then.
+
+        Raises:
+            TrundleError: it cannot be done.
+        """
+        if self._waiting >= _MAX_WAITING:
+            raise UsageError(f"{_MAX_WAITING} edits wait already")
+        if isinstance(action, BeginDraft):
+            self._submit(request_id, self._begin(action, simulation))
+            return
+        if not self._is_open and not isinstance(action, ListOffers):
+            raise UsageError("no model is edited now")
+        self._submit(request_id, lambda: self._do(request_id, action))
+
+    def _submit(self, request_id: int, work: Callable[[], Json | None]) -> None:
+        self._waiting += 1
+        self._thread.submit(self._run, request_id, work)
+
+    def _run(self, request_id: int, work: Callable[[], Json | None]) -> None:
+        try:
+            answer = work()
+            if answer is not None:
+                self._respond(request_id, **answer)
+        except TrundleError as error:
+            self._respond(request_id, reason_of(error))
+        except Exception as error:  # a file that the editor does not foresee; the simulation goes on
+            self._respond(request_id, f"this cannot be edited: {type(error).__name__}: {error}")
+        finally:
+            self._waiting -= 1
+
+    def _begin(self, action: BeginDraft, simulation: Simulation) -> Callable[[], Json]:
+        """Copy what is needed of the simulation; return what is left to do."""
+        if self._is_open:
+            raise UsageError("a model is edited already: finish or leave it first")
+        if action.model is None:
+            name = free_name("model", {model.name for model in simulation.models})
+            text, place = new_model(name), Pose(action.position)
+            self._is_open = True
+            return lambda: self._open(text, None, place)
+        found = find_model(simulation, action.model).model
+        world = current_world(simulation)
+        posed = next(model for model in world.models if model.name == found.name)
+        self._is_open = True
+
+        def copy() -> Json:
+            text = copy_model(found, packages=self._contents.packages, folder=self._root)
+            return self._open(text, found.name, posed.world_from_model)
+
+        return copy
+
+    def _open(self, text: bytes, of: str | None, place: Pose) -> Json:
+        try:
+            self._draft = Draft(text, self._reader, of=of, world_from_model=place)
+        except BaseException:
+            self._is_open = False
+            raise
+        self._show()
+        return {}
+
+    def _do(self, request_id: int, action: DraftAction) -> Json | None:
+        """Do an edit, on the draft's thread; return the answer's fields, None: it is answered later."""
+        if isinstance(action, ListOffers):
+            return draft_offers(self._contents.packages)
+        draft = self._draft
+        if draft is None:
+            raise UsageError("no model is edited now")
+        match action:
+            case SaveDraft():
+                return save_draft(draft, action, self._root, self._contents.packages)
+            case FinishDraft():
+                return self._finish(request_id, action, draft)
+            case LeaveDraft():
+                self._close()
+                return {}
+            case _:
+                part = _edit(draft, action)
+                self._show()
+                return {"part": part}
+
+    def _finish(self, request_id: int, action: FinishDraft, draft: Draft) -> Json | None:
+        model = draft.checked.model
+        if not model.links:
+            raise UsageError("the model has no links yet")
+        if (question := self._consent.question(model, action.consent)) is not None:
+            return question
+        model = replace(model, world_from_model=draft.world_from_model)
+        self._finished.put(_Finished(request_id=request_id, model=model, of=draft.of))
+        return None
+
+    def _show(self) -> None:
+        """Draw the draft, on its thread."""
+        draft = self._draft
+        assert draft is not None
+        model = replace(draft.checked.model, world_from_model=draft.world_from_model)
+        world = replace(draft.checked.world, models=(model,), lights=(), roads=())
+        numbers = {f"{model.name}::{link.name}": FIRST_BODY + index for index, link in enumerate(model.links)}
+        entries, files = self._files.update(world, numbers.__getitem__, Diagnostics())
+        shown: Any = entries["files"]
+        resources: Any = entries["resources"]
+        entry = draft_overview(draft) | {
+            "files": [{"id": "draft", "url": each["url"]} for each in shown if each["id"]],
+            "folder": folder_name(draft.name) if os.access(self._root, os.W_OK) else None,
+        }
+        urls = [each["url"] for each in shown]
+        self._shown.put(ShownDraft(entry=entry, resources=[*urls, *resources], files=files))
+
+    def _close(self) -> None:
+        self._draft = None
+        self._is_open = False
+        self._files = WorldFiles()
+        self._shown.put(ShownDraft(entry=None, resources=[], files={}))
+
+    def poll(self, simulation: Simulation, edits: ModelEdits) -> list[ShownDraft]:
+        """Put a finished draft into the world; return what is to be shown since the last call."""
+        while (finished := _next(self._finished)) is not None:
+            try:
+                name = self._spawn(finished, simulation, edits)
+            except TrundleError as error:
+                self._respond(finished.request_id, reason_of(error))
+            else:
+                self._submit(finished.request_id, lambda name=name: (self._close(), {"name": name})[1])
+        return list(iter(lambda: _next(self._shown), None))
+
+    def _spawn(self, finished: _Finished, simulation: Simulation, edits: ModelEdits) -> str:
+        """Put a model into the world, in place of the one that it is a copy of; return its name."""
+        there, of = {model.name for model in simulation.models}, finished.of
+        name = free_name(finished.model.name, there - {of})
+        if of is None or of not in there:
+            self._contents.spawn(replace(finished.model, name=name), None)
+            return name
+        edits.handle(DeleteModel(of))
+        try:
+            self._contents.spawn(replace(finished.model, name=name), None)
+        except TrundleError:
+            edits.handle(RestoreModel(of))
+            raise
+        return name
+
+    def close(self) -> None:
+        """Stop after the edit that is being done."""
+        self._thread.shutdown(wait=False, cancel_futures=True)
+
+
+def _edit(draft: Draft, action: DraftAction) -> Part:
+    match action:
+        case SetField(part, field, value):
+            return draft.set(part, field, value)
+        case PlaceLink(part, position, orientation):
+            return draft.place(part, Pose(position, orientation))
+        case AddPart(into, kind, type_):
+            return draft.add(into, kind, type_)
+        case CopyPart(part):
+            return draft.copy(part)
+        case RemovePart(part):
+            return draft.remove(part)
+        case UndoDraft():
+            draft.undo()
+        case RedoDraft():
+            draft.redo()
+        case _:
+            raise UsageError("this is no edit of a model")
+    return ()
+
+
+def _next(waiting: "queue.SimpleQueue[Any]") -> Any:
+    try:
+        return waiting.get_nowait()
+    except queue.Empty:
+        return None

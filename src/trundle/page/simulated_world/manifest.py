@@ -1,0 +1,243 @@
+"""Manifest of a simulated world for the page: docs/decisions/0020."""
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.base.diagnostics import Source
+from trundle.base.xmlnode import XmlNode
+from trundle.robots.model import Collision, Joint, Light, Link, Model, PluginTag, Sensor, World
+from trundle.ros.bridge import link_frames, sensor_topic
+from trundle.sim.sensors import CameraSensor, InstrumentSensor
+from trundle.sim.simulation import Simulation
+from trundle.spatial import Pose, rpy_from_quaternion
+
+from ..scene_settings import scene_settings
+from .body_numbers import BodyNumbers
+from .handling import is_held
+from .sensor_series import SENSOR_VALUES
+
+_IMAGE = "sensor_msgs/Image"
+_Json = dict[str, Any]
+
+
+def world_manifest(
+    simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor], bodies: BodyNumbers
+) -> _Json:
+    """Return the manifest without its generation and files.
+
+    Args:
+        simulation: with its world.
+        sensors: those that measure.
+        bodies: numbers of the links.
+    """
+    world = simulation.world
+    live = {(each.model.name, each.link.name, each.sensor.name): each for each in sensors}
+    indices = joint_rows(simulation)
+    return {
+        "name": world.name,
+        "scene": scene_settings(world),
+        "physics": {"gravity": world.physics.gravity, "wind": world.wind, "step": world.physics.max_step_size_s},
+        "robot": _robot(world, bodies),
+        "models": [
+            _nested(_model(model, bodies, live, indices) | {"held": is_held(simulation, model.name)})
+            for model in world.models
+        ],
+        "plugins": _plugins(world.plugins),
+        "lights": [_light(light, "", None) for light in world.lights]
+        + [
+            _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
+            for model in world.models
+            for link in model.links
+            for light in link.lights
+        ],
+        "cameras": [_camera(sensor, bodies) for sensor in sensors if isinstance(sensor, CameraSensor)],
+        "frames": [
+            {"frame": frame.frame, "parent": frame.parent, "body": bodies[name]}
+            for frame, name in zip(link_frames(world), simulation.engine.compiled.link_names, strict=True)
+        ],
+    }
+
+
+def joint_rows(simulation: Simulation) -> dict[str, int]:
+    """Return the row of each joint with a single axis, `model::joint`, in `trundle/joints`."""
+    compiled = simulation.engine.compiled
+    single = [name for name, axes in zip(compiled.joint_names, compiled.joint_axes, strict=True) if len(axes) == 1]
+    return {name: row for row, name in enumerate(single)}
+
+
+def single_axes(simulation: Simulation) -> NDArray[np.intp]:
+    """Return the index in a snapshot of each joint with a single axis."""
+    axes = enumerate(simulation.engine.compiled.joint_axes)
+    return np.array([joint for joint, each in axes if len(each) == 1], dtype=np.intp)
+
+
+def camera_topic(camera: CameraSensor) -> str:
+    """Return the topic of a camera's picture; without ROS, the one that it would have."""
+    published = (topic for topic, message in camera.topics.items() if message == _IMAGE)
+    part = camera.optics.name
+    own = sensor_topic(camera.model, camera.link.name, camera.sensor, "image_raw", main="image_raw", part=part)
+    return next(published, own)
+
+
+def find_robot(world: World) -> Model | None:
+    """Return the model with most joints that is not static, the first of equals; None if all are static."""
+    return max((m for m in world.models if not m.static and m.links), key=lambda m: len(m.joints), default=None)
+
+
+def _robot(world: World, bodies: BodyNumbers) -> int | None:
+    robot = find_robot(world)
+    return None if robot is None else bodies[f"{robot.name}::{robot.links[0].name}"]
+
+
+_Live = Mapping[tuple[str, str, str], CameraSensor | InstrumentSensor]
+
+
+def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str, int]) -> _Json:
+    return {
+        "name": model.name,
+        "static": model.static,
+        "source": _source(model.at),
+        "links": [_link(model, link, bodies, live) for link in model.links],
+        "joints": [_joint(joint, model, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints],
+        "plugins": _plugins(model.plugins),
+        "models": [],
+    }
+
+
+def _nested(flat: _Json) -> _Json:
+    """Return a model whose links and joints named `inner::name` are in models of their own, as they were written."""
+    own: _Json = flat | {"links": [], "joints": []}
+    inner: dict[str, _Json] = {}
+    for kind in ("links", "joints"):
+        for part in flat[kind]:
+            scope, separator, name = part["name"].partition("::")
+            if not separator:
+                own[kind].append(part)
+                continue
+            empty = {"held": False, "links": [], "joints": [], "plugins": [], "models": []}
+            model = inner.setdefault(scope, {"name": scope, "static": flat["static"], "source": None} | empty)
+            ends = {end: part[end].removeprefix(f"{scope}::") for end in ("parent", "child") if end in part}
+            model[kind].append(part | {"name": name} | ends)
+    return own | {"models": [_nested(model) for model in inner.values()]}
+
+
+def _link(model: Model, link: Link, bodies: BodyNumbers, live: _Live) -> _Json:
+    inertial = link.inertial
+    on_joints = (sensor for joint in model.joints if joint.child == link.name for sensor in joint.sensors)
+    return {
+        "name": link.name,
+        "body": bodies[f"{model.name}::{link.name}"],
+        "mass": inertial.mass,
+        "inertia": [*inertial.moments, *inertial.products],
+        "inertial_pose": _six(inertial.link_from_com),
+        "friction": _friction(link.collisions),
+        "source": _source(link.at),
+        "sensors": [
+            _sensor(sensor, live.get((model.name, link.name, sensor.name))) for sensor in (*link.sensors, *on_joints)
+        ],
+    }
+
+
+def _sensor(sensor: Sensor, live: CameraSensor | InstrumentSensor | None) -> _Json:
+    if isinstance(live, CameraSensor):
+        topic = camera_topic(live)
+    else:
+        topic = None if live is None else next(iter(live.topics), None)
+    return {
+        "name": sensor.name,
+        "type": sensor.type,
+        "rate": sensor.update_rate_hz if live is None else live.rate_hz,
+        "topic": topic,
+        "series": list(SENSOR_VALUES.get(sensor.type, ())),
+        "source": _source(sensor.at),
+        "plugins": _plugins(sensor.plugins),
+    }
+
+
+def _plugins(tags: Iterable[PluginTag]) -> list[_Json]:
+    """Return plugins under names of their own: the second `drive` is `drive (2)`."""
+    counts = Counter[str]()
+    found: list[_Json] = []
+    for tag in tags:
+        counts[tag.name] += 1
+        found.append(
+            {
+                "name": tag.name if counts[tag.name] == 1 else f"{tag.name} ({counts[tag.name]})",
+                "filename": tag.filename,
+                "source": _source(tag.at),
+                "parameters": list(_parameters(tag.node)),
+            }
+        )
+    return found
+
+
+def _parameters(node: XmlNode, path: str = "") -> Iterator[tuple[str, str]]:
+    """Yield path (`noise/stddev`) and text of each element below a plugin's that has text or no children."""
+    for child in node.children:
+        name = f"{path}{child.tag}"
+        if child.text or not child.children:
+            yield name, child.text
+        yield from _parameters(child, f"{name}/")
+
+
+def _friction(collisions: Iterable[Collision]) -> list[float] | None:
+    first = next(iter(collisions), None)
+    return None if first is None else [first.surface.mu, first.surface.mu2]
+
+
+def _joint(joint: Joint, model: Model, index: int | None) -> _Json:
+    axis = joint.axis
+    child = next((link.model_from_link for link in model.links if link.name == joint.child), Pose())
+    return {
+        "name": joint.name,
+        "type": joint.type.value,
+        "parent": joint.parent,
+        "child": joint.child,
+        "lower": axis.lower if axis is not None and math.isfinite(axis.lower) else None,
+        "upper": axis.upper if axis is not None and math.isfinite(axis.upper) else None,
+        "pose": _six(joint.child_from_joint),
+        "axes": [child.inverse().transform_vector(each.direction) for each in (axis, joint.axis2) if each is not None],
+        "index": index,
+        "source": _source(joint.at),
+    }
+
+
+def _light(light: Light, prefix: str, body: int | None) -> _Json:
+    return {
+        "name": f"{prefix}{light.name}",
+        "type": light.type,
+        "body": body,
+        "pose": _six(light.world_from_light),
+        "direction": light.direction,
+        "diffuse": light.diffuse[:3],
+        "intensity": light.intensity,
+    }
+
+
+def _camera(camera: CameraSensor, bodies: BodyNumbers) -> _Json:
+    lens = camera.intrinsics
+    return {
+        "name": camera.name,
+        "topic": camera_topic(camera),
+        "body": bodies[f"{camera.model.name}::{camera.link.name}"],
+        "pose": _six(camera.link_from_camera),
+        "horizontal_fov": lens.horizontal_fov_rad,
+        "width": lens.width_px,
+        "height": lens.height_px,
+        "near": camera.optics.near_m,
+        "far": camera.optics.far_m,
+        "rate": camera.rate_hz,
+    }
+
+
+def _six(pose: Pose) -> list[float]:
+    return [*pose.position, *rpy_from_quaternion(pose.quaternion)]
+
+
+def _source(at: Source) -> str | None:
+    return None if at.line is None else str(at)

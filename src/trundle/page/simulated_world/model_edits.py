@@ -1,0 +1,142 @@
+"""Copies, deletions and resets of whole models, with their sensors and plugins; all can be undone."""
+
+from collections import deque
+from typing import TypeVar
+
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import UsageError
+from trundle.page import (
+    CopyModel,
+    DeleteLight,
+    DeleteModel,
+    ModelAction,
+    ResetModel,
+    RestoreLight,
+    RestoreModel,
+    UndoReset,
+)
+from trundle.robots.model import Light
+from trundle.robots.robot import Robot
+from trundle.sim.simulation import ModelHandle, Simulation
+from trundle.sim.timeline import SavedObjects, save_plugins
+
+from ..world_contents import Do, WorldContents
+from .edits import find_model
+from .saved_model import SavedModel, saved_model
+
+_Value = TypeVar("_Value")
+_MAX_KEPT = 200
+"""Deleted models, deleted lights and states before resets that are kept: as many as edits that can be undone."""
+_MAX_BYTES = 64 * 1024 * 1024
+"""Memory of what plugins remembered before resets."""
+
+
+class ModelEdits:
+    """Copies, deletes and resets models and lights of one simulation."""
+
+    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do) -> None:
+        """Prepare.
+
+        Args:
+            simulation: the running one.
+            contents: adds and removes models with what belongs to them.
+            do: gives the simulation a command that a timeline can repeat.
+        """
+        self._simulation, self._contents, self._do = simulation, contents, do
+        self._models: dict[str, tuple[SavedModel, Robot | None]] = {}
+        self._lights: dict[str, Light] = {}
+        self._before_resets: deque[tuple[SavedModel, SavedObjects]] = deque(maxlen=_MAX_KEPT)
+        """Models, and the state of their plugins."""
+
+    def handle(self, action: ModelAction) -> None:
+        """Do what a person asks for.
+
+        Raises:
+            TrundleError: it cannot be done.
+        """
+        match action:
+            case CopyModel(name, new, offset):
+                model = find_model(self._simulation, name)
+                self._spawn(saved_model(self._simulation, model).copy(new, offset), self._contents.robot(model.name))
+            case DeleteModel(name):
+                self._delete(find_model(self._simulation, name).name)
+            case RestoreModel(name):
+                if name not in self._models:
+                    raise UsageError(f"the page has deleted no model {name!r}")
+                self._spawn(*self._models[name])
+            case ResetModel(name):
+                self._reset(find_model(self._simulation, name))
+            case UndoReset(name):
+                self._undo_reset(find_model(self._simulation, name))
+            case DeleteLight(name):
+                self._delete_light(name)
+            case RestoreLight(name):
+                self._restore_light(name)
+
+    def _spawn(self, saved: SavedModel, robot: Robot | None) -> None:
+        self._contents.spawn(saved.model, robot)
+        self._do(saved.apply)
+
+    def _delete(self, name: str) -> None:
+        saved = saved_model(self._simulation, self._simulation[name]), self._contents.robot(name)
+        self._contents.delete(name)
+        _remember(self._models, name, saved)
+
+    def _reset(self, model: ModelHandle) -> None:
+        plugins = save_plugins(self._simulation.reset_calls(model))
+        kept = self._before_resets
+        kept.append((saved_model(self._simulation, model), plugins))
+        while len(kept) > 1 and sum(each.size for _, each in kept) > _MAX_BYTES:
+            kept.popleft()
+        self._do(lambda sim: sim[model.name].reset())
+
+    def _undo_reset(self, model: ModelHandle) -> None:
+        before = next((each for each in reversed(self._before_resets) if each[0].model.name == model.name), None)
+        if before is None:
+            raise UsageError(f"the page has not reset model {model.name!r}, or too long ago")
+        saved, plugins = before
+        if not saved.fits(model):
+            raise UsageError(f"model {model.name!r} has other links or joints now than when it was reset")
+        self._before_resets.remove(before)
+
+        def undo(simulation: Simulation) -> None:
+            saved.apply(simulation)
+            plugins.restore()
+
+        self._do(undo)
+
+    def _delete_light(self, name: str) -> None:
+        lights = {light.name: light for light in self._simulation.world.lights}
+        if name not in lights:
+            raise UsageError(f"the world has no light {name!r}; it has: {', '.join(map(repr, lights)) or 'none'}")
+
+        def delete(sim: Simulation) -> None:
+            sim.edit(replace(sim.world, lights=tuple(each for each in sim.world.lights if each.name != name)))
+
+        self._do(delete)
+        _remember(self._lights, name, lights[name])
+
+    def _restore_light(self, name: str) -> None:
+        if name not in self._lights:
+            raise UsageError(f"the page has deleted no light {name!r}")
+        add_light(self._lights[name], self._simulation, self._do)
+
+
+def add_light(light: Light, simulation: Simulation, do: Do) -> None:
+    """Add a light to the world itself.
+
+    Raises:
+        UsageError: its name is taken.
+    """
+    if any(each.name == light.name for each in simulation.world.lights):
+        raise UsageError(f"there is a light {light.name!r} already")
+    do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, light))))
+
+
+def _remember(kept: dict[str, _Value], name: str, value: _Value) -> None:
+    """Keep a value as the newest one, and drop the oldest beyond the limit."""
+    kept.pop(name, None)
+    kept[name] = value
+    if len(kept) > _MAX_KEPT:
+        del kept[next(iter(kept))]

@@ -1,0 +1,29 @@
+"""Saving of a draft as a folder with model.sdf and model.config, below the folder where the simulation was started.
+
+Uploaded models whose files it needs are copied beside that folder.
+"""
+
+from pathlib import Path
+
+from trundle.base.output_folder import find_target, save_files
+from trundle.page import SaveDraft
+from trundle.robots.description import move_uris
+from trundle.robots.packages import Packages
+
+from ..model_editor.draft import Draft
+from ..model_editor.model_files import model_config, target_files
+from .uploaded_files import copies, needed_uploads, with_uploads_named
+
+
+def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages) -> dict[str, object]:
+    """Write a draft; return its folder as `file`, or the files in the way as `exists`.
+
+    Raises:
+        UsageError: the name leads elsewhere, or the files cannot be written.
+    """
+    folder = find_target(root, request.folder, example="models/cart")
+    text = with_uploads_named(move_uris(draft.text, here=root, there=folder, packages=packages), packages)
+    own = dict(zip(target_files(folder), (text, model_config(text, draft.name)), strict=True))
+    files = {**copies(needed_uploads(text, packages), folder.parent), **own}
+    exists = save_files(root, files, replace=request.replace)
+    return {"file": request.folder} if exists is None else {"exists": exists}

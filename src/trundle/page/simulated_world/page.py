@@ -1,0 +1,259 @@
+"""Page of a running simulation: its life, and the requests of those who look at it."""
+
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Self
+
+from trundle.base.diagnostics import TrundleError, UsageError
+from trundle.page import (
+    POSES,
+    BeginDraft,
+    DraftAction,
+    InsertAction,
+    ModelAction,
+    Play,
+    Reload,
+    RenderModel,
+    RenderView,
+    Request,
+    Reset,
+    RunTo,
+    SaveReplay,
+    SaveWorld,
+    Step,
+)
+from trundle.ros import Node
+from trundle.ros.bridge import WORLD_FRAME
+from trundle.sim.realtime_pacer import RealtimePacer
+from trundle.sim.sensors import CameraSensor, InstrumentSensor
+from trundle.sim.simulation import Simulation
+from trundle.sim.timeline import Timeline
+
+from ..shared_page import SharedPage
+from ..world_contents import BareContents, WorldContents
+from .code_consent import CodeConsent
+from .controls import Recorder, SimulationControls, reason_of
+from .current_world import current_world
+from .drafting import Drafting
+from .insertion import Insertion
+from .model_edits import ModelEdits
+from .model_pictures import ModelPictures
+from .performance import PerformanceStream
+from .pictures import WorldPictures
+from .pose_history import ReplaySaver
+from .titles import page_names
+from .world_saver import WorldSaver
+from .world_streams import WorldStreams
+
+_WARNING = "simulation"
+
+
+class SimulationPage:
+    """Page of one simulation; belongs to the simulation's thread, and never waits for a browser."""
+
+    def __init__(
+        self,
+        page: SharedPage,
+        simulation: Simulation,
+        sensors: Sequence[CameraSensor | InstrumentSensor],
+        *,
+        node: Node | None = None,
+        recorder: Recorder | None = None,
+        timeline: Timeline | None = None,
+        contents: WorldContents | None = None,
+        wall_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        """Serve the page, and show a simulation there.
+
+        Args:
+            page: which windows of the graph may share.
+            simulation: the running one.
+            sensors: those that measure; cameras and rays are drawn.
+            node: publishes the stop of a robot that is driven when the page's server dies.
+            recorder: records the run; None: it cannot be recorded.
+            timeline: of the run; None: it cannot go back.
+            contents: adds models with their sensors and plugins; None: those without can be inserted.
+            wall_ns: the wall clock [ns].
+
+        Raises:
+            UsageError: the port is taken.
+        """
+        self.on_reload: Callable[[], None] | None = None
+        """Loads the world again, and calls `show`; None: it cannot be."""
+        self._page = page
+        self._wall_ns = wall_ns
+        self._warning: str | None = None
+        source = Path(simulation.world.at.file)
+        if page.session.rviz is None and page.session.fixed_frame is None:
+            page.change(fixed_frame=WORLD_FRAME)
+        self._set_titles(simulation)
+        self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
+        here = Path.cwd()
+        self._contents = BareContents(self._do) if contents is None else contents
+        packages = self._contents.packages
+        self._replays = ReplaySaver(self._server.respond)
+        self._saver = WorldSaver(self._server.respond, packages, here)
+        self._model_pictures = ModelPictures(self._respond_picture, packages)
+        self._streams = WorldStreams(
+            self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
+        )
+        self._consent = CodeConsent(self._contents.environment)
+        self._drafting = Drafting(self._server.respond, self._contents, here, self._consent)
+        self._pictures = WorldPictures(self._server.respond_picture)
+        self._performance = PerformanceStream(self._server)
+        self._set_simulation(simulation, sensors, node, recorder, timeline)
+
+    @property
+    def is_seen(self) -> bool:
+        """True while a browser draws the world."""
+        return self._server.is_watched(POSES)
+
+    def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
+        """Set the sensors that measure after models came or went."""
+        self._streams.set_sensors(sensors)
+
+    def show(
+        self,
+        simulation: Simulation,
+        sensors: Sequence[CameraSensor | InstrumentSensor],
+        *,
+        node: Node | None,
+        recorder: Recorder | None,
+        timeline: Timeline | None = None,
+    ) -> None:
+        """Show another simulation in place of the one before; arguments are those of the constructor."""
+        self._set_titles(simulation)
+        self._server.set_node(node)
+        self._set_simulation(simulation, sensors, node, recorder, timeline)
+
+    def _set_simulation(
+        self,
+        simulation: Simulation,
+        sensors: Sequence[CameraSensor | InstrumentSensor],
+        node: Node | None,
+        recorder: Recorder | None,
+        timeline: Timeline | None,
+    ) -> None:
+        self._simulation = simulation
+        self._controls = SimulationControls(simulation, recorder, timeline, wall_ns=self._wall_ns)
+        self._insertion = Insertion(simulation, self._contents, self._do, self._consent)
+        self._model_edits = ModelEdits(simulation, self._contents, self._do)
+        self._streams.show(simulation, sensors, recorder, timeline)
+        self._performance.show(simulation, node)
+
+    def _do(self, command: Callable[[Simulation], None]) -> None:
+        self._controls.do(command)
+
+    def _set_titles(self, simulation: Simulation) -> None:
+        title, robot = page_names(simulation.world)
+        self._page.change(kind="simulation", title=title, robot=robot)
+
+    def warn(self, text: str | None) -> None:
+        """Show a sentence until a person plays, steps, resets or reloads; None: end it."""
+        if text != self._warning:
+            self._warning = text
+            self._server.set_notice(_WARNING, text)
+
+    def end_recording(self) -> None:
+        """End the recording that a person at the page has begun."""
+        if self._controls.recorder is not None:
+            self._controls.recorder.set(False)
+
+    def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
+        """Send the page what is due: poses and lines at 30 Hz, joints and the clock at 10 Hz, if they are watched."""
+        self._streams.update(pacer, paused=paused, at_once=at_once)
+        self._page.show_findings(self._simulation.report)
+        self._performance.end_page(paused=paused)
+
+    def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
+        """Handle the requests since the last call; return True if the simulation is paused now."""
+        self._performance.begin_page()
+        requests = self._page.requests(of_world=True)
+        if self._server.uploads is not None:
+            self._contents.packages.add_models(self._server.uploads)
+        for request in requests:
+            if isinstance(request.action, RenderView):
+                self._draw(request.id, request.action)
+                continue
+            if isinstance(request.action, RenderModel):
+                self._model_pictures.draw(request.id, request.action)
+                continue
+            if isinstance(request.action, Play | Step | RunTo | Reset | Reload):
+                self.warn(None)
+            try:
+                paused = self._handle(request, pacer, paused=paused)
+            except TrundleError as error:
+                self._server.respond(request.id, reason_of(error))
+        self._show_draft()
+        if self._saver.poll_newest():
+            self._streams.show_offered_file()
+        self._controls.let_lapsed_go()
+        if self._controls.step(pacer) or requests:
+            self.update(pacer, paused=paused, at_once=True)
+        return paused
+
+    def _handle(self, request: Request, pacer: RealtimePacer, *, paused: bool) -> bool:
+        """Handle one request; return True if the simulation is paused now."""
+        if isinstance(request.action, SaveWorld):
+            world = current_world(self._simulation)
+            self._saver.save(request.id, request.action, world, self._simulation.seed)
+            return paused
+        if isinstance(request.action, SaveReplay):
+            world, title = self._simulation.world, self._page.session.title
+            self._replays.save(request.id, request.action, lambda: self._streams.history.motion(world, title))
+            return paused
+        if isinstance(request.action, InsertAction):
+            self._server.respond(request.id, **self._insertion.handle(request.action))
+            pacer.restart()
+            return paused
+        if isinstance(request.action, DraftAction):
+            self._drafting.handle(request.id, request.action, self._simulation)
+            return paused or isinstance(request.action, BeginDraft)
+        if isinstance(request.action, Play | Step | RunTo) and self._drafting.is_open:
+            raise UsageError("time stands still while a model is edited: finish or leave it first")
+        if isinstance(request.action, ModelAction):
+            self._model_edits.handle(request.action)
+            pacer.restart()
+        elif isinstance(request.action, Reload) and self.on_reload is not None:
+            self.on_reload()
+            pacer.restart()
+        else:
+            paused = self._controls.handle(request.action, pacer, paused=paused)
+        self._server.respond(request.id)
+        return paused
+
+    def _show_draft(self) -> None:
+        """Show the draft's edits since the last call."""
+        for draft in self._drafting.poll(self._simulation, self._model_edits):
+            self._streams.show_draft(draft)
+
+    def _respond_picture(self, request_id: int, drawn: bytes | str) -> None:
+        """Answer with a picture, or with the reason why there is none."""
+        if isinstance(drawn, str):
+            self._server.respond(request_id, drawn)
+        else:
+            self._server.respond_picture(request_id, drawn)
+
+    def _draw(self, request_id: int, view: RenderView) -> None:
+        """Draw a picture around the robot, or the origin."""
+        simulation = self._simulation
+        states = {name: simulation.animation_state(name) for name in simulation.actors}
+        self._pictures.draw(request_id, view, simulation.world, simulation.snapshot().poses, states)
+
+    def close(self) -> None:
+        """Close the page."""
+        self._streams.close()
+        self._performance.close()
+        self._pictures.close()
+        self._saver.close()
+        self._replays.close()
+        self._drafting.close()
+        self._model_pictures.close()
+        self._page.release(shows_world=True)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,95 @@
+"""Thread that makes the page's files of a world, so that the simulation goes on meanwhile."""
+
+import queue
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from msgspec import Struct
+
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.model import World
+
+from .world_files import WorldFiles
+
+_Manifest = dict[str, Any]
+
+
+class BuiltWorld(Struct, frozen=True, kw_only=True):
+    """World that the page can show."""
+
+    manifest: _Manifest
+    files: dict[str, bytes]
+    """URL → content, of new files."""
+    report: Diagnostics
+    """Shapes that are not drawn."""
+
+
+class _Job(Struct, frozen=True, kw_only=True):
+    world: World
+    manifest: _Manifest
+    """Without its files."""
+    bodies: dict[str, int]
+
+
+class WorldBuilder:
+    """Builds the newest world that was asked for; worlds that came and went meanwhile are skipped."""
+
+    def __init__(self) -> None:
+        self._files = WorldFiles()
+        self._jobs: queue.SimpleQueue[_Job | None] = queue.SimpleQueue()
+        self._built: queue.SimpleQueue[BuiltWorld | Exception] = queue.SimpleQueue()
+        self._thread = threading.Thread(target=self._run, name="trundle-page-world", daemon=True)
+        self._thread.start()
+
+    def build(self, world: World, manifest: _Manifest, bodies: dict[str, int]) -> None:
+        """Ask for a world's files; returns at once.
+
+        Args:
+            world: flat.
+            manifest: of the world, without its files.
+            bodies: number of each link, `model::link`.
+        """
+        self._jobs.put(_Job(world=world, manifest=manifest, bodies=bodies))
+
+    def poll(self) -> BuiltWorld | None:
+        """Return the next world that is ready."""
+        try:
+            built = self._built.get_nowait()
+        except queue.Empty:
+            return None
+        if isinstance(built, Exception):
+            raise built
+        return built
+
+    def wait(self) -> BuiltWorld:
+        """Return the next world, once it is ready."""
+        built = self._built.get()
+        if isinstance(built, Exception):
+            raise built
+        return built
+
+    def close(self) -> None:
+        """Stop after the world in the making."""
+        self._jobs.put(None)
+
+    def _run(self) -> None:
+        while (job := newest(self._jobs.get, self._jobs.get_nowait)) is not None:
+            report = Diagnostics()
+            try:
+                entries, files = self._files.update(job.world, job.bodies.__getitem__, report)
+            except Exception as error:  # raised again by `poll`, on the owner's thread
+                self._built.put(error)
+                return
+            self._built.put(BuiltWorld(manifest=job.manifest | entries, files=files, report=report))
+
+
+def newest(first: Callable[[], _Job | None], more: Callable[[], _Job | None]) -> _Job | None:
+    """Return the last job that waits, after waiting for the first; None ends the thread at once."""
+    job = first()
+    while job is not None:
+        try:
+            job = more()
+        except queue.Empty:
+            break
+    return job

@@ -1,0 +1,214 @@
+"""Streams of a simulated world to its page: the world itself, poses, lines, joints, the clock and camera pictures."""
+
+import time
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from msgspec import UNSET
+from numpy.typing import NDArray
+
+from trundle.page import CONTACTS, JOINTS, LINES, POSES, RANGES, ClockState, PageServer, Recording, TimelineSpan
+from trundle.robots.model import World
+from trundle.sim.realtime_pacer import RealtimePacer
+from trundle.sim.sensors import CameraReading, CameraSensor, InstrumentSensor
+from trundle.sim.simulation import Simulation, Snapshot
+from trundle.sim.timeline import Timeline
+
+from ..actor_bones import ActorBones
+from ..ray_overlay import RayOverlay
+from .body_numbers import BodyNumbers
+from .contact_rows import ContactRows
+from .controls import Recorder
+from .drafting import ShownDraft
+from .lines import plugin_lines
+from .manifest import camera_topic, single_axes, world_manifest
+from .missing_meshes import missing_meshes
+from .pose_history import PoseHistory
+from .series_sampler import SeriesSampler
+from .world_builder import BuiltWorld, WorldBuilder
+
+_MESHES = "meshes"
+"""Notice of the page."""
+_FRAME_NS = 33_000_000
+"""Period of poses and lines, in wall time [ns]."""
+_SLOW_NS = 3 * _FRAME_NS
+"""Period of joints and the clock [ns]."""
+
+
+class WorldStreams:
+    """Sends the page what is watched; belongs to the simulation's thread."""
+
+    def __init__(
+        self,
+        server: PageServer,
+        *,
+        has_graph: bool,
+        offered_file: Callable[[World], str | None],
+        wall_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        """Prepare; `show` sets the simulation.
+
+        Args:
+            server: the page's.
+            has_graph: True if the page's server gets pictures from the ROS graph.
+            offered_file: returns the path to save a world at; None: it cannot be written.
+            wall_ns: the wall clock [ns].
+        """
+        self._server = server
+        self._has_graph = has_graph
+        self._offered_file = offered_file
+        self._wall_ns = wall_ns
+        self._rays = RayOverlay(lambda: server.is_watched(LINES))
+        self._ranges = RayOverlay(lambda: server.is_watched(RANGES), of_all=True)
+        self._series = SeriesSampler(server)
+        self.history = PoseHistory()
+        """Poses of the last minutes."""
+        self._bodies = BodyNumbers()
+        self._builder = WorldBuilder()
+        self._generation = server.generation
+        self._cameras: set[CameraSensor] = set()
+        """Cameras whose pictures go to the page from here."""
+        self._built: BuiltWorld | None = None
+        """World that the page has."""
+        self._draft = ShownDraft(entry=None, resources=[], files={})
+        self._frame_due_ns = self._slow_due_ns = 0
+        self._state: ClockState | None = None
+        self._missing: str | None = None
+        self._shown_world: World | None = None
+        """World of the manifest; None: it is to be sent again."""
+
+    def show(
+        self,
+        simulation: Simulation,
+        sensors: Sequence[CameraSensor | InstrumentSensor],
+        recorder: Recorder | None,
+        timeline: Timeline | None,
+    ) -> None:
+        """Show a simulation; arguments are those of `SimulationPage`."""
+        self._simulation = simulation
+        self._sensors = sensors
+        self._recorder = recorder
+        self._timeline = timeline
+        self._show_world()
+
+    def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
+        """Set the sensors that measure after models came or went."""
+        self._sensors = sensors
+        self._shown_world = None
+
+    def _show_world(self) -> None:
+        """Show the world again after models came, went or changed; its files are made meanwhile."""
+        simulation = self._simulation
+        self._shown_world = simulation.world
+        there = {model.name for model in simulation.models}
+        sensors = [sensor for sensor in self._sensors if sensor.model.name in there]
+        simulation.lines_are_shown = True
+        self._bones = ActorBones(simulation.world)
+        bodies = (*simulation.engine.compiled.link_names, *self._bones.names)
+        self._bodies.update(bodies)
+        self._axes = single_axes(simulation)
+        self._generation += 1
+        manifest = world_manifest(simulation, sensors, self._bodies)
+        manifest |= {"generation": self._generation, "file": self._offered_file(simulation.world)}
+        self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
+        self._set_missing(missing_meshes(simulation.world))
+        self._rays.set_sensors(sensors)
+        self._ranges.set_sensors(sensors)
+        self._contacts = ContactRows(simulation, self._bodies)
+        self._series.show(simulation, sensors)
+        self.history.clear()
+        if not self._has_graph:
+            self._listen([sensor for sensor in sensors if isinstance(sensor, CameraSensor)])
+
+    def _set_missing(self, meshes: str | None) -> None:
+        if meshes != self._missing:
+            self._missing = meshes
+            self._server.set_notice(_MESHES, meshes)
+
+    def _listen(self, cameras: list[CameraSensor]) -> None:
+        for camera in cameras:
+            if camera not in self._cameras:
+                topic = camera_topic(camera)
+                camera.listen(partial(self._put_image, topic), enabled=partial(self._server.is_watched, topic))
+        self._cameras = set(cameras)
+
+    def _put_image(self, topic: str, reading: CameraReading) -> None:
+        self._server.put_image(topic, reading.time_ns, reading.rgb)
+
+    def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
+        """Send the page what is due: poses, lines and contacts at 30 Hz, joints and clock at 10 Hz, if watched."""
+        self._series.sample(paused=paused)
+        now = self._wall_ns()
+        if now < self._frame_due_ns and not at_once:
+            return
+        self._frame_due_ns = now + _FRAME_NS
+        if self._simulation.world is not self._shown_world:
+            self._show_world()
+        self._publish_world()
+        self._series.put()
+        snapshot = self._simulation.snapshot()
+        server, time_ns = self._server, snapshot.time_ns
+        poses = self._bones.with_bones(snapshot.poses, self._simulation.animation_state)
+        self.history.add(time_ns, poses, paused=paused)
+        if server.is_watched(POSES):
+            server.put_poses(time_ns, self._bodies.rows(poses))
+        if server.is_watched(LINES):
+            server.put_lines(time_ns, [*plugin_lines(self._simulation), *self._rays.lines(snapshot)])
+        if server.is_watched(RANGES):
+            server.put_ranges(time_ns, self._ranges.lines(snapshot))
+        if server.is_watched(CONTACTS):
+            server.put_contacts(time_ns, self._contacts.read())
+        if now < self._slow_due_ns and not at_once:
+            return
+        self._slow_due_ns = now + _SLOW_NS
+        if server.is_watched(JOINTS):
+            server.put_joints(time_ns, self._joint_rows(snapshot))
+        self._put_state(time_ns, pacer, paused=paused)
+
+    def _publish_world(self) -> None:
+        while (built := self._builder.poll()) is not None:
+            self._simulation.report.extend(built.report.findings)
+            self._built = built
+            self._server.set_world(self._with_draft(built), built.files)
+
+    def show_draft(self, draft: ShownDraft) -> None:
+        """Show a model that is edited, beside the world."""
+        self._draft = draft
+        if self._built is not None:
+            self._server.set_world(self._with_draft(self._built), draft.files)
+
+    def show_offered_file(self) -> None:
+        """Offer another file to save the world at."""
+        if self._built is not None:
+            self._built.manifest["file"] = self._offered_file(self._simulation.world)
+            self._server.set_world(self._with_draft(self._built), {})
+
+    def _with_draft(self, built: BuiltWorld) -> dict[str, Any]:
+        """Return a manifest with the draft, whose files stay as long as it is there."""
+        resources = [*built.manifest["resources"], *self._draft.resources]
+        return built.manifest | {"draft": self._draft.entry, "resources": resources}
+
+    def _joint_rows(self, snapshot: Snapshot) -> NDArray[np.float64]:
+        columns = (snapshot.joint_positions, snapshot.joint_velocities, snapshot.joint_efforts)
+        return np.stack([column[self._axes] for column in columns], axis=-1)
+
+    def _put_state(self, time_ns: int, pacer: RealtimePacer, *, paused: bool) -> None:
+        recorder, timeline = self._recorder, self._timeline
+        since_ns = None if recorder is None else recorder.since_ns
+        state = ClockState(
+            time_ns=time_ns,
+            paused=paused,
+            real_time_factor=None if paused else pacer.real_time_factor,
+            speed=pacer.speed,
+            timeline=UNSET if timeline is None else TimelineSpan(timeline.start_ns, timeline.end_ns),
+            recording=UNSET if recorder is None else None if since_ns is None else Recording(since_ns),
+        )
+        if state != self._state:
+            self._state = state
+            self._server.put_state(state)
+
+    def close(self) -> None:
+        """End the thread that makes files."""
+        self._builder.close()

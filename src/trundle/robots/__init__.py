@@ -1,0 +1,1 @@
+"""Robot and world files, and what they name: read into structures."""

@@ -1,0 +1,49 @@
+"""Sorts names of packages by where they come from."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from trundle.robots.packages import STOCK, Packages
+from trundle.robots.repositories import Checkout, Index, python_library
+
+from .built_in import BUILT_IN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FetchPlan:
+    """Sources of some packages; each list is in the order of the names."""
+
+    checkouts: dict[Checkout, list[str]] = field(default_factory=dict[Checkout, list[str]])
+    """Repository → the packages wanted of it."""
+    present: list[str] = field(default_factory=list[str])
+    """Packages that are here already."""
+    built_in: list[str] = field(default_factory=list[str])
+    """Packages whose work Trundle does itself."""
+    python_libraries: list[str] = field(default_factory=list[str])
+    """PyPI's names."""
+    unknown: list[str] = field(default_factory=list[str])
+    """Names that neither the index nor PyPI has: mostly libraries of the system."""
+
+
+def plan_fetch(names: Iterable[str], *, packages: Packages, index: Index, distro: str) -> FetchPlan:
+    """Sort names of packages, as package.xml and apt give them.
+
+    Args:
+        names: of packages and system libraries.
+        packages: those that are here.
+        index: of published packages.
+        distro: whose branches are preferred.
+    """
+    plan = FetchPlan()
+    for name in dict.fromkeys(names):
+        if name in BUILT_IN or name in STOCK:
+            plan.built_in.append(name)
+        elif packages.find_package(name) is not None:
+            plan.present.append(name)
+        elif (checkout := index.find(name, distro)) is not None:
+            plan.checkouts.setdefault(checkout, []).append(name)
+        elif (library := python_library(name)) is not None:
+            plan.python_libraries.append(library)
+        else:
+            plan.unknown.append(name)
+    return plan

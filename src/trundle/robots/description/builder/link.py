@@ -1,0 +1,139 @@
+"""Builder of a link: shapes, sensors and mass."""
+
+from typing import Self
+
+from trundle.base.diagnostics import UsageError
+from trundle.robots import model
+from trundle.robots.model import Collision, Inertial, Sensor, Visual
+from trundle.spatial import Pose, Vector3
+
+from ..inertia_sum import rotate_inertia, sum_inertias
+from .names import BUILT, check_name, check_positive
+from .sensors import SensorSettings, make_sensor
+from .shapes import Shape, ShapeAdder
+
+_ORIGIN = Pose()
+
+
+class Link(ShapeAdder["Link"]):
+    """Rigid body with the mass properties of its shapes, or of `set_inertial`.
+
+    Without either they are SDF's defaults, 1 kg and 1 kg·m². Poses of shapes and sensors are in its frame.
+    """
+
+    def __init__(self, name: str, pose: Pose) -> None:
+        """Create an empty link; called by `Model.add_link`."""
+        self.name = name
+        self.pose = pose
+        """Pose in the model's frame."""
+        self._shapes: list[Shape] = []
+        self._sensors: list[Sensor] = []
+        self._inertial: Inertial | None = None
+
+    def set_inertial(
+        self,
+        mass: float,
+        moments: Vector3,
+        *,
+        products: Vector3 = (0.0, 0.0, 0.0),
+        center: Vector3 = (0.0, 0.0, 0.0),
+    ) -> Self:
+        """Set the mass properties, in place of those of the shapes.
+
+        Args:
+            mass: [kg]
+            moments: ixx, iyy, izz about the centre of mass, along the link's axes [kg·m²].
+            products: ixy, ixz, iyz [kg·m²].
+            center: centre of mass in the link's frame [m].
+
+        Raises:
+            UsageError: the mass or a moment is not above zero.
+        """
+        check_positive(f"mass and moments of link {self.name!r}", mass, *moments)
+        self._inertial = Inertial(mass=mass, link_from_com=Pose(center), moments=moments, products=products)
+        return self
+
+    def add_sensor(
+        self,
+        name: str,
+        type: str,
+        settings: SensorSettings | None = None,
+        *,
+        pose: Pose = _ORIGIN,
+        update_rate: float = 0.0,
+        always_on: bool = False,
+        visualize: bool = False,
+        topic: str = "",
+    ) -> Self:
+        """Mount a sensor.
+
+        Args:
+            name: of the sensor.
+            type: SDF's: camera, depth_camera, ray, imu, contact, gps, altimeter, …
+            settings: of its type, from `trundle.robots.model`: `CameraOptics`, `RangeScan`, …; None: SDF's own.
+            pose: in the link's frame.
+            update_rate: [Hz]; 0: at every step.
+            always_on: keep the schedule of readings without listeners.
+            visualize: show its rays.
+            topic: to publish on; empty: Gazebo's name.
+
+        Raises:
+            UsageError: there is no such type, its settings are of another kind, or the name is taken.
+        """
+        check_name(name, self._sensors, f"link {self.name!r}")
+        if type == "force_torque":
+            raise UsageError(f"sensor {name!r}: force_torque sensors sit on joints; add it to one")
+        self._sensors.append(
+            make_sensor(
+                name,
+                type,
+                settings,
+                pose=pose,
+                update_rate=update_rate,
+                always_on=always_on,
+                visualize=visualize,
+                topic=topic,
+            )
+        )
+        return self
+
+    def add_shape(self, shape: Shape) -> "Link":
+        """Add a shape to the link."""
+        check_name(shape.name, self._shapes, f"link {self.name!r}")
+        self._shapes.append(shape)
+        return self
+
+    def description(self) -> model.Link:
+        """Return the description, as a reader would."""
+        return model.Link(
+            name=self.name,
+            at=BUILT,
+            model_from_link=self.pose,
+            inertial=self._inertial or self._inertial_of_shapes(),
+            visuals=tuple(
+                Visual(name=s.name, geometry=s.geometry, at=BUILT, link_from_visual=s.pose, material=s.material)
+                for s in self._shapes
+                if s.visual
+            ),
+            collisions=tuple(
+                Collision(name=s.name, geometry=s.geometry, at=BUILT, link_from_collision=s.pose, surface=s.surface)
+                for s in self._shapes
+                if s.collision
+            ),
+            sensors=tuple(self._sensors),
+        )
+
+    def _inertial_of_shapes(self) -> Inertial:
+        if not self._shapes:
+            return Inertial()
+        mass, center, (xx, yy, zz, xy, xz, yz) = sum_inertias(
+            [
+                (s.mass, s.pose.transform_point(s.center), rotate_inertia(s.inertia, s.pose.quaternion))
+                for s in self._shapes
+            ]
+        )
+        return Inertial(mass=mass, link_from_com=Pose(center), moments=(xx, yy, zz), products=(xy, xz, yz))
+
+    def __repr__(self) -> str:
+        shapes, sensors = (", ".join(repr(each.name) for each in group) for group in (self._shapes, self._sensors))
+        return f"<Link {self.name!r}; shapes: {shapes or 'none'}; sensors: {sensors or 'none'}>"

@@ -1,0 +1,148 @@
+"""Builder of a model: links and joints."""
+
+from pathlib import Path
+from xml.sax.saxutils import escape, quoteattr
+
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import UsageError
+from trundle.base.xmlnode import parse_xml
+from trundle.robots import model
+from trundle.robots.model import JointAxis, PluginTag
+from trundle.spatial import Pose, Vector3
+
+from .joint import Joint
+from .link import Link
+from .names import BUILT, check_name
+from .shapes import Shape, ShapeAdder
+from .writing import save, sdf_of
+
+_ORIGIN = Pose()
+
+
+class Model(ShapeAdder[Link]):
+    """Links joined by joints. A shape added to it becomes a link of its own, at the shape's pose."""
+
+    def __init__(self, name: str, *, pose: Pose = _ORIGIN, static: bool = False, self_collide: bool = False) -> None:
+        """Create an empty model.
+
+        Args:
+            name: of the model.
+            pose: in the world.
+            static: it never moves.
+            self_collide: its links collide with one another.
+        """
+        check_name(name, (), "a model")
+        self.name = name
+        self.pose = pose
+        self._static, self._self_collide = static, self_collide
+        self._links: list[Link] = []
+        self._joints: list[Joint] = []
+        self._plugins: list[PluginTag] = []
+
+    def add_link(self, name: str, *, pose: Pose = _ORIGIN) -> Link:
+        """Add an empty link, at a pose in the model's frame.
+
+        Raises:
+            UsageError: the name is taken; with those there are.
+        """
+        check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
+        self._links.append(Link(name, pose))
+        return self._links[-1]
+
+    def add_shape(self, shape: Shape) -> Link:
+        """Add a shape as a link of its own."""
+        return self.add_link(shape.name, pose=shape.pose).add_shape(replace(shape, pose=_ORIGIN))
+
+    def add_joint(
+        self,
+        name: str,
+        type: str,
+        parent: Link | str,
+        child: Link | str,
+        *,
+        pose: Pose = _ORIGIN,
+        axis: Vector3 | JointAxis = (0.0, 0.0, 1.0),
+        axis2: Vector3 | JointAxis | None = None,
+    ) -> Joint:
+        """Connect two links, or a link and the "world".
+
+        Args:
+            name: of the joint.
+            type: SDF's: revolute, prismatic, fixed, ball, universal, screw or revolute2.
+            parent: link or its name, or "world".
+            child: link or its name.
+            pose: of the joint in the child's frame.
+            axis: direction in the joint's frame, without limits, or a `trundle.robots.model.JointAxis`.
+            axis2: second axis of universal and revolute2 joints.
+
+        Raises:
+            UsageError: there is no such type or link, with those there are; or the name is taken.
+        """
+        check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
+        joint = Joint(
+            name,
+            type,
+            self._link_name(parent, name, ("world",)),
+            self._link_name(child, name, ()),
+            pose=pose,
+            axes=(_axis(axis), _axis(axis2)),
+        )
+        self._joints.append(joint)
+        return joint
+
+    def add_plugin(self, name: str, filename: str, **parameters: str | float) -> None:
+        """Add a plugin to the model, as loaded by `trundle.load(…, plugins=True)`.
+
+        Args:
+            name: of the plugin.
+            filename: Gazebo's library or a Python file.
+            parameters: its SDF elements.
+        """
+        inner = "".join(f"<{key}>{escape(str(value))}</{key}>" for key, value in parameters.items())
+        text = f"<plugin name={quoteattr(name)} filename={quoteattr(filename)}>{inner}</plugin>"
+        node = parse_xml(text, name=BUILT.file)
+        self._plugins.append(PluginTag(name=name, filename=filename, at=BUILT, node=node))
+
+    def _link_name(self, link: Link | str, joint: str, others: tuple[str, ...]) -> str:
+        name = link if isinstance(link, str) else link.name
+        names = [*(each.name for each in self._links), *others]
+        if name not in names:
+            there = ", ".join(map(repr, names)) or "none"
+            raise UsageError(f"model {self.name!r}, joint {joint!r}: no link {name!r}; there are: {there}")
+        return name
+
+    def description(self) -> model.Model:
+        """Return the description, as a reader would."""
+        poses = {link.name: link.pose for link in self._links}
+        return model.Model(
+            name=self.name,
+            at=BUILT,
+            world_from_model=self.pose,
+            static=self._static,
+            self_collide=self._self_collide,
+            links=tuple(link.description() for link in self._links),
+            joints=tuple(joint.description(poses[joint.child]) for joint in self._joints),
+            plugins=tuple(self._plugins),
+            canonical_link=self._links[0].name if self._links else None,
+        )
+
+    def to_sdf(self) -> str:
+        """Return the model as an SDF document."""
+        return sdf_of(model.World(name=self.name, at=BUILT, models=(self.description(),)), is_world=False)
+
+    def save(self, file: str | Path) -> None:
+        """Write the model as an SDF file.
+
+        Raises:
+            UsageError: it cannot be written.
+        """
+        save(self.to_sdf(), file)
+
+    def __repr__(self) -> str:
+        links, joints = (", ".join(repr(each.name) for each in group) for group in (self._links, self._joints))
+        return f"<Model {self.name!r}; links: {links or 'none'}; joints: {joints or 'none'}>"
+
+
+def _axis(axis: Vector3 | JointAxis | None) -> JointAxis | None:
+    return axis if axis is None or isinstance(axis, JointAxis) else JointAxis(direction=axis)

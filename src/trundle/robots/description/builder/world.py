@@ -1,0 +1,161 @@
+"""Builder of a world: models and lights."""
+
+from pathlib import Path
+
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import UsageError
+from trundle.robots import model
+from trundle.robots.model import Collision, Light, LightType, PhysicsSettings, Plane, Rgba, Visual
+from trundle.spatial import Pose, Vector3, normalized
+
+from .model import Model
+from .names import BUILT, check_name, check_positive
+from .shapes import Shape, ShapeAdder
+from .writing import save, sdf_of
+
+_OVERHEAD = Pose((0.0, 0.0, 10.0))
+_UP: Vector3 = (0.0, 0.0, 1.0)
+
+
+class World(ShapeAdder[Model]):
+    """World, empty and dark like SDF's until something is added.
+
+    A shape added to it becomes a model with one link, "link", at the shape's pose.
+    """
+
+    def __init__(
+        self, name: str = "default", *, gravity: Vector3 = (0.0, 0.0, -9.8), max_step_size: float = 0.001
+    ) -> None:
+        """Create an empty world.
+
+        Args:
+            name: of the world.
+            gravity: [m/s²]
+            max_step_size: time step [s].
+
+        Raises:
+            UsageError: the time step is not above zero.
+        """
+        check_positive("max_step_size", max_step_size)
+        self.name = check_name(name, (), "a world")
+        self._physics = PhysicsSettings(gravity=gravity, max_step_size_s=max_step_size)
+        self._models: list[Model] = []
+        self._lights: list[Light] = []
+        self._has_ground = False
+
+    def add_model(self, model: Model | str, *, pose: Pose | None = None) -> Model:
+        """Add a model, or an empty one of this name.
+
+        Args:
+            model: to add; the same object is returned.
+            pose: in the world; None: the model's own.
+
+        Raises:
+            UsageError: the name is taken; with those there are.
+        """
+        added = Model(model) if isinstance(model, str) else model
+        there = [*self._models, *([Model(_GROUND)] if self._has_ground else [])]
+        check_name(added.name, there, f"world {self.name!r}")
+        if pose is not None:
+            added.pose = pose
+        self._models.append(added)
+        return added
+
+    def add_ground_plane(self) -> None:
+        """Add Gazebo's ground_plane: infinite at z = 0, drawn 100 m wide.
+
+        Raises:
+            UsageError: there is a model of that name.
+        """
+        check_name(_GROUND, self._models, f"world {self.name!r}")
+        self._has_ground = True
+
+    def add_light(
+        self,
+        name: str = "sun",
+        type: LightType = "directional",
+        *,
+        pose: Pose = _OVERHEAD,
+        direction: Vector3 = (-0.5, 0.1, -0.9),
+        diffuse: Rgba = (0.8, 0.8, 0.8, 1.0),
+        specular: Rgba = (0.2, 0.2, 0.2, 1.0),
+        cast_shadows: bool = True,
+    ) -> None:
+        """Add a light; the defaults are those of Gazebo's sun.
+
+        Args:
+            name: of the light.
+            type: directional, point or spot.
+            pose: in the world.
+            direction: of the light rays, in the light's frame.
+            diffuse: colour.
+            specular: colour of highlights.
+            cast_shadows: True if it casts shadows.
+
+        Raises:
+            UsageError: the name is taken, with those there are; or the direction has zero length.
+        """
+        check_name(name, self._lights, f"world {self.name!r}")
+        along = normalized(direction)
+        if along is None:
+            raise UsageError(f"light {name!r}: {direction} is no direction")
+        self._lights.append(
+            Light(
+                name=name,
+                type=type,
+                at=BUILT,
+                world_from_light=pose,
+                direction=along,
+                diffuse=diffuse,
+                specular=specular,
+                cast_shadows=cast_shadows,
+            )
+        )
+
+    def add_shape(self, shape: Shape) -> Model:
+        """Add a shape as a model of one link."""
+        made = self.add_model(shape.name, pose=shape.pose)
+        made.add_link("link").add_shape(replace(shape, pose=Pose()))
+        return made
+
+    def description(self) -> model.World:
+        """Return the description, as a reader would."""
+        ground = (_ground_plane(),) if self._has_ground else ()
+        return model.World(
+            name=self.name,
+            at=BUILT,
+            models=(*ground, *(each.description() for each in self._models)),
+            lights=tuple(self._lights),
+            physics=self._physics,
+        )
+
+    def to_sdf(self) -> str:
+        """Return the world as an SDF document."""
+        return sdf_of(self.description(), is_world=True)
+
+    def save(self, file: str | Path) -> None:
+        """Write the world as an SDF file.
+
+        Raises:
+            UsageError: it cannot be written.
+        """
+        save(self.to_sdf(), file)
+
+    def __repr__(self) -> str:
+        models, lights = (", ".join(repr(each.name) for each in group) for group in (self._models, self._lights))
+        return f"<World {self.name!r}; models: {models or 'none'}; lights: {lights or 'none'}>"
+
+
+_GROUND = "ground_plane"
+
+
+def _ground_plane() -> model.Model:
+    plane = Plane(_UP, (100.0, 100.0))
+    link = model.Link(
+        name="link",
+        at=BUILT,
+        visuals=(Visual(name="visual", geometry=plane, at=BUILT),),
+        collisions=(Collision(name="collision", geometry=plane, at=BUILT),),
+    )
+    return model.Model(name=_GROUND, at=BUILT, static=True, links=(link,), canonical_link="link")

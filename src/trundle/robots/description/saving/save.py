@@ -1,0 +1,82 @@
+"""A world as it is now, as SDF: the file that it came from with the changes, its comments and unknown elements kept."""
+
+import os
+from pathlib import Path
+
+from msgspec import Struct
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.base.xmlnode import XmlDocument
+from trundle.robots.model import World, flattened
+from trundle.robots.packages import Packages
+
+from ..read import load_text
+from .differences import differences
+from .new_elements import Elements
+from .world_document import WorldDocument, is_editable, new_document
+
+_ROUNDS = 5
+"""A change may move what is posed relative to it, which takes another round."""
+_PATCHED_ROUNDS = 3
+"""Rounds before what still differs is written from the model."""
+_NEWEST = "1.12"
+"""Version by which a file without one is read."""
+
+
+class SavedWorld(Struct, frozen=True, kw_only=True):
+    """Text of a world, and what it does not hold."""
+
+    sdf: bytes
+    lost: tuple[str, ...]
+    """Differences from the world when the text is read again."""
+
+
+def save_world(world: World, *, file: Path, packages: Packages, seed: int = 0) -> SavedWorld:
+    """Return a world as SDF; velocities are not part of it, as everything starts at rest.
+
+    Args:
+        world: flat, with current poses; links away from their joints' zeros have an initial pose.
+        file: where the text is to be written; relative URIs are from there.
+        packages: resolve URIs.
+        seed: of random placement, as when the world was read.
+
+    Raises:
+        DescriptionError: the world cannot be read back.
+    """
+    source = Path(world.at.file)
+    editable = world.sdf_version is not None and is_editable(_version(world.sdf_version))
+    document = _source_document(source) if editable else None
+    if document is None:
+        document, source = new_document(world), file
+    elements = Elements(packages, file.parent, _version(document.root.get("version") or _NEWEST))
+    edited = WorldDocument(document, source, elements)
+    have = _read(edited.text(), file, packages, seed)
+    for number in range(_ROUNDS):
+        if not differences(have, world):
+            break
+        edited.change(have, world, rewrite=number >= _PATCHED_ROUNDS)
+        have = _read(edited.text(), file, packages, seed)
+    return SavedWorld(sdf=edited.text(), lost=tuple(differences(have, world)))
+
+
+def _source_document(source: Path) -> XmlDocument | None:
+    """Return the document of a world's file; None if there is none, or no world in it."""
+    if not os.path.isfile(source):
+        return None
+    try:
+        document = XmlDocument.read(source)
+    except DescriptionError:
+        return None
+    root = document.root
+    return document if root.tag == "sdf" and root.find("world") is not None else None
+
+
+def _read(text: bytes, file: Path, packages: Packages, seed: int) -> World:
+    around = packages.around(file)
+    loaded = load_text(text, name=file.name, folder=file.parent, packages=around, report=Diagnostics(), seed=seed)
+    return flattened(loaded.world)
+
+
+def _version(text: str) -> tuple[int, int]:
+    major, minor = text.split(".")
+    return int(major), int(minor)

@@ -1,0 +1,50 @@
+"""Reader of <noise>."""
+
+from trundle.base.xmlnode import XmlNode
+from trundle.robots.model import Noise
+
+from .context import Context
+
+_LOUDEST = 1e15
+"""Largest noise parameter, in any unit."""
+_TYPES = ("gaussian", "gaussian_quantized", "none")
+
+
+def read_noise(node: XmlNode | None, context: Context) -> Noise:
+    """Read Gaussian noise; other types are none."""
+    if node is None:
+        return Noise()
+    report = context.report
+    type_ = node.attribute("type") or node.string("type") or "gaussian"
+    if type_ not in _TYPES:
+        report.warn(node.at, f"no noise type {type_!r}: {', '.join(_TYPES)}; none is used, as in Gazebo")
+        return Noise()
+    if type_ == "none":
+        return Noise()
+    noise = Noise(
+        mean=_number(node, "mean", context),
+        stddev=abs(_number(node, "stddev", context)),
+        bias_mean=_number(node, "bias_mean", context),
+        bias_stddev=abs(_number(node, "bias_stddev", context)),
+        wander_density=max(0.0, _number(node, "dynamic_bias_stddev", context)),
+        wander_time_s=max(0.0, _number(node, "dynamic_bias_correlation_time", context)),
+        precision=_precision(node, context),
+    )
+    node.report_unread(report)
+    return noise
+
+
+def _number(node: XmlNode, tag: str, context: Context) -> float:
+    value = node.number(tag, default=0.0)
+    if abs(value) <= _LOUDEST:
+        return value
+    context.report.warn(node.at, f"noise with a {tag} of {value:g} is not possible; 0 is used")
+    return 0.0
+
+
+def _precision(node: XmlNode, context: Context) -> float:
+    precision = node.number("precision", default=0.0)
+    if precision == 0.0 or 1.0 / _LOUDEST <= precision <= _LOUDEST:
+        return precision
+    context.report.warn(node.at, f"a precision of {precision:g} is not possible; values are not rounded")
+    return 0.0

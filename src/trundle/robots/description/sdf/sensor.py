@@ -1,0 +1,75 @@
+"""Reader of <sensor>: simulated types in full, others by name and type."""
+
+from collections.abc import Iterable
+from itertools import count
+
+from msgspec.structs import replace
+
+from trundle.base.xmlnode import XmlNode
+from trundle.robots.model import MEASURING, PluginTag, Sensor
+
+from .camera import CAMERA_TYPES, read_cameras
+from .context import Context, read_pose, warn_ignored
+from .frames import FrameGraph
+
+
+def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -> Sensor:
+    """Read one sensor, posed in its owner's frame: a link's or a joint's."""
+    report = context.report
+    type_ = node.attribute("type") or "none"
+    sensor = Sensor(
+        name=node.attribute("name") or type_,
+        type=type_,
+        at=node.at,
+        link_from_sensor=graph.pose_in(owner, read_pose(node, context), node.at),
+        update_rate_hz=_rate(node, context),
+        always_on=node.flag("always_on", default=False),
+        visualize=node.flag("visualize", default=False),
+        topic=_topic(node, type_),
+        cameras=read_cameras(node, type_, context) if type_ in CAMERA_TYPES else (),
+        plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
+    )
+    if type_ in MEASURING:
+        from .sensor_elements import with_settings  # a world without any starts without what they are set to
+
+        sensor = with_settings(sensor, node, context)
+    if type_ in MEASURING | CAMERA_TYPES:
+        node.report_unread(report)
+    else:
+        warn_ignored(node, [child.tag for child in node.unread()], f"of type {type_!r} is not read yet", context)
+    return sensor
+
+
+def with_unique_names(sensors: Iterable[Sensor], link: str, context: Context) -> tuple[Sensor, ...]:
+    """Return the sensors of a link; duplicate names get a number, with a warning."""
+    apart: dict[str, Sensor] = {}
+    for sensor in sensors:
+        name = sensor.name
+        if name in apart:
+            number = next(i for i in count(2) if f"{name}_{i}" not in apart)
+            what = f"link {link!r} has a second sensor {name!r}; it is renamed '{name}_{number}'"
+            context.report.warn(sensor.at, what)
+            sensor = replace(sensor, name=f"{name}_{number}")
+        apart[sensor.name] = sensor
+    return tuple(apart.values())
+
+
+def _topic(node: XmlNode, type_: str) -> str:
+    """Return the topic, which for an IMU or contact sensor may also stand in its settings element."""
+    settings = node.find(type_) if type_ in ("imu", "contact") else None
+    return node.string("topic") or ("" if settings is None else settings.string("topic"))
+
+
+def _rate(node: XmlNode, context: Context) -> float:
+    rate = node.number("update_rate", default=0.0)
+    if rate >= 0.0:
+        return rate
+    context.report.warn(node.at, f"an update_rate of {rate:g} Hz is not possible; 0 (every step) is used")
+    return 0.0
+
+
+def read_plugin(node: XmlNode) -> PluginTag:
+    """Keep a <plugin> as written."""
+    return PluginTag(
+        name=node.attribute("name") or "", filename=node.attribute("filename") or "", at=node.at, node=node
+    )

@@ -1,0 +1,34 @@
+"""SDF version of a file, which selects the rules of reading."""
+
+from trundle.base.diagnostics import Diagnostics
+from trundle.base.xmlnode import XmlNode
+
+NEWEST = (1, 12)
+
+
+class Version(tuple[int, int]):
+    """Major and minor version, compared as numbers, so that 1.10 is newer than 1.9."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return f"{self[0]}.{self[1]}"
+
+
+def read_version(root: XmlNode, report: Diagnostics) -> Version:
+    """Return the version of a root element; a missing or unknown one is read by the newest rules, with a warning."""
+    text = root.attribute("version")
+    newest = Version(NEWEST)
+    if text is None:
+        report.warn(root.at, f"<{root.tag}> has no version; Gazebo refuses the file; read as {newest}")
+        return newest
+    try:
+        major, minor = (int(part) for part in text.strip().split("."))
+    except ValueError:
+        report.warn(root.at, f"version {text!r} is not an SDF version; read as {newest}")
+        return newest
+    version = Version((major, minor))
+    if version > newest:
+        report.warn(root.at, f"SDF {version} is newer than {newest}, the newest known; read as {newest}")
+        return newest
+    return version

@@ -1,0 +1,357 @@
+"""Expansion of xacro by the official package, with Trundle's package resolver and support for Indigo's syntax.
+
+Indigo's xacro accepted `<property>`, `<macro>`, … and macro calls without the `xacro:` prefix; today's copies them to
+the output as plain XML, silently, and the robot has no links. They are rewritten with a warning.
+"""
+
+import io
+import itertools
+import os
+import sys
+import threading
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TextIO
+from xml.parsers.expat import ErrorString, ExpatError
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UnknownArgumentError, nearest
+from trundle.base.expressions import PYTHON_NAMES, Budget
+from trundle.base.files import read_file
+from trundle.base.xmlnode import ReadBudget, ReadBudgetError
+from trundle.robots.packages import Packages, refuse_ros2_language
+
+from ..xacro_places import Cursor, parse_with_lines, place_of
+from .dom import replace_node
+from .error import description_error
+from .missing_packages import MissingPackageError, skip_missing_packages
+from .symbols import SubstitutedNames, install_symbols, new_interpreter
+
+
+class _Yaml(ModuleType):
+    """Lazy yaml module for the package's substitution_args, which imports it but rarely uses it."""
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(import_module("yaml"), name)
+
+
+class _CommandLine(ModuleType):
+    """Replacement of the package's command line module, which is never used."""
+
+    process_args = None
+
+
+def _import_xacro() -> tuple[Any, Any]:
+    stand_ins = {each.__name__: each for each in (_Yaml("yaml"), _CommandLine("xacro.cli"))}
+    absent = stand_ins.keys() - sys.modules.keys()
+    sys.modules.update({name: stand_ins[name] for name in absent})
+    try:
+        return import_module("xacro"), import_module("xacro.substitution_args")
+    finally:
+        for name in absent:
+            del sys.modules[name]
+
+
+xacro, substitution_args = _import_xacro()
+
+
+install_symbols(xacro)
+
+
+def _collect_args_for(original: Callable[[str], list[str]]) -> Callable[[str], list[str]]:
+    """Skip the package's second pass over a substituted text, letter by letter, unless it contains `$`."""
+
+    def collect_args(text: str) -> list[str]:
+        return original(text) if "$" in text else []
+
+    return collect_args
+
+
+substitution_args._collect_args = _collect_args_for(substitution_args._collect_args)
+
+
+_MAX_ELEMENTS = 50_000
+"""Most elements after expansion; the largest published file makes 45,667, the PR2 3,000."""
+_CPU_S = 10.0
+"""Processor time, more than other formats have: macros make much of little, as in one file published that takes 3 s."""
+_NODES_OF_A_CALL = 10
+"""Elements that take as long as a call of a macro."""
+_LONG = 200
+"""Length from which a text counts against the memory budget each time it is inserted."""
+_LOCK = threading.Lock()
+"""Lock, because the package keeps its state in module globals."""
+_CORE = {
+    "include": "filename",
+    "property": "name",
+    "macro": "name",
+    "if": "value",
+    "unless": "value",
+    "insert_block": "name",
+}
+"""Indigo's tags without prefix, and the attribute that distinguishes them from plain XML of the same name."""
+_BARE = tuple(f"<{tag}".encode() for tag in _CORE)
+_URDF_TAGS = """
+    robot link joint inertial visual collision origin geometry box cylinder sphere mesh material color
+    texture mass inertia parent child axis limit dynamics mimic safety_controller calibration transmission
+    actuator gazebo sensor plugin hardwareInterface mechanicalReduction type
+"""
+_URDF = frozenset(_URDF_TAGS.split())
+"""URDF elements, which are never macro calls."""
+
+
+def expand_xacro(
+    path: Path,
+    arguments: Mapping[str, str],
+    *,
+    packages: Packages,
+    report: Diagnostics,
+    data: bytes | None = None,
+    needs_all: bool = False,
+) -> str:
+    """Expand a file; return the XML text.
+
+    Args:
+        path: the top file.
+        arguments: `name:=value` of the command line.
+        packages: resolves `$(find …)`.
+        report: takes rewrites and xacro's warnings.
+        data: contents of the top file if it is a pipe; relative paths then start beside `path`.
+        needs_all: an argument that the file does not have is an error; xacro itself ignores it.
+
+    Raises:
+        DescriptionError: it cannot be expanded; the message is xacro's, with its file.
+    """
+    if data is None:
+        if not os.path.exists(path):
+            raise DescriptionError(Source(str(path)), "no such file")
+        refuse_ros2_language(path, is_launch=False)
+        packages = packages.around(path)
+        try:
+            data = read_file(path)
+        except OSError as error:
+            raise DescriptionError(Source(str(path)), str(error.strerror)) from None
+    cursor, budget = Cursor(Source(str(path))), ReadBudget(cpu_s=_CPU_S)
+    with _LOCK, _patched(packages, report, path, data, cursor, budget):
+        try:
+            mappings = _Arguments(arguments)
+            document: Any = xacro.process_file(str(path), mappings=mappings, verbosity=0)
+            if needs_all:
+                mappings.check_used(arguments, path)
+            return str(document.toprettyxml(indent="  "))
+        except ReadBudgetError as error:
+            raise error.through(map(str, xacro.filestack)) from None
+        except DescriptionError:
+            raise
+        except RecursionError:
+            raise DescriptionError(cursor.at, "infinite recursion of elements, macros or properties") from None
+        except Exception as error:  # xacro evaluates the file's own Python, which may raise anything
+            raise description_error(error, cursor.at, path, map(str, xacro.all_includes)) from None
+
+
+class _Arguments(dict[str, str]):
+    """Arguments of a file, which notes those that it declares or uses."""
+
+    def __init__(self, given: Mapping[str, str]) -> None:
+        super().__init__(given)
+        self._used: set[str] = set()
+
+    def __contains__(self, name: object) -> bool:
+        self._used.add(str(name))
+        return super().__contains__(name)
+
+    def __getitem__(self, name: str) -> str:
+        self._used.add(name)
+        return super().__getitem__(name)
+
+    def check_used(self, given: Mapping[str, str], path: Path) -> None:
+        """Raise an error for an argument that the file does not have."""
+        if unknown := sorted(set(given) - self._used):
+            there = ", ".join(repr(name) for name in sorted(self._used)) or "none"
+            near = nearest(unknown[0], self._used) if len(self._used) > 1 else None
+            said = f"; the nearest is {near!r}" if near else ""
+            what = f"no argument {unknown[0]!r}{said}; arguments here: {there}"
+            raise UnknownArgumentError(Source(str(path)), what, name=unknown[0])
+
+
+@contextmanager
+def _patched(
+    packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor, budget: ReadBudget
+) -> Generator[None]:
+    """Replace functions of the official package while one file is expanded."""
+    stood_in: set[str] = set()
+
+    def find(name: str) -> str:
+        folder = packages.find_folder(name)
+        if folder is None:
+            raise MissingPackageError(name, f"$(find {name}): {packages.why_not_found(name)}")
+        if packages.stand_in_package(folder) is not None and name not in stood_in:
+            stood_in.add(name)
+            what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
+            report.warn(cursor.at, what)
+        return str(folder)
+
+    def warn(*words: object) -> None:
+        report.warn(cursor.at, " ".join(map(str, words)))
+
+    def open_readable(name: str) -> TextIO:
+        packages.check_readable(Path(name), cursor.at, name="load_yaml")
+        try:
+            return io.StringIO(_data(name).decode())
+        except UnicodeDecodeError:
+            raise package.XacroException(f"{name}: it is not UTF-8 text") from None
+
+    def substitution_eval(text: str, _: object, symbols: object) -> object:
+        return interpreter.evaluate(text, SubstitutedNames(symbols, {**PYTHON_NAMES, "range": range}))
+
+    package, arguments, interpreter = xacro, substitution_args, new_interpreter(xacro)
+    names = (
+        "parse", "eval_all", "handle_macro_call", "reqd_attrs", "warning", "print_location", "safe_eval", "eval_text",
+        "process_doc", "process_include", "get_include_files", "replace_node",
+    )  # fmt: skip
+    kept = {name: getattr(package, name) for name in names}
+    own_find = arguments._eval_find
+    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor, budget)
+    package.eval_all = _eval_all_for(kept["eval_all"], cursor, budget)
+    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor, budget)
+    if packages.is_lenient:
+        skip_missing_packages(package, packages, report)
+    cursor.follow(package)
+    package.replace_node = replace_node
+    package.safe_eval = interpreter.evaluate
+    package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
+    package.warning = warn
+    package.open = open_readable  # shadows the builtin, with which its load_yaml would open any file
+    package.print_location = lambda: None  # it prints to stderr at a warning; the cursor has the position
+    arguments._eval_find = arguments._eval_dict["find"] = find
+    arguments.eval = substitution_eval  # shadows the builtin in its module
+    package.all_includes.clear()
+    try:
+        yield
+    finally:
+        for name, function in kept.items():
+            setattr(package, name, function)
+        arguments._eval_find = arguments._eval_dict["find"] = own_find
+        del arguments.eval
+        package.filestack = package.macrostack = None
+        del package.open
+
+
+def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[..., object]:
+    """Skip the package's lexer, which costs as much as all the rest, for text without `$`."""
+
+    def eval_text(text: str, symbols: object) -> object:
+        found = original(text, symbols) if "$" in text else text
+        if isinstance(found, str) and len(found) > _LONG:
+            budget.allocate(len(found))  # a thousand elements may contain it, and the output repeats it
+        return found
+
+    return eval_text
+
+
+def _parse_for(
+    original: Callable[..., Any],
+    packages: Packages,
+    report: Diagnostics,
+    known: Mapping[str, bytes],
+    cursor: Cursor,
+    budget: ReadBudget,
+) -> Callable[..., Any]:
+    """Return a parser with our checks; contents of `known` files are given by name."""
+
+    def parse(inp: object, filename: str | None = None) -> Any:
+        if filename is None:
+            return original(inp, filename)
+        if filename not in known:
+            packages.check_readable(Path(filename), cursor.at, name="xacro:include")
+            _expect_stand_in(Path(filename), packages, cursor.at)
+        data = known[filename] if filename in known else _data(filename)
+        budget.add_file(filename, len(data), cursor.at)
+        document = _parsed(data, filename, report, budget)
+        if any(start in data for start in _BARE):
+            _prefix_core_tags(document, report)
+        _drop_unnamed(document, report)
+        return document
+
+    return parse
+
+
+def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget) -> Any:
+    if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
+        raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
+    if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
+        report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
+    try:
+        return parse_with_lines(data, filename, budget)
+    except ExpatError as error:
+        from trundle.base.xmlnode import parse_xml  # slow to load, and most files are well-formed
+
+        parse_xml(data, name=filename)  # raises with a sentence
+        what = f"not well-formed XML: {ErrorString(error.code)}"
+        raise DescriptionError(Source(filename, error.lineno), what) from None
+
+
+def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
+    package = packages.stand_in_package(file)
+    if package is not None and packages.is_absent(file):
+        raise DescriptionError(at, f"{packages.why_not_found(package)}; its stand-in has no {file.name}")
+
+
+def _data(name: str) -> bytes:
+    """Return the contents of a referenced file; an include may be optional."""
+    try:
+        return read_file(name)
+    except OSError as error:
+        raise xacro.XacroException(exc=error) from None
+
+
+def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
+    """Add the prefix to Indigo's core tags."""
+    rewritten: dict[str, Source] = {}
+    for element in document.getElementsByTagName("*"):
+        tag = element.tagName
+        if tag in _CORE and element.hasAttribute(_CORE[tag]):
+            has_elements = any(child.nodeType == child.ELEMENT_NODE for child in element.childNodes)
+            if not (tag == "include" and has_elements):
+                element.tagName = element.nodeName = f"xacro:{tag}"
+                rewritten.setdefault(tag, place_of(element))
+    for tag, at in sorted(rewritten.items()):
+        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's syntax; read as <xacro:{tag}>")
+
+
+def _drop_unnamed(document: Any, report: Diagnostics) -> None:
+    """Drop properties that no expression can reference; Indigo's xacro kept them, today's refuses the file."""
+    for element in document.getElementsByTagName("xacro:property"):
+        name = str(element.getAttribute("name"))
+        if element.hasAttribute("name") and not name.isidentifier():
+            element.parentNode.removeChild(element)
+            report.warn(place_of(element), f"a property named {name!r} cannot be referenced; it is left out")
+
+
+def _eval_all_for(original: Callable[..., None], cursor: Cursor, budget: ReadBudget) -> Callable[..., None]:
+    """Count every element, macro and block each time it is expanded."""
+    elements = itertools.count()
+
+    def eval_all(node: Any, macros: Any, symbols: Any) -> None:
+        if next(elements) > _MAX_ELEMENTS:
+            raise DescriptionError(cursor.at, f"macros and blocks that expand to more than {_MAX_ELEMENTS} elements")
+        budget.add_nodes(1, cursor.at)
+        original(node, macros, symbols)
+
+    return eval_all
+
+
+def _call_for(
+    original: Callable[..., bool], report: Diagnostics, cursor: Cursor, budget: ReadBudget
+) -> Callable[..., bool]:
+    def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
+        name = str(node.tagName)
+        if ":" not in name and name not in _URDF and name in macros:
+            report.warn(cursor.at, f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
+            node.tagName = node.nodeName = f"xacro:{name}"
+        if node.tagName.startswith("xacro:"):
+            budget.add_nodes(_NODES_OF_A_CALL, cursor.at)
+        return original(node, macros, symbols)
+
+    return handle_macro_call

@@ -1,0 +1,121 @@
+"""Handling of missing packages: their includes and macro calls are left out, with a warning each."""
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.packages import Packages
+
+from ..xacro_places import place_of
+
+_DYNAMIC_CALL = "xacro:call"
+
+
+class MissingPackageError(LookupError):
+    """`$(find …)` of a missing package."""
+
+    def __init__(self, name: str, what: str) -> None:
+        """State the error; `name` is the package's."""
+        self.name = name
+        super().__init__(what)
+
+
+def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics) -> None:
+    """Let the xacro package skip includes of missing packages, and then calls of unknown macros.
+
+    Args:
+        package: xacro's module; the caller restores its functions.
+        packages: resolves packages.
+        report: takes a warning for each.
+    """
+    process_include, get_include_files = package.process_include, package.get_include_files
+    handle_macro_call, resolve_macro = package.handle_macro_call, package.resolve_macro
+    process_whole = package.process_doc
+    included: list[Any] = []
+    left_out: list[str] = []
+
+    def note_include(node: Any, *rest: Any) -> None:
+        included.append(node)
+        process_include(node, *rest)
+
+    def found_files(spec: str, symbols: Any) -> Iterator[str]:
+        node = included.pop()
+        try:
+            files = list(get_include_files(spec, symbols))
+        except Exception as error:
+            missing = missing_package(error)
+            if missing is None:
+                raise
+            left_out.append(spec)
+            report.warn(place_of(node), f"{missing}; the include is left out")
+            return iter(())
+        if files and not os.path.exists(files[0]) and packages.is_absent(Path(files[0])):
+            left_out.append(spec)
+            report.warn(
+                place_of(node),
+                f"{spec}: no such package, and its stand-in has no such file; the include is left out",
+            )
+            return iter(())
+        return iter(files)
+
+    def is_unknown(node: Any, macros: Any, symbols: Any) -> bool:
+        if not left_out or not node.tagName.startswith("xacro:") or node.tagName == _DYNAMIC_CALL:
+            return False
+        try:
+            resolve_macro(node.tagName.partition(":")[2], macros, symbols)
+        except KeyError:
+            return True
+        return False
+
+    def call_known(node: Any, macros: Any, symbols: Any) -> bool:
+        if not is_unknown(node, macros, symbols):
+            return bool(handle_macro_call(node, macros, symbols))
+        report.warn(
+            place_of(node),
+            f"no macro <{node.tagName}>: the call is left out; it may come from an include left out",
+        )
+        package.replace_node(node, by=None)
+        return True
+
+    def process_doc(document: Any, **rest: Any) -> None:
+        process_whole(document, **rest)
+        if left_out:
+            _drop_loose(document.documentElement, report)
+
+    package.process_doc = process_doc
+    package.process_include = note_include
+    package.get_include_files = found_files
+    package.handle_macro_call = call_known
+
+
+def _drop_loose(robot: Any, report: Diagnostics) -> None:
+    """Remove joints to missing links, and the children of such links."""
+    links = {link.getAttribute("name"): link for link in _children(robot, "link")}
+    joints = [(joint, _end(joint, "parent"), _end(joint, "child")) for joint in _children(robot, "joint")]
+    loose = [each for each in joints if each[1] not in links or each[2] not in links]
+    while loose:
+        joint, parent, child = loose.pop()
+        joints = [each for each in joints if each[0] is not joint]
+        what = f"joint {joint.getAttribute('name')!r} is left out: no link"
+        report.warn(place_of(joint), f"{what} {(child if parent in links else parent)!r}")
+        robot.removeChild(joint)
+        if parent not in links and child in links:
+            robot.removeChild(links.pop(child))
+            loose = [each for each in joints if each[1] not in links or each[2] not in links]
+
+
+def _children(node: Any, tag: str) -> list[Any]:
+    return [child for child in node.childNodes if getattr(child, "tagName", None) == tag]
+
+
+def _end(joint: Any, role: str) -> str:
+    return next((str(end.getAttribute("link")) for end in _children(joint, role)), "")
+
+
+def missing_package(error: BaseException | None) -> MissingPackageError | None:
+    """Return the missing package that caused an error; None for another cause."""
+    while error is not None and not isinstance(error, MissingPackageError):
+        error = getattr(error, "exc", None) or error.__context__
+    return error

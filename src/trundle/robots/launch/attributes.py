@@ -1,0 +1,121 @@
+"""Attributes of a launch element: substituted and typed, with `if` and `unless` evaluated."""
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.base.xmlnode import XmlNode
+
+from .scope import Scope
+from .substitution import Substitution
+from .values import read_flag
+
+_NODES_OF_AN_ELEMENT = 5
+"""Nodes that take as long as a substituted element."""
+
+
+class Attributes:
+    """Attributes of one element; unknown ones are reported and ignored."""
+
+    def __init__(
+        self, node: XmlNode, scope: Scope, substitution: Substitution, report: Diagnostics, known: tuple[str, ...]
+    ) -> None:
+        self.node = node
+        self.at: Source = node.at
+        self._scope = scope
+        self._substitution = substitution
+        self.count_values(_NODES_OF_AN_ELEMENT)
+        self.is_active = self._evaluate_if_unless()
+        """True if `if` and `unless` keep the element; otherwise none of its other attributes may be read."""
+        if self.is_active:
+            for name in node.attributes():
+                if name not in known and name not in ("if", "unless"):
+                    report.warn(self.at, f"attribute {name!r} of <{node.tag}> is not known; it is ignored")
+
+    def _evaluate_if_unless(self) -> bool:
+        wanted, unwanted = self.text("if"), self.text("unless")
+        if wanted is not None and unwanted is not None:
+            raise DescriptionError(self.at, f"<{self.node.tag}>: either 'if' or 'unless', not both")
+        try:
+            if wanted is not None:
+                return read_flag(wanted)
+            return unwanted is None or not read_flag(unwanted)
+        except ValueError as error:
+            raise DescriptionError(
+                self.at, f"<{self.node.tag}> {'unless' if wanted is None else 'if'}: {error}"
+            ) from None
+
+    def count_values(self, count: int) -> None:
+        """Count what is read for this element.
+
+        Raises:
+            ReadBudgetError: there is too much in all.
+        """
+        self._substitution.files.budget.add_nodes(count, self.at)
+
+    def text(self, name: str) -> str | None:
+        """Attribute after substitution; None if absent."""
+        value = self.node.attribute(name)
+        return None if value is None else self.resolve(value)
+
+    def resolve(self, text: str) -> str:
+        """Substitute a text of this element.
+
+        Raises:
+            MissingPackageError: another element than <arg> needs a missing package.
+        """
+        resolved = self._substitution.resolve(text, self._scope, self.at)
+        if self.node.tag != "arg":
+            self._substitution.refuse_missing(resolved, self.at)
+        return resolved
+
+    def read_file(self, name: str) -> bytes:
+        """Read a file that an attribute names.
+
+        Raises:
+            DescriptionError: it may not be read.
+            ValueError: it does not exist or cannot be read.
+        """
+        return self._substitution.files.read(name, self.at)
+
+    def required(self, name: str, *, empty: bool = False) -> str:
+        """Required attribute after substitution.
+
+        Raises:
+            DescriptionError: the attribute is absent, or empty without `empty`.
+        """
+        value = self.text(name)
+        if value is None or not (value or empty):
+            raise DescriptionError(self.at, f"<{self.node.tag}> needs the attribute {name!r}")
+        return value
+
+    def flag(self, name: str) -> bool:
+        """True or false in any case; absent is false.
+
+        Raises:
+            DescriptionError: the value is neither; unlike `if`, 1 and 0 are invalid, as in roslaunch.
+        """
+        value = self.text(name)
+        if value is None or value.lower() == "false":
+            return False
+        if value.lower() == "true":
+            return True
+        raise DescriptionError(self.at, f"<{self.node.tag}> {name}: {value!r} is neither 'true' nor 'false'")
+
+    def number(self, name: str, *, default: float) -> float:
+        """Number, or `default` if absent."""
+        value = self.text(name)
+        try:
+            return default if value is None else float(value)
+        except ValueError:
+            raise DescriptionError(self.at, f"<{self.node.tag}> {name}: {value!r} is not a number") from None
+
+    def namespace(self) -> str | None:
+        """Attribute `ns`, or None.
+
+        Raises:
+            DescriptionError: the namespace is empty or private.
+        """
+        value = self.text("ns")
+        if value == "":
+            raise DescriptionError(self.at, f"<{self.node.tag}> has an empty 'ns'; leave it out to stay in this one")
+        if value is not None and value.startswith("~"):
+            raise DescriptionError(self.at, f"<{self.node.tag}> ns {value!r}: a namespace cannot be private")
+        return value

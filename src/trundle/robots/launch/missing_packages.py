@@ -1,0 +1,55 @@
+"""Packages that a launch needs but that are not installed."""
+
+import re
+from collections.abc import Iterable
+
+from trundle.base.diagnostics import DescriptionError, Source
+from trundle.base.xmlnode import XmlNode
+from trundle.robots.repositories import repository_hint
+
+from .packages import PackageFinder
+from .plan import LaunchNode
+
+
+class MissingPackageError(DescriptionError):
+    """A `$(find)` of an unknown package."""
+
+
+_PACKAGE = re.compile(r"\$\(find ([\w.-]+)\)")
+
+
+def element_name(node: XmlNode) -> str:
+    """Return the name of an element for a warning that it is left out."""
+    if node.tag in ("node", "test"):
+        return f"the {node.tag} {node.attribute('name')!r} ({node.attribute('pkg')}/{node.attribute('type')})"
+    words = node.attribute("file") or node.attribute("name") or node.attribute("ns") or ""
+    named = _PACKAGE.sub(r"\1", words)
+    return f"<{node.tag}> {named}".strip()
+
+
+class MissingPackages:
+    """Missing packages found by a second, tolerant reading after the first one failed."""
+
+    def __init__(self) -> None:
+        self._places: dict[str, tuple[Source, str]] = {}
+
+    def add(self, name: str, at: Source, what_for: str = "") -> None:
+        """Record the first place that needs a package; `what_for` completes the error's sentence."""
+        self._places.setdefault(name, (at, what_for))
+
+    def add_nodes(self, nodes: Iterable[LaunchNode], packages: PackageFinder) -> None:
+        """Record the missing packages of nodes."""
+        for node in nodes:
+            if packages.find_folder(node.package) is None:
+                self.add(node.package, node.at, f" for the node {node.full_name}")
+
+    def combined_error(self, first: MissingPackageError) -> DescriptionError:
+        """Error that names all missing packages, the first in full."""
+        others = sorted(self._places.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
+        more = [
+            DescriptionError(at, f"no package {name!r}{what_for}{repository_hint(name)}")
+            for name, (at, what_for) in others
+            if f"no package {name!r}" not in first.what
+        ]
+        names = tuple(name for name, _ in others)
+        return DescriptionError(first.at, first.what, more=more, missing_packages=names)

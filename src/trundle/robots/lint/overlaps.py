@@ -1,0 +1,61 @@
+"""Overlaps of static models, one of which is likely misplaced."""
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from trundle.base.diagnostics import Diagnostics
+from trundle.robots.model import Box, Capsule, Collision, Cylinder, Ellipsoid, Model, Sphere
+from trundle.spatial import Pose, Vector3
+
+_MAX_BODIES = 1000
+"""Most static models compared; of a larger world the first are."""
+
+
+def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:
+    """Report every pair of static models where the centre of a shape of one lies within a shape of the other.
+
+    Args:
+        models: without nested ones.
+        report: takes a note for each pair.
+    """
+    still = [(model, list(_solids(model))) for model in models if model.static][:_MAX_BODIES]
+    for (first, solids), (second, others) in combinations(still, 2):
+        if any(_contains_center(one, other) or _contains_center(other, one) for one in solids for other in others):
+            what = f"model {second.name!r} overlaps model {first.name!r}, and both are static; is one misplaced?"
+            report.info(second.at, what)
+
+
+def _solids(model: Model) -> Iterator[tuple[Pose, Vector3]]:
+    """Yield the world pose of each primitive shape, and half the size of a box inscribed in it."""
+    for link in model.links:
+        world_from_link = model.world_from_model @ link.model_from_link
+        for collision in link.collisions:
+            half = _half_lengths(collision)
+            if half is not None:
+                yield world_from_link @ collision.link_from_collision, half
+
+
+def _half_lengths(collision: Collision) -> Vector3 | None:
+    match collision.geometry:
+        case Box((x, y, z)):
+            return x / 2, y / 2, z / 2
+        case Sphere(radius):
+            return radius * 0.57, radius * 0.57, radius * 0.57  # 1 / √3, the cube inscribed in a sphere
+        case Ellipsoid((x, y, z)):
+            return x * 0.57, y * 0.57, z * 0.57
+        case Cylinder(radius, length) | Capsule(radius, length):
+            return radius * 0.7, radius * 0.7, length / 2
+        case _:
+            return None
+
+
+def _contains_center(solid: tuple[Pose, Vector3], other: tuple[Pose, Vector3]) -> bool:
+    (pose, half), (world_from_other, _) = solid, other
+    if not _within_distance(pose.position, world_from_other.position, sum(half)):
+        return False
+    middle = pose.inverse().transform_point(world_from_other.position)
+    return all(abs(at) < most for at, most in zip(middle, half, strict=True))
+
+
+def _within_distance(a: Vector3, b: Vector3, distance: float) -> bool:
+    return abs(a[0] - b[0]) < distance and abs(a[1] - b[1]) < distance and abs(a[2] - b[2]) < distance

@@ -1,0 +1,111 @@
+"""Textures of meshes: files and mean colours."""
+
+import io
+import os
+import warnings
+from collections.abc import Generator
+from contextlib import contextmanager
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from trundle.base.files import read_file
+
+from .mesh import Rgba, Texture
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+_MAX_BYTES = 256 * 1024 * 1024
+_MAX_PIXELS = 64 * 1024 * 1024
+_BOX = 4
+"""Pillow's filter number of BOX, which averages."""
+
+
+def find_texture(name: str, mesh: Path) -> Path | None:
+    """Return a texture's file beside the mesh or in the model's `materials/textures`; None if elsewhere."""
+    model = mesh.parent.parent
+    relative = Path(name.replace("\\", "/"))
+    candidates = (
+        mesh.parent / relative,
+        mesh.parent / relative.name,
+        model / "materials" / "textures" / relative.name,
+        model / "textures" / relative.name,
+    )
+    inside = os.path.realpath(model)
+    there = (path for path in candidates if os.path.isfile(path))
+    return next((path for path in there if Path(os.path.realpath(path)).is_relative_to(inside)), None)
+
+
+def image_file(texture: Texture) -> io.BytesIO:
+    """Return an image's file for decoding.
+
+    Raises:
+        OSError: it is not a regular file, too large, or cannot be read.
+    """
+    return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, max_bytes=_MAX_BYTES))
+
+
+@contextmanager
+def ignored_decoder_warnings() -> Generator[None]:
+    """Keep what Pillow's decoders say of damaged files off the terminal; what they refuse is reported by us."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+def why_undecoded(error: Exception) -> str:
+    """Return the reason for a failed decoding; every decoder of Pillow has its own exceptions."""
+    from PIL import UnidentifiedImageError
+
+    if isinstance(error, UnidentifiedImageError):
+        return "it is not an image"
+    return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
+
+
+def mean_colour(texture: Texture) -> Rgba | None:
+    """Return an image's mean colour, opaque; None if it cannot be read."""
+    try:
+        return _mean(texture, 0 if isinstance(texture, bytes) else texture.stat().st_mtime_ns)
+    except Exception:  # every decoder of Pillow has its own exceptions
+        return None
+
+
+@lru_cache(maxsize=256)
+def _mean(texture: Texture, _changed_ns: int) -> Rgba:
+    from PIL import Image
+
+    with ignored_decoder_warnings(), Image.open(image_file(texture)) as image:
+        _check_size(image)
+        image.draft("RGB", (64, 64))
+        pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
+    assert isinstance(pixel, tuple)
+    r, g, b = (value / 255.0 for value in pixel[:3])
+    return (r, g, b, 1.0)
+
+
+def png_of(texture: Texture) -> bytes | None:
+    """Return an image file as PNG bytes; None if it cannot be decoded."""
+    from PIL import Image
+
+    try:
+        with ignored_decoder_warnings(), Image.open(image_file(texture)) as image:
+            return as_png(image)
+    except Exception:  # every decoder of Pillow has its own exceptions
+        return None
+
+
+def as_png(image: "Image") -> bytes | None:
+    """Return an image as PNG bytes; None if it cannot be encoded."""
+    buffer = io.BytesIO()
+    try:
+        _check_size(image)
+        image.convert("RGBA").save(buffer, "PNG", compress_level=1)
+    except Exception:  # every decoder of Pillow has its own exceptions
+        return None
+    return buffer.getvalue()
+
+
+def _check_size(image: "Image") -> None:
+    if image.width * image.height > _MAX_PIXELS:
+        raise ValueError("too large")

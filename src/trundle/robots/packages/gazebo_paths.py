@@ -1,0 +1,158 @@
+"""Gazebo's paths of models, worlds and media: its two environment variables, package exports, and Trundle's own."""
+
+import os
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from trundle.assets import ASSETS
+from trundle.base.diagnostics import DescriptionError
+from trundle.base.files import read_file
+
+from .package_cache import PackageCache
+from .ros_packages import RosPackages
+from .workspace import ancestor_folders, distinct_folders
+
+_CHECKOUT_EXAMPLES = [path for path in [ASSETS.parents[2] / "examples"] if os.path.isdir(path / "rp2w")]
+"""Examples of a checkout, which a wheel has in ASSETS."""
+_FUEL_CACHES = (".gz/fuel", ".ignition/fuel")
+"""Folders below HOME with downloads of newer Gazebo's tools."""
+_SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
+"""Folders that Gazebo tries below a resource path, and `worlds`."""
+
+
+def is_stand_in(path: Path) -> bool:
+    """True if a file belongs to a substitute for a model of the public database.
+
+    Its meshes have the originals' names with the suffix .obj, and the originals' frame and unit, because worlds saved
+    by Gazebo contain their URIs and scales in place of an <include>.
+    """
+    return ASSETS / "stand_ins" in path.parents
+
+
+_MAX_MODELS = 5000
+"""Most models of a list."""
+
+
+class GazeboPaths:
+    """Gazebo paths of one environment and start file."""
+
+    def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages, cache: PackageCache) -> None:
+        self._home = Path(environment.get("HOME") or os.devnull)  # not /tmp, which any user can write
+        self._start = start
+        self._ros = ros
+        self._cache = cache
+        self._named_models = _paths(environment.get("GAZEBO_MODEL_PATH", ""))
+        self._named_resources = _paths(environment.get("GAZEBO_RESOURCE_PATH", ""))
+
+    @property
+    def model_folders(self) -> list[Path]:
+        """Model folders in Gazebo's order, then Trundle's, then those that were added."""
+        return [*self._own_model_folders, *self._cache.added_models]
+
+    @cached_property
+    def _own_model_folders(self) -> list[Path]:
+        return distinct_folders(
+            [
+                self._home / ".gazebo" / "models",
+                *self._named_models,
+                *self._exported("gazebo_model_path"),
+                ASSETS / "models",
+                *_CHECKOUT_EXAMPLES,
+            ]
+        )
+
+    @cached_property
+    def resource_folders(self) -> list[Path]:
+        """Folders of worlds and media."""
+        return [
+            *self._named_resources,
+            *self._exported("gazebo_media_path"),
+            *self._exported("gazebo_resource_path"),
+            ASSETS,
+            *_CHECKOUT_EXAMPLES,
+        ]
+
+    def find_model(self, name: str) -> Path | None:
+        """Return a model's folder: on the path, then near the file, then a substitute."""
+        if not name or name in (".", ".."):
+            return None
+        along = (folder / name for folder in self.model_folders)
+        near = (folder / sub / name for folder in ancestor_folders(self._start) for sub in (".", "models"))
+        stand_in = ASSETS / "stand_ins" / name
+        candidates = (*along, *(each for each in near if os.path.isfile(each / "model.config")), stand_in)
+        return next((each for each in candidates if os.path.isdir(each) and each not in self._cache.wide), None)
+
+    def models(self) -> dict[str, Path]:
+        """Return the folder of every model that `find_model` finds, by name; the first of each name."""
+        near = [folder / sub for folder in ancestor_folders(self._start) for sub in (".", "models")]
+        found: dict[str, Path] = {}
+        for home in (*self.model_folders, *near, ASSETS / "stand_ins"):
+            for folder in [] if home in self._cache.wide else _folders(home):
+                if len(found) < _MAX_MODELS and os.path.isfile(folder / "model.config"):
+                    found.setdefault(folder.name, folder)
+        return found
+
+    def find_resource(self, name: str) -> Path | None:
+        """Return a file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
+        if os.path.isabs(name) or ".." in Path(name).parts:
+            return None
+        tries = (folder / suffix / name for folder in self.resource_folders for suffix in _SUFFIXES)
+        return next((path for path in tries if os.path.exists(path)), None)
+
+    def find_downloaded(self, url: str) -> Path | None:
+        """Return the folder in which `gz fuel download` or `ign fuel download` saved a URL."""
+        try:
+            parts = urlsplit(url)
+        except ValueError:  # a bracket that is not closed
+            return None
+        words = [unquote(word) for word in parts.path.split("/") if word]
+        if len(words) < 4 or ".." in words:
+            return None
+        owner, kind, name, *rest = words[1:]  # the first word is the API version, such as 1.0
+        for cache in _FUEL_CACHES:
+            folder = self._home / cache / parts.netloc / owner.lower() / kind / name.lower()
+            versions = sorted((int(sub.name), sub) for sub in _folders(folder) if sub.name.isdecimal())
+            if rest and rest[0].isdecimal():
+                versions = [each for each in versions if each[0] == int(rest[0])]
+            if versions:
+                return versions[-1][1]
+        return None
+
+    def _exported(self, attribute: str) -> Iterator[Path]:
+        """Yield paths from `<export><gazebo_ros …>` of all packages, as libgazebo_ros_paths_plugin does."""
+        for prefix, attributes in self._exports:
+            for value in _paths(attributes.get(attribute, "").replace("${prefix}", str(prefix))):
+                yield prefix / value
+
+    @cached_property
+    def _exports(self) -> list[tuple[Path, dict[str, str]]]:
+        exports = self._cache.exports
+        for folder in self._ros.all().values():
+            if folder not in exports:
+                exports[folder] = _gazebo_exports(folder / "package.xml")
+        return [(folder, attributes) for folder in self._ros.all().values() for attributes in exports[folder]]
+
+
+def _gazebo_exports(manifest: Path) -> list[dict[str, str]]:
+    from trundle.base.xmlnode import read_xml  # of what most commands ask of packages, only this takes lxml
+
+    try:
+        if b"gazebo_ros" not in read_file(manifest):
+            return []
+        export = read_xml(manifest).find("export")
+    except (OSError, DescriptionError):
+        return []
+    return [node.attributes() for node in (export.all("gazebo_ros") if export else [])]
+
+
+def _folders(folder: Path) -> list[Path]:
+    try:
+        return [each for each in folder.iterdir() if os.path.isdir(each)]
+    except OSError:
+        return []
+
+
+def _paths(value: str) -> list[Path]:
+    return [Path(os.path.expanduser(entry)).absolute() for entry in value.split(os.pathsep) if entry]

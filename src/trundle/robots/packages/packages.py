@@ -1,0 +1,320 @@
+"""Resolution of package://, model://, file:// and relative URIs to paths."""
+
+import os
+import re
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from urllib.parse import unquote
+
+from trundle.assets import ASSETS
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError, did_you_mean
+from trundle.base.files import is_stream
+from trundle.robots.repositories import repository_hint
+
+from .configured_files import write_configured_files
+from .confinement import Confinement
+from .env_hooks import hook_variables
+from .gazebo_paths import GazeboPaths, is_stand_in
+from .package_cache import PackageCache
+from .ros_packages import RosPackages
+from .stock import DESCRIPTIONS, STOCK
+from .workspace import own_confinement
+
+ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
+"""Environment variable; 1 allows descriptions to read any file; set by `--allow-outside`."""
+LENIENT = "TRUNDLE_LENIENT"
+"""Environment variable; 1 ignores parts from missing packages; set by `--lenient`."""
+
+HELD = ".held"
+"""Ending of uploaded files of code, which are no plugins until a person agrees."""
+
+_LONGEST = 200
+"""Longest name or URI in a message."""
+_FUEL_MODEL = re.compile(r"/models/([^/]+)(?:/(?:\d+|tip)(?:/files(/.*[^/]))?)?/?$")
+"""Path of a model on Fuel, or of a file of one of its versions."""
+_MAX_NAMED = 3
+
+
+class Packages:
+    """Resources that descriptions may refer to, in one environment."""
+
+    def __init__(self, environment: Mapping[str, str], *, start: Path, known: "Packages | None" = None) -> None:
+        """Search with an environment, around a file or folder.
+
+        Args:
+            environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
+            start: its package and workspace are searched too.
+            known: another instance, whose cache is shared and whose packages are searched last.
+        """
+        start = start.absolute()
+        self._environment = environment
+        self._start = start
+        self._cache = PackageCache(environment) if known is None else known._cache
+        self._earlier = known
+
+    def around(self, file: Path) -> "Packages":
+        """Return the same resources, searched around another file."""
+        if file.absolute() == self._start:
+            return self
+        return Packages(self._environment, start=file, known=self)
+
+    def find_package(self, name: str) -> Path | None:
+        """Return the folder of a ROS package, or None."""
+        found = self._ros.find(name)
+        if name not in self._cache.passed_over:
+            other = self._ros.passed_over(name)
+            what = f"of two packages {name!r} the file's own workspace wins: {found}, not {other}"
+            self._cache.passed_over[name] = "" if other is None else what
+        return found
+
+    def find_folder(self, name: str) -> Path | None:
+        """Return the folder of `$(find name)`.
+
+        For a stock package that is not installed it does not exist; for a sensor description package it is Trundle's
+        substitute. Files of the package that CMake would configure, and that are not there, are written first.
+        """
+        found = self.find_package(name)
+        if found is not None and found not in self._cache.configured and not found.is_relative_to(ASSETS):
+            self._cache.configured[found] = write_configured_files(found, replace=False)
+        found = found or DESCRIPTIONS.get(name)
+        return found or (ASSETS / "ros_packages" / name if name in STOCK else None)
+
+    def stand_in_package(self, path: Path) -> str | None:
+        """Return the package that a shipped file, existing or not, substitutes; None for other files."""
+        return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
+
+    def is_absent(self, file: Path) -> bool:
+        """True if a file is missing because its package is, whose substitute lacks it."""
+        is_ours = self.stand_in_package(file) is not None or any(
+            file.is_relative_to(ASSETS / "ros_packages" / n) for n in STOCK
+        )
+        return is_ours and not os.path.exists(file)
+
+    @property
+    def is_lenient(self) -> bool:
+        """True if parts from missing packages are ignored."""
+        return self._environment.get(LENIENT) == "1"
+
+    def workspace_of(self, package: Path) -> Path | None:
+        """Return the workspace around the start that contains a package, unless ROS_PACKAGE_PATH does."""
+        return self._ros.workspace_of(package)
+
+    def warn_passed_over(self, report: Diagnostics, at: Source) -> None:
+        """Warn once of packages on ROS_PACKAGE_PATH that were passed over for those of a file's own workspace."""
+        for name, what in self._cache.passed_over.items():
+            if what:
+                self._cache.passed_over[name] = ""
+                report.warn(at, what)
+
+    @property
+    def configured_files(self) -> list[Path]:
+        """Files that `find_folder` wrote."""
+        return [path for written in self._cache.configured.values() for path in written]
+
+    def hook_variables(self) -> dict[str, dict[str, str]]:
+        """Return the variables that environment hooks of packages set, and that the environment lacks, by package."""
+        found: dict[str, dict[str, str]] = {}
+        for name, folder in self.ros_packages().items():
+            if variables := hook_variables(name, folder, self.find_package, self._environment):
+                found[name] = variables
+        return found
+
+    def skipped_folders(self) -> Mapping[Path, str]:
+        """Return the folders skipped by the search, with the reason."""
+        self._ros.all()
+        return self._cache.skipped
+
+    def package_folders(self) -> list[Path]:
+        """Return the folders of ROS packages: those of ROS_PACKAGE_PATH, and of the workspace around the start."""
+        return list(self._ros.roots)
+
+    def ros_packages(self) -> Mapping[str, Path]:
+        """Return every ROS package by name."""
+        return self._ros.all()
+
+    def why_not_found(self, name: str) -> str:
+        """Return a sentence about a missing package."""
+        looked = ", ".join(str(folder) for folder in self._ros.searched())
+        where = f"looked below {looked}" if looked else "ROS_PACKAGE_PATH is not set"
+        passed_over = [f"{folder} ({why})" for folder, why in self._cache.skipped.items()]
+        if passed_over:
+            rest = f" and {len(passed_over) - _MAX_NAMED} more" if len(passed_over) > _MAX_NAMED else ""
+            where += f", but not in {', '.join(passed_over[:_MAX_NAMED])}{rest}"
+        where += "; put the folder that holds it on ROS_PACKAGE_PATH"
+        hint = repository_hint(name)
+        near = "" if hint else did_you_mean(name, self._ros.all())
+        return f"no package {_shown(name)!r}{near}; {where}{hint}"
+
+    def find_model(self, name: str) -> Path:
+        """Return the folder of `model://name`.
+
+        Raises:
+            UsageError: it is missing; the message lists the folders searched.
+        """
+        folder = self._gazebo.find_model(name)
+        if folder is None:
+            raise UsageError(
+                f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
+            )
+        return folder
+
+    def add_models(self, folder: Path) -> None:
+        """Add a folder of models to the end of the model path, for `around` too."""
+        if folder not in self._cache.added_models:
+            self._cache.added_models.append(folder)
+
+    @property
+    def added_models(self) -> Sequence[Path]:
+        """Folders that `add_models` was given."""
+        return self._cache.added_models
+
+    def models(self) -> Mapping[str, Path]:
+        """Return the folder of every model by name, as `find_model` finds it."""
+        return self._gazebo.models()
+
+    def find_world(self, name: str) -> Path | None:
+        """Return a world file on GAZEBO_RESOURCE_PATH or of Trundle, as `gazebo worlds/empty.world` finds it."""
+        path = self._gazebo.find_resource(name)
+        return path if path is not None and os.path.isfile(path) else None
+
+    def worlds(self) -> list[str]:
+        """Return the names of Trundle's worlds."""
+        return sorted(path.name for path in (ASSETS / "worlds").glob("*.world"))
+
+    def model_folders(self) -> list[Path]:
+        """Return the folders of models, in Gazebo's order."""
+        return self._gazebo.model_folders
+
+    def material_folders(self) -> list[Path]:
+        """Return the folders that Gazebo searches for material scripts by default."""
+        tries = (
+            folder / sub / "materials/scripts" for folder in self._gazebo.resource_folders for sub in (".", "media")
+        )
+        return [folder for folder in tries if os.path.isdir(folder)]
+
+    def resolve(self, uri: str, *, beside: Path, at: Source) -> Path:
+        """Return the file of a URI in a description.
+
+        Args:
+            uri: package://, model://, file://, or a path relative to the containing file.
+            beside: folder of the containing file.
+            at: position of the URI.
+
+        Raises:
+            DescriptionError: it is missing, or outside the readable folders.
+        """
+        root, path = self._located(uri, beside, at)
+        decoded = path.parent / unquote(path.name)
+        if not os.path.exists(path) and os.path.exists(decoded):
+            path = decoded
+        if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
+            path = path.with_suffix(".obj")
+        named = "" if root is None else f"{_shown(uri)}: "  # a path is already in the message
+        if not os.path.exists(path):
+            raise DescriptionError(at, f"{named}no such file {_shown(str(path))}")
+        if is_stream(path):
+            raise DescriptionError(at, f"{named}{path} is a pipe, a device or a socket, not a file")
+        self.check_readable(path, at, name=uri, root=root)
+        return path
+
+    def check_readable(self, path: Path, at: Source, *, name: str, root: Path | None = None) -> None:
+        """Refuse a file that is neither below `root` nor in the folders given by the user.
+
+        Raises:
+            DescriptionError: it is elsewhere.
+        """
+        if self._environment.get(ALLOW_OUTSIDE) == "1":
+            return
+        is_named = root is not None and Confinement([root], wide=self._cache.wide).allows(path)
+        if not (
+            self._in_own.allows(path)
+            or is_named
+            or self._in_ros.allows(path)
+            or self._in_gazebo.allows(path)
+            or self._in_added.allows(path)
+        ):
+            raise DescriptionError(
+                at,
+                f"{name} leads to {path}; a description reads only below its own folders, the packages and the "
+                "resource paths; --allow-outside lifts that",
+            )
+
+    @cached_property
+    def _ros(self) -> RosPackages:
+        earlier = None if self._earlier is None else self._earlier._ros
+        return RosPackages(self._environment, self._start, self._cache, earlier=earlier)
+
+    @cached_property
+    def _gazebo(self) -> GazeboPaths:
+        return GazeboPaths(self._environment, self._start, self._ros, self._cache)
+
+    @cached_property
+    def _in_own(self) -> Confinement:
+        return own_confinement(self._start, self._cache.wide)
+
+    @cached_property
+    def _in_ros(self) -> Confinement:
+        return Confinement([*self._ros.roots, *self._ros.all().values(), *DESCRIPTIONS.values()], wide=self._cache.wide)
+
+    @cached_property
+    def _in_gazebo(self) -> Confinement:
+        return Confinement([*self._gazebo.model_folders, *self._gazebo.resource_folders], wide=self._cache.wide)
+
+    @property
+    def _in_added(self) -> Confinement:
+        return Confinement(self._cache.added_models, wide=self._cache.wide)
+
+    def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
+        """Return the root folder of the URI's package or model, and the path."""
+        scheme, separator, rest = uri.partition("://")
+        if not separator:
+            scheme, rest = "file", uri
+        match scheme:
+            case "http" | "https":
+                return self._downloaded(uri, at)
+            case "package" | "model":
+                return self._in_package_or_model(scheme, rest, uri, at)
+            case "file" if rest.startswith("/"):
+                return None, Path(unquote(rest)) if separator else Path(rest)
+            case "file":
+                found = None if os.path.exists(beside / rest) else self._gazebo.find_resource(rest)
+                return None, found or beside / rest
+            case _:
+                known = "package://, model://, file:// or relative paths"
+                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {known}")
+
+    def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
+        """Find a package or model; URDF has package://, its conversion to SDF model://, so each falls back to the
+        other.
+        """
+        name, _, inside = rest.lstrip("/").partition("/")
+        package = self.find_package(name) if scheme == "package" else None
+        folder = package or self._gazebo.find_model(name) or self.find_package(name)
+        if folder is not None:
+            return folder, folder / inside
+        no_model = f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
+        looked = self.why_not_found(name) if scheme == "package" else no_model
+        raise DescriptionError(at, f"{_shown(uri)}: {looked}")
+
+    def _downloaded(self, url: str, at: Source) -> tuple[Path, Path]:
+        folder = self._gazebo.find_downloaded(url)
+        if folder is not None:
+            return folder, folder
+        model = _FUEL_MODEL.search(unquote(url))
+        local, inside = ("", "") if model is None else (model[1].lower().replace(" ", "_"), model[2] or "")
+        if "fuel" not in url:
+            advice = "copy the file beside this one"
+        elif local and self._gazebo.find_model(local) is not None:
+            advice = f"write model://{local}{inside}, which is here"
+        else:
+            advice = "fetch it with `gz fuel download -u URL`, or put its folder on GAZEBO_MODEL_PATH"
+        raise DescriptionError(at, f"{_shown(url)}: nothing is fetched from the network; {advice}")
+
+    def _where_models_are(self) -> str:
+        looked = ", ".join(map(str, self._gazebo.model_folders))
+        return f"looked in {looked}; put its folder's parent on GAZEBO_MODEL_PATH"
+
+
+def _shown(name: str) -> str:
+    return name if len(name) <= _LONGEST else f"{name[:_LONGEST]}…"

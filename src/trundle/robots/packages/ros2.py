@@ -1,0 +1,45 @@
+"""Detection of ROS 2 launch files, which are not supported, by suffix and ROS 2 syntax."""
+
+import re
+from pathlib import Path
+
+from trundle.base.diagnostics import DescriptionError, Source
+from trundle.base.xmlnode import XmlNode
+
+_IN_OTHER_LANGUAGES = {".py": "in Python", ".yaml": "in YAML", ".yml": "in YAML"}
+_NAME = re.compile(r"(.*[._])?launch\.\w+")
+"""ROS 2's pattern of launch file names; other files of these suffixes may be anything."""
+_SUBSTITUTION = re.compile(r"\$\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec)\s")
+_READ_HERE = "only ROS 1 launch files are supported"
+
+
+def refuse_ros2_language(file: Path, *, is_launch: bool) -> None:
+    """Refuse a launch file in Python or YAML; `is_launch`: it was given as a launch file, whatever its name.
+
+    Raises:
+        DescriptionError: it is one.
+    """
+    language = _IN_OTHER_LANGUAGES.get(file.suffix)
+    if language is not None and (is_launch or _NAME.fullmatch(file.name)):
+        raise DescriptionError(Source(str(file)), f"a launch file {language} is one of ROS 2; {_READ_HERE}")
+
+
+def refuse_ros2(node: XmlNode) -> None:
+    """Refuse ROS 2 syntax.
+
+    Raises:
+        DescriptionError: at its first occurrence.
+    """
+    if shown := _shown_by(node):
+        raise DescriptionError(node.at, f"{shown}: this is a launch file of ROS 2; {_READ_HERE}")
+    for child in node.children:
+        refuse_ros2(child)
+
+
+def _shown_by(node: XmlNode) -> str | None:
+    if node.tag == "node" and node.attribute("exec") is not None and node.attribute("type") is None:
+        return "<node exec>"
+    for name in node.attributes():
+        if found := _SUBSTITUTION.search(node.attribute(name) or ""):
+            return f"$({found[1]} …)"
+    return None

@@ -1,0 +1,37 @@
+"""Stock ROS packages whose programs, plugins or controllers are built in.
+
+Launch files `$(find)` them for a default, a command or a file; if not installed, each is an empty folder, so that only
+a file really used is missing. Some sensor description packages have substitutes with the same macros, which create the
+same links and sensors from boxes and cylinders.
+"""
+
+import os
+
+from trundle.assets import ASSETS
+
+_TOOLS = (
+    "gazebo_ros_pkgs rosbag roscpp roslaunch roslib rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostopic"
+)
+_NODES = """
+    arbotix_controllers arbotix_python controller_manager cv_camera depthimage_to_laserscan dynamic_reconfigure
+    gscam image_view joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan
+    robot_localization robot_pose_publisher robot_state_publisher rosapi rosbridge_server rqt_bag rqt_console
+    rqt_graph rqt_gui rqt_image_view rqt_joint_trajectory_controller rqt_plot rqt_publisher rqt_reconfigure
+    rqt_robot_monitor rqt_robot_steering rqt_service_caller rqt_tf_tree rqt_topic rviz sound_play teleop_twist_joy
+    teleop_twist_keyboard tf tf2_ros tf2_tools tf2_web_republisher topic_tools turtlebot3_teleop turtlebot_teleop
+    turtlesim twist_mux usb_cam web_video_server
+"""
+_PLUGINS = """
+    gazebo_grasp_plugin gazebo_plugins gazebo_ros_control gazebo_ros_link_attacher hector_gazebo_plugins
+    hector_gazebo_thermal_camera hector_quadrotor_gazebo_plugins roboticsgroup_gazebo_plugins
+    roboticsgroup_upatras_gazebo_plugins rotors_gazebo_plugins velodyne_gazebo_plugins xacro
+"""
+_CONTROLLERS = """
+    ackermann_steering_controller diff_drive_controller effort_controllers force_torque_sensor_controller
+    four_wheel_steering_controller gripper_action_controller imu_sensor_controller joint_state_controller
+    joint_trajectory_controller mecanum_drive_controller position_controllers velocity_controllers
+"""
+_DESCRIPTIONS = ASSETS / "descriptions"
+STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
+DESCRIPTIONS = {name: _DESCRIPTIONS / name for name in sorted(os.listdir(_DESCRIPTIONS))}
+"""Substitutes for sensor description packages: name → folder."""

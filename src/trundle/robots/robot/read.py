@@ -1,0 +1,185 @@
+"""Reader of URDF by urdfdom's rules."""
+
+from typing import cast, get_args
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.base.xmlnode import XmlNode
+from trundle.spatial import Vector3
+
+from .link import read_link
+from .materials import Materials
+from .robot import JointLimit, Robot, RobotJoint, RobotJointType, RobotLink, RobotMimic
+from .values import read_optional, read_origin, read_vector
+
+_TYPES: tuple[str, ...] = get_args(RobotJointType)
+_LIMITED = ("revolute", "prismatic")
+_FOR_OTHERS = ("gazebo", "transmission")
+"""Children of <robot> for the conversion to SDF and for ros_control."""
+
+
+def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
+    """Read <robot>.
+
+    Raises:
+        DescriptionError: not a tree: a joint names an unknown link, a link has two parents, there is no root or
+            several; or a limit that urdfdom requires is missing.
+    """
+    if root.tag != "robot":
+        raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
+    name = root.attribute("name")
+    if not root.all("link"):
+        what = "the robot has no links; is it a part to include, or was a xacro macro never called?"
+        raise DescriptionError(root.at, what)
+    if not name:
+        raise DescriptionError(root.at, "<robot> needs a name; is it a part to include, not a robot?")
+    version = root.attribute("version")
+    if version is not None and version != "1.0":
+        report.warn(root.at, f"version {version!r}: urdfdom 3 refuses any but 1.0; it is read as that")
+    materials = Materials(root.all("material"), report)
+    link_nodes = root.all("link")
+    links = [read_link(node, materials, report) for node in link_nodes]
+    joints = [_read_joint(node, report) for node in root.all("joint")]
+    for tag in _FOR_OTHERS:
+        root.all(tag)
+    for control in root.all("ros2_control"):
+        control.mark_all_read()
+        what = "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission> for each joint"
+        report.warn(control.at, f"{what}, the plugin libgazebo_ros_control.so and controllers in a launch file")
+    root.attributes()
+    root.report_unread(report)
+    first = _root(root, links, joints)
+    reached = _reached(first, joints)
+    ring = [link for link in links if link.name not in reached]
+    if ring:
+        names = ", ".join(repr(link.name) for link in ring[:5])
+        report.warn(ring[0].at, f"links {names} form a loop apart from the root; as urdfdom does, they are left out")
+    return Robot(
+        name=name,
+        at=root.at,
+        root=first,
+        links=tuple(link for link in links if link.name in reached),
+        joints=tuple(joint for joint in joints if joint.child in reached),
+    )
+
+
+def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> str:
+    names: dict[str, RobotLink] = {}
+    for link in links:
+        if link.name in names:
+            raise DescriptionError(link.at, f"a second link {link.name!r}; the first is at {names[link.name].at}")
+        names[link.name] = link
+    parents: dict[str, RobotJoint] = {}
+    taken: set[str] = set()
+    for joint in joints:
+        if joint.name in taken:
+            raise DescriptionError(joint.at, f"a second joint {joint.name!r}")
+        taken.add(joint.name)
+        for role, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in names:
+                there = ", ".join(map(repr, names))
+                raise DescriptionError(joint.at, f"joint {joint.name!r}: no {role} link {link!r}; links here: {there}")
+        if joint.child in parents:
+            other = parents[joint.child].name
+            raise DescriptionError(joint.at, f"link {joint.child!r} has two parents, by {other!r} and {joint.name!r}")
+        parents[joint.child] = joint
+    roots = [name for name in names if name not in parents]
+    if not roots:
+        raise DescriptionError(node.at, "the joints form a loop: every link is some joint's child")
+    if len(roots) > 1:
+        raise DescriptionError(
+            node.at, f"more than one root link: {', '.join(map(repr, roots))}; joints must join them"
+        )
+    return roots[0]
+
+
+def _reached(root: str, joints: list[RobotJoint]) -> set[str]:
+    """Return the root and every link below it."""
+    below: dict[str, list[str]] = {}
+    for joint in joints:
+        below.setdefault(joint.parent, []).append(joint.child)
+    reached, pending = {root}, [root]
+    while pending:
+        children = below.get(pending.pop(), [])
+        reached.update(children)
+        pending += children
+    return reached
+
+
+def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
+    name = node.required_attribute("name")
+    type_ = node.required_attribute("type")
+    if type_ not in _TYPES:
+        raise DescriptionError(node.at, f"joint {name!r}: no type {type_!r}; types: {', '.join(_TYPES)}")
+    ends = {tag: node.find(tag) for tag in ("parent", "child")}
+    links = {tag: "" if end is None else end.attribute("link") or "" for tag, end in ends.items()}
+    for tag, link in links.items():
+        if not link:
+            raise DescriptionError(node.at, f"joint {name!r} has no <{tag} link=…>")
+    dynamics = node.find("dynamics")
+    if dynamics is not None and dynamics.attribute("damping") is None and dynamics.attribute("friction") is None:
+        what = f"joint {name!r}: <dynamics> with neither damping nor friction, for which urdfdom refuses the robot"
+        report.warn(dynamics.at, f"{what}; both are 0")
+    joint = RobotJoint(
+        name=name,
+        type=cast(RobotJointType, type_),
+        parent=links["parent"],
+        child=links["child"],
+        at=node.at,
+        parent_from_joint=read_origin(node, report),
+        axis=_read_axis(node, name, type_, report),
+        limit=_read_limit(node, name, type_, report),
+        damping=read_optional(dynamics, "damping", 0.0, report),
+        friction=read_optional(dynamics, "friction", 0.0, report),
+        mimic=_read_mimic(node, name, report),
+    )
+    node.find("calibration")  # for real hardware
+    safety = node.find("safety_controller")  # for ros_control
+    if safety is not None and safety.attribute("k_velocity") is None:
+        what = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
+        report.warn(safety.at, f"{what}; it is ignored")
+    node.report_unread(report)
+    return joint
+
+
+def _read_axis(node: XmlNode, name: str, type_: str, report: Diagnostics) -> Vector3:
+    axis = node.find("axis")
+    if axis is None or type_ in ("fixed", "floating"):
+        return (1.0, 0.0, 0.0)
+    vector = read_vector(axis, "xyz", report)
+    if vector is None:
+        return (1.0, 0.0, 0.0)
+    if not any(vector):
+        report.warn(axis.at, f"joint {name!r}: an axis of zero length; 1 0 0 is used")
+        return (1.0, 0.0, 0.0)
+    return vector
+
+
+def _read_limit(node: XmlNode, name: str, type_: str, report: Diagnostics) -> JointLimit | None:
+    limit = node.find("limit")
+    if limit is None:
+        if type_ in _LIMITED:
+            raise DescriptionError(node.at, f"joint {name!r}: a {type_} joint needs <limit effort= velocity=>")
+        return None
+    for key in ("effort", "velocity"):
+        if limit.attribute(key) is None:
+            raise DescriptionError(limit.at, f"joint {name!r}: <limit> needs {key!r}")
+    return JointLimit(
+        lower=read_optional(limit, "lower", 0.0, report),
+        upper=read_optional(limit, "upper", 0.0, report),
+        effort=read_optional(limit, "effort", 0.0, report),
+        velocity=read_optional(limit, "velocity", 0.0, report),
+    )
+
+
+def _read_mimic(node: XmlNode, name: str, report: Diagnostics) -> RobotMimic | None:
+    mimic = node.find("mimic")
+    if mimic is None:
+        return None
+    leader = mimic.attribute("joint")
+    if not leader:
+        raise DescriptionError(mimic.at, f"joint {name!r}: <mimic> names no joint")
+    return RobotMimic(
+        joint=leader,
+        multiplier=read_optional(mimic, "multiplier", 1.0, report),
+        offset=read_optional(mimic, "offset", 0.0, report),
+    )

@@ -1,0 +1,70 @@
+"""Images and point clouds as messages, without their headers."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.sim.render import coloured_points
+from trundle.sim.sensors import CameraReading, CameraSensor, pixels_in
+
+_FLOAT32 = 7
+"""sensor_msgs/PointField.FLOAT32"""
+_KELVIN_STEP = 0.01
+"""Unit of gz's thermal cameras [K]."""
+
+
+def image_encoder(format_: str) -> Callable[[CameraReading], dict[str, object]]:
+    """Return the function that makes colour sensor_msgs/Image in one of SDF's pixel formats."""
+    return lambda reading: _image(*pixels_in(format_, reading.rgb))
+
+
+def depth_image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image of depths [m], 32FC1."""
+    assert reading.depth is not None
+    return _image(reading.depth, "32FC1")
+
+
+def labels_image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image of labels (mono8), or of 65536 · label + instance (32SC1)."""
+    assert reading.labels is not None
+    return _image(reading.labels, "mono8" if reading.labels.dtype == np.uint8 else "32SC1")
+
+
+def thermal_image(reading: CameraReading) -> dict[str, object]:
+    """sensor_msgs/Image of temperatures [0.01 K], mono16."""
+    assert reading.temperatures is not None
+    counts = np.clip(np.rint(reading.temperatures / _KELVIN_STEP), 0, 65535)
+    return _image(counts.astype(np.uint16), "mono16")
+
+
+def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
+    height, width = pixels.shape[:2]
+    data = np.ascontiguousarray(pixels).reshape(-1).view(np.uint8)
+    return {"height": height, "width": width, "encoding": encoding, "step": data.size // height, "data": data}
+
+
+def point_cloud_encoder(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
+    """Return the function that makes sensor_msgs/PointCloud2: a coloured point per pixel in the optical frame [m]; NaN
+    where there is no depth."""
+    right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.projection.slopes())
+    fields = [
+        {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}
+        for i, name in enumerate(("x", "y", "z", "rgb"))
+    ]
+
+    def cloud(reading: CameraReading) -> dict[str, object]:
+        assert reading.depth is not None
+        height, width = reading.depth.shape
+        points = coloured_points(reading.depth, reading.rgb, right, down)
+        return {
+            "height": height,
+            "width": width,
+            "fields": fields,
+            "point_step": 16,
+            "row_step": 16 * width,
+            "data": points.reshape(-1).view(np.uint8),
+            "is_dense": False,
+        }
+
+    return cloud

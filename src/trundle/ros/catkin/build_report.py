@@ -1,0 +1,100 @@
+"""Parts of a package that run as they are, and those that would have to be compiled."""
+
+import os
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from trundle.robots.packages import (
+    CMakeProgram,
+    cmake_libraries,
+    cmake_programs,
+    cmake_requirements,
+    compiled_fault,
+    program_folders,
+)
+
+_SOURCES = (".cpp", ".cc", ".cxx", ".c", ".c++")
+_KINDS = {
+    ".msg": "messages",
+    ".srv": "services",
+    ".action": "actions",
+    ".launch": "launch files",
+    ".urdf": "robots",
+    ".xacro": "xacro files",
+    ".world": "worlds",
+    ".sdf": "models",
+    ".cfg": "reconfigure options",
+}
+_NOT_SEARCHED = frozenset({"build", "devel", "install", "__pycache__"})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CppTarget:
+    """Program or library in C++."""
+
+    target: CMakeProgram
+    is_library: bool
+    built: Path | None
+    """The compiled program or library; None: it is not built."""
+    fault: str | None
+    """Reason why this machine cannot load what is built."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PackageBuild:
+    """Findings on one package."""
+
+    ready: tuple[str, ...]
+    """Counted parts that need no building: `2 messages`."""
+    targets: tuple[CppTarget, ...]
+    missing: tuple[str, ...]
+    """Packages that its CMakeLists.txt has to find and that are not installed."""
+
+
+def report_package(name: str, folder: Path, environment: Mapping[str, str]) -> PackageBuild:
+    """Look at a package's files and the targets of its CMakeLists.txt."""
+    counts: Counter[str] = Counter()
+    for root, folders, files in os.walk(folder):
+        folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
+        for file in files:
+            kind = _KINDS.get(Path(file).suffix.lower()) or _script(Path(root, file))
+            counts.update([kind] if kind else [])
+    prefixes = [prefix for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if prefix]
+    homes = program_folders(name, folder, environment)
+    shared = [home.parent for home in homes] + [Path(prefix, "lib") for prefix in prefixes]
+    programs = [
+        _target(each, _existing(homes, each.name), environment, is_library=False) for each in cmake_programs(folder)
+    ]
+    libraries = [
+        _target(each, _existing(shared, f"lib{each.name}.so"), environment, is_library=True)
+        for each in cmake_libraries(folder)
+        if any(source.endswith(_SOURCES) or "*" in source for source in each.sources)
+    ]
+    required = cmake_requirements(folder) if programs or libraries else []
+    return PackageBuild(
+        ready=tuple(f"{count} {kind}" for kind, count in sorted(counts.items())),
+        targets=(*programs, *libraries),
+        missing=tuple(each for each in required if not _is_installed(each, [*prefixes, "/usr"])),
+    )
+
+
+def _target(target: CMakeProgram, built: Path | None, environment: Mapping[str, str], *, is_library: bool) -> CppTarget:
+    fault = None if built is None else compiled_fault(built, environment)
+    return CppTarget(target=target, is_library=is_library, built=built, fault=fault)
+
+
+def _script(file: Path) -> str | None:
+    return "Python programs" if file.suffix == ".py" and os.access(file, os.X_OK) else None
+
+
+def _existing(folders: list[Path], name: str) -> Path | None:
+    return next((folder / name for folder in folders if os.path.isfile(folder / name)), None)
+
+
+def _is_installed(package: str, prefixes: list[str]) -> bool:
+    """True if CMake would find a package's configuration file."""
+    places = ("share/{0}/cmake/{0}Config.cmake", "share/{0}/cmake/{0}-config.cmake", "include/{0}")
+    lower = (package, package.lower())
+    return any(os.path.exists(os.path.join(p, place.format(n))) for p in prefixes for place in places for n in lower)

@@ -1,0 +1,32 @@
+"""Bags: files of messages."""
+
+from .bag import Bag, BagMessage, BagMessageWithConnectionHeader, Compression
+from .exceptions import (
+    ROSBagEncryptException,
+    ROSBagEncryptNotSupportedException,
+    ROSBagException,
+    ROSBagFormatException,
+    ROSBagUnindexedException,
+)
+
+__all__ = [
+    "Bag",
+    "BagMessage",
+    "BagMessageWithConnectionHeader",
+    "Compression",
+    "ROSBagEncryptException",
+    "ROSBagEncryptNotSupportedException",
+    "ROSBagException",
+    "ROSBagFormatException",
+    "ROSBagUnindexedException",
+    "rosbagmain",
+]
+
+
+def rosbagmain(argv=None):
+    """Run the command rosbag with its arguments; default: those of this process."""
+    import sys
+
+    from trundle.app.cli.main import main
+
+    sys.exit(main(["bag", *(sys.argv if argv is None else argv)[1:]]))

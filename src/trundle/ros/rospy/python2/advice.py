@@ -1,0 +1,44 @@
+"""Advice for a Python 2 program that was started by Python 3 itself, which does not translate it."""
+
+import os
+import shlex
+import sys
+from pathlib import Path
+
+from trundle.ros.rospy.environment import RUN_PYTHON2
+
+from .cache import changes, is_python2_file
+
+_OF_PYTHON2 = (SyntaxError, NameError, ModuleNotFoundError, AttributeError, TypeError)
+"""Errors that Python 3 raises for what only Python 2 has."""
+
+
+def python2_advice(error: BaseException) -> str | None:
+    """Return how to run the program that raised an error; None if neither it nor its faulty module is Python 2."""
+    program = sys.argv[0] if getattr(sys, "argv", None) else ""
+    if not isinstance(error, _OF_PYTHON2) or not os.path.isfile(program):
+        return None
+    files = (program, error.filename if isinstance(error, SyntaxError) else None)
+    found = next((file for file in files if file and file.endswith(".py") and _is_python2(file)), None)
+    if found is None:
+        return None
+    words = shlex.join([*_command(Path(os.path.realpath(program))), *sys.argv[1:]])
+    return f"trundle: {found} is Python 2; this runs it, translated: {words}"
+
+
+def _is_python2(file: str) -> bool:
+    try:
+        changes(file)  # raises for a program that is wrong in both
+    except (OSError, SyntaxError):
+        return False
+    return is_python2_file(file)
+
+
+def _command(program: Path) -> list[str]:
+    from trundle.robots.packages import Packages
+
+    packages = Packages(os.environ, start=program).ros_packages().items()
+    package = next((name for name, folder in packages if program.is_relative_to(os.path.realpath(folder))), None)
+    if package is None:
+        return [sys.executable, str(RUN_PYTHON2), str(program)]
+    return ["trundle", "exec", package, program.name]

@@ -1,0 +1,1 @@
+"""Simulation of a world: physics, sensors, pictures, time."""

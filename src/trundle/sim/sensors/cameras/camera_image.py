@@ -1,0 +1,56 @@
+"""Camera image: colours, depths and segmentation of one instant."""
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from trundle.base.diagnostics import UsageError
+
+
+class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
+    """Image without noise. A notebook shows its colours."""
+
+    time_ns: int
+    """Simulation time."""
+    rgb: NDArray[np.uint8]
+    """(height, width, 3)"""
+    depth: NDArray[np.float32] | None
+    """(height, width) Depth along the view axis [m]; infinite in the background. None for a wide-angle camera, which
+    has no such axis.
+    """
+    segmentation: NDArray[np.int32]
+    """(height, width) Index into `names` of the visual at a pixel; −1, its last entry, in the background."""
+    names: tuple[str, ...]
+    """Names `model::link::visual`; the last is empty."""
+
+    def mask(self, name: str) -> NDArray[np.bool_]:
+        """Return the (height, width) mask of a model, link or visual, by `model`, `model::link` or
+        `model::link::visual`.
+
+        Raises:
+            UsageError: no visual has that name; with the visuals there are.
+        """
+        chosen = np.array([each == name or each.startswith(f"{name}::") for each in self.names])
+        if not name or not chosen.any():
+            raise UsageError(f"nothing is called {name!r}; there are: {_listed(self.names[:-1])}")
+        return chosen[self.segmentation]
+
+    def _repr_png_(self) -> bytes:
+        """Return the colours as PNG, for notebooks."""
+        from PIL import Image
+
+        file = io.BytesIO()
+        Image.fromarray(self.rgb).save(file, "PNG")
+        return file.getvalue()
+
+    def __repr__(self) -> str:
+        height, width, _ = self.rgb.shape
+        seen = int(np.count_nonzero(np.unique(self.segmentation) >= 0))
+        return f"<CameraImage {width}x{height} at {self.time_ns / 1e9:.3f} s: {seen} visuals seen>"
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(map(repr, names)) or "none"

@@ -1,0 +1,139 @@
+"""Timed wrenches and efforts, and surface motions of links."""
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Protocol
+
+from msgspec import Struct, field
+
+from trundle.sim.physics import Engine
+from trundle.spatial import Wrench
+
+from .step_clock import StepClock
+
+if TYPE_CHECKING:  # a world without belts starts without them
+    from trundle.sim.physics import LinkGrip
+
+
+class DrivenJoint(Protocol):
+    """Joint that an effort drives for a while."""
+
+    @property
+    def is_valid(self) -> bool:
+        """True while its model exists."""
+        ...
+
+    def command_effort(self, effort: float, *, axis: int = 0) -> None:
+        """Drive an axis with this effort [N·m or N]."""
+        ...
+
+
+class Expiries(Struct, frozen=True):
+    """Steps at which wrenches and efforts end."""
+
+    wrenches: dict[int, int] = field(default_factory=dict[int, int])
+    """Link index → step."""
+    efforts: dict[tuple[DrivenJoint, int], int] = field(default_factory=dict[tuple[DrivenJoint, int], int])
+    """Joint and axis → step."""
+
+    def copy(self) -> "Expiries":
+        """Return an independent copy."""
+        return Expiries(dict(self.wrenches), dict(self.efforts))
+
+
+class AppliedLoads:
+    """Wrenches, efforts and surface motions of one simulation."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self.expiries = Expiries()
+        self._lasting: dict[int, Wrench] = {}
+        """Link → its persistent wrench, without the part added for the coming step."""
+        self._surface_motions: dict[int, LinkGrip] = {}
+
+    def clear(self) -> None:
+        """Clear all loads except surface motions."""
+        self.expiries = Expiries()
+        self._lasting.clear()
+
+    def restore(self, ends: Expiries) -> None:
+        """Restore saved expiries."""
+        self.expiries = ends.copy()
+        self._lasting.clear()
+
+    def shift(self, steps: int) -> None:
+        """Shift all expiries by a number of steps, after the time was set."""
+        self.expiries = Expiries(
+            {link: end + steps for link, end in self.expiries.wrenches.items()},
+            {axis: end + steps for axis, end in self.expiries.efforts.items()},
+        )
+
+    def retime(self, before: StepClock, after: StepClock) -> None:
+        """Convert all expiries to another step length."""
+        self.expiries = Expiries(
+            {link: after.step_at(before.time_ns(end)) for link, end in self.expiries.wrenches.items()},
+            {axis: after.step_at(before.time_ns(end)) for axis, end in self.expiries.efforts.items()},
+        )
+
+    def set_wrench(self, link: int, wrench: Wrench, *, until: int | None) -> None:
+        """Apply a wrench until a step, or permanently (None)."""
+        self._lasting.pop(link, None)
+        self._engine.set_wrench(link, wrench)
+        self.expiries.wrenches.pop(link, None)
+        if until is not None:
+            self.expiries.wrenches[link] = until
+
+    def add_wrench(self, link: int, wrench: Wrench) -> None:
+        """Add a wrench for the coming step."""
+        now = self._engine.wrench(link)
+        self._lasting.setdefault(link, now)
+        self._engine.set_wrench(link, now + wrench)
+
+    def set_effort_expiry(self, joint: DrivenJoint, axis: int, *, until: int | None) -> None:
+        """Set the step at which an effort ends; None: never."""
+        self.expiries.efforts.pop((joint, axis), None)
+        if until is not None:
+            self.expiries.efforts[joint, axis] = until
+
+    def set_surface_motion(self, link: int, motion: "LinkGrip | None") -> None:
+        """Set a link's surface motion; None restores ordinary contacts."""
+        if self._surface_motions.get(link) == motion:
+            return
+        if motion is None:
+            del self._surface_motions[link]
+        else:
+            self._surface_motions[link] = motion
+        self._engine.set_surface_motions(self._surface_motions)
+
+    def expiry_steps(self) -> Iterator[int]:
+        """Yield the steps at which a load ends."""
+        yield from self.expiries.wrenches.values()
+        yield from self.expiries.efforts.values()
+
+    def expire(self, step: int) -> None:
+        """Remove the loads that end at a step, and those added for it."""
+        for link, lasting in self._lasting.items():
+            self._engine.set_wrench(link, lasting)
+        self._lasting.clear()
+        for link in [link for link, end in self.expiries.wrenches.items() if end <= step]:
+            del self.expiries.wrenches[link]
+            self._engine.set_wrench(link, Wrench())
+        for joint, axis in [key for key, end in self.expiries.efforts.items() if end <= step]:
+            if joint.is_valid:
+                joint.command_effort(0.0, axis=axis)
+            else:
+                del self.expiries.efforts[joint, axis]
+
+    def transfer_to(self, links: Mapping[int, int], engine: Engine) -> None:
+        """Continue in another engine.
+
+        Args:
+            links: old → new index of the links that still exist.
+            engine: the new engine.
+        """
+        self._engine = engine
+        wrenches = {links[link]: end for link, end in self.expiries.wrenches.items() if link in links}
+        self.expiries = Expiries(wrenches, self.expiries.efforts)
+        self._lasting = {links[link]: wrench for link, wrench in self._lasting.items() if link in links}
+        self._surface_motions = {links[link]: motion for link, motion in self._surface_motions.items() if link in links}
+        if self._surface_motions:
+            self._engine.set_surface_motions(self._surface_motions)

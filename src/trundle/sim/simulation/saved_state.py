@@ -1,0 +1,17 @@
+"""Saved states of a simulation."""
+
+from msgspec import Struct
+
+from trundle.sim.physics import EngineState
+
+from .applied_loads import Expiries
+from .step_clock import StepClock
+
+
+class SavedSimulation(Struct, frozen=True):
+    """State to restore."""
+
+    steps: int
+    clock: StepClock
+    engine: EngineState
+    expiries: Expiries

@@ -1,0 +1,1 @@
+"""Worlds run many times: sweeps and datasets."""

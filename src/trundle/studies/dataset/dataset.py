@@ -1,0 +1,135 @@
+"""`trundle dataset` and `trundle.dataset`: all pictures of a plan."""
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from trundle.base.diagnostics import TrundleError
+from trundle.base.signals import stop_flag
+from trundle.base.workers import Job, JobResult, Progress, check_workers, run_job
+from trundle.studies.datasets import (
+    DatasetFolder,
+    DatasetPlan,
+    format_of,
+    load_dataset_plan,
+    shown_pictures,
+    write_contact_sheet,
+)
+from trundle.studies.trials import lock_folder
+
+from .dataset_digest import dataset_digest
+from .dataset_world import picture_maker
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DatasetResult:
+    """Pictures of a dataset."""
+
+    folder: Path
+    done: int
+    total: int
+    """Pictures of the plan."""
+    rate: float
+    """Pictures per second of wall time of this call."""
+    failed: Mapping[int, str]
+    """Number of a picture that could not be made → why; without it the formats' files of the whole are missing."""
+    interrupted: bool
+    """True after Ctrl-C; the same call goes on where it was."""
+
+    def summary(self) -> str:
+        """Return what is there, in one line."""
+        return f"{self.done} of {self.total} pictures"
+
+
+def make_dataset(
+    plan: DatasetPlan, *, output: Path | None = None, workers: int | None = None, address: str | None = None
+) -> DatasetResult:
+    """Make the pictures of a plan that are not there yet, then the files of the whole dataset.
+
+    Args:
+        plan: as read.
+        output: folder of the dataset; None: beside the plan.
+        workers: number of processes; None: one for each processor.
+        address: of a Ray cluster whose nodes share the folder; None: this machine, without Ray.
+
+    Raises:
+        TrundleError: the plan cannot be drawn, or its pictures not be written.
+    """
+    check_workers(workers)
+    maker = picture_maker(plan)  # a plan with errors is refused here, once, not by each process
+    plan, digest = maker.plan, dataset_digest(maker)
+    path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
+    job = Job(make=partial(_picture_writer, plan, path))
+    with lock_folder(path), stop_flag() as stop:
+        folder = DatasetFolder(path)
+        folder.open(plan, digest)
+        missing = sorted(set(range(plan.count)) - folder.done())
+        progress = Progress(plan.count, plan.count - len(missing), what="pictures")
+        failed: dict[int, str] = {}
+
+        def add_outcome(outcome: JobResult[str]) -> bool:
+            reason = outcome.reason if outcome.failure is not None else outcome.value
+            if reason:
+                failed[outcome.row] = reason
+            return not reason
+
+        run_job(
+            job,
+            iter(missing),
+            add_outcome,
+            count=len(missing),
+            progress=progress,
+            workers=workers,
+            address=address,
+            is_ending=stop.is_set,
+        )
+        left = set(range(plan.count)) - folder.done()
+        if not left:
+            for name in plan.formats:
+                format_of(name).finish(plan, path, lambda: folder.read(range(plan.count)))
+            write_contact_sheet(plan, path, list(folder.read(shown_pictures(plan.count))))
+        return DatasetResult(
+            folder=output or Path(plan.file).with_suffix(".dataset"),
+            done=plan.count - len(left),
+            total=plan.count,
+            rate=progress.rate,
+            failed=failed,
+            interrupted=stop.is_set(),
+        )
+
+
+def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
+    """Return the function that makes and writes the picture of a number, and returns why it could not, or ""."""
+    maker, folder = picture_maker(plan), DatasetFolder(path)
+    formats = [format_of(name) for name in plan.formats]
+
+    def write(number: int) -> str:
+        try:
+            picture = maker.make(number)
+            folder.write(picture)
+            for each in formats:
+                each.write(plan, path, picture)
+            folder.add(picture.annotation)
+        except TrundleError as error:
+            return str(error)
+        except OSError as error:
+            return f"{error.filename or path}: {error.strerror}"  # a write names no file
+        return ""
+
+    return write
+
+
+def make_planned(
+    plan: "str | os.PathLike[str] | Mapping[str, object]",
+    *,
+    output: Path | None,
+    workers: int | None,
+    address: str | None,
+) -> DatasetResult:
+    """See `trundle.dataset`."""
+    result = make_dataset(load_dataset_plan(plan), output=output, workers=workers, address=address)
+    if result.interrupted:
+        raise KeyboardInterrupt
+    return result

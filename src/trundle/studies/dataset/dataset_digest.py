@@ -1,0 +1,14 @@
+"""Digest of everything that the pictures of a dataset depend on."""
+
+from pathlib import Path
+
+from trundle.studies.datasets import PictureMaker
+
+from ..input_digest import input_digest
+
+
+def dataset_digest(maker: PictureMaker) -> str:
+    """Return a digest that changes with anything that may change a picture; the number of pictures does not count."""
+    text = "\n".join(line for line in maker.plan.text.splitlines() if not line.startswith("count:"))
+    textures = [texture for texture in maker.looks.textures if isinstance(texture, Path)]
+    return input_digest([text], [maker.world], textures)

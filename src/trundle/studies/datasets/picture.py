@@ -1,0 +1,136 @@
+"""Pictures with their annotations, each from its number alone."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+from PIL import Image
+
+from trundle.base.diagnostics import Diagnostics
+from trundle.sim.render import Intrinsics, NativeRenderer, add_colour_noise, scene_from_world
+from trundle.sim.simulation import Simulation
+from trundle.spatial import Pose
+
+from .annotation import CameraAnnotation, PictureAnnotation
+from .annotator import Annotator
+from .instance import Instance
+from .lidar import Cloud, Lidar
+from .looks import Looks
+from .mounted_camera import MountedCamera
+from .outlines import Outlines
+from .placer import Placer
+from .plan import DatasetPlan
+from .random_stream import NOISE, random_stream
+from .view import CAMERA_FROM_OPTICAL, View, draw_view
+
+
+class AnnotatedPicture(Struct, frozen=True, eq=False, kw_only=True):
+    """Picture and what is known about it."""
+
+    annotation: PictureAnnotation
+    rgb: NDArray[np.uint8]
+    """(height, width, 3)"""
+    depth: NDArray[np.float32]
+    """(height, width) along the view axis [m]; infinite in the background."""
+    instances: NDArray[np.uint16]
+    """(height, width) number of the instance; 0: the rest of the world."""
+    cloud: Cloud | None
+
+
+class PictureMaker:
+    """Makes the pictures of one plan."""
+
+    def __init__(self, plan: DatasetPlan, simulation: Simulation, instances: Sequence[Instance]) -> None:
+        """Prepare what all pictures share.
+
+        Args:
+            plan: as read.
+            simulation: of its world, with the instances in it; nothing else may use it.
+            instances: objects and distractors.
+
+        Raises:
+            DescriptionError: the plan names something that is not there; with its line.
+        """
+        scene = scene_from_world(simulation.world, Diagnostics())
+        is_mounted = isinstance(plan.camera.place, str)
+        self._mounted = MountedCamera(plan, simulation.world, scene) if is_mounted else None
+        plan = plan if self._mounted is None else self._mounted.plan
+        self.plan = plan
+        """The plan; of a camera in the world with what its sensor says."""
+        self.world = simulation.world
+        """The world with all its objects and distractors."""
+        outlines = Outlines(scene)
+        self.looks = Looks(plan, scene, instances)
+        self.placer = Placer(plan, simulation, instances, scene, outlines)
+        self._annotator = Annotator(simulation, scene, instances, outlines)
+        categories = [0 if each.plan is None else plan.categories.index(each.plan.category) + 1 for each in instances]
+        classes = np.array([0, *categories], dtype=np.uint16)
+        self._lidar = None if plan.lidar is None else Lidar(plan.lidar, self._annotator.numbers, classes)
+        self.renderer = NativeRenderer(scene, textures=self.looks.textures)
+
+    def make(self, number: int) -> AnnotatedPicture:
+        """Make a picture.
+
+        Raises:
+            SimulationUnstableError: physics does not let its things come to rest.
+            UsageError: the robot that has the camera found no place.
+        """
+        arrangement = self.placer.arrange(number)
+        mounted = self._mounted
+        view = draw_view(self.plan, number, arrangement) if mounted is None else mounted.view(arrangement)
+        scene = self.looks.scene(number, arrangement)
+        self.renderer.restyle(scene)
+        self.renderer.update(arrangement.poses)
+        rgb, depth, shapes = self.draw(view)
+        if self.plan.camera.noise:
+            seed = int(random_stream(self.plan.seed, number, NOISE).integers(1 << 63))
+            add_colour_noise(rgb, seed=seed, mean=0.0, stddev=self.plan.camera.noise)
+        instances = self._annotator.numbers.take(shapes, mode="wrap")  # -1, no shape, is the last
+        objects = self._annotator.annotate(arrangement, view, depth, instances)
+        cloud = None if self._lidar is None else self._lidar.scan(view.world_from_camera, self.renderer, scene)
+        annotation = PictureAnnotation(
+            number=number,
+            width=self.plan.width_px,
+            height=self.plan.height_px,
+            camera=_camera(view),
+            camera_from_lidar=None if self._lidar is None else _row(CAMERA_FROM_OPTICAL.inverse() @ self._lidar.pose),
+            objects=objects,
+        )
+        return AnnotatedPicture(annotation=annotation, rgb=rgb, depth=depth, instances=instances, cloud=cloud)
+
+    def draw(self, view: View) -> tuple[NDArray[np.uint8], NDArray[np.float32], NDArray[np.int32]]:
+        """Render colours with several samples per pixel, and depths and shapes at the pixels' centres."""
+        picture = self.renderer.render([(view.world_from_camera, view.lens)], depth=True, segmentation=True)[0]
+        assert picture.depth is not None
+        assert picture.segmentation is not None
+        rgb, samples = picture.rgb, self.plan.samples
+        if samples > 1:
+            large = self.renderer.render([(view.world_from_camera, _sampled(view.lens, samples))])[0].rgb
+            rgb = np.array(Image.fromarray(large).reduce(samples))
+        return rgb, picture.depth, picture.segmentation
+
+
+def _sampled(lens: Intrinsics, samples: int) -> Intrinsics:
+    return Intrinsics(
+        width_px=lens.width_px * samples,
+        height_px=lens.height_px * samples,
+        horizontal_fov_rad=lens.horizontal_fov_rad,
+        near_m=lens.near_m,
+        far_m=lens.far_m,
+    )
+
+
+def _camera(view: View) -> CameraAnnotation:
+    lens = view.lens
+    return CameraAnnotation(
+        fx=lens.focal_px,
+        fy=lens.focal_px,
+        cx=lens.width_px / 2,
+        cy=lens.height_px / 2,
+        world_from_camera=_row(view.world_from_optical),
+    )
+
+
+def _row(pose: Pose) -> tuple[float, ...]:
+    return (*pose.position, *pose.quaternion)

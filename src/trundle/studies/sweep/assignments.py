@@ -1,0 +1,91 @@
+"""Values that a row assigns: arguments, ROS parameters and properties of the world."""
+
+from collections.abc import Generator
+from contextlib import contextmanager
+from typing import TypeVar
+
+from msgspec import Struct
+
+from trundle.base.diagnostics import DescriptionError, Source, UnknownArgumentError, UsageError
+from trundle.studies.trials import ARGUMENTS, PARAMETERS, Formula, Plan, Row, Value, is_property, with_property
+
+from .state_names import StateExpressions, named_values
+
+_T = TypeVar("_T")
+
+
+class Property(Struct, frozen=True):
+    """Property of the world, and where the plan assigns it."""
+
+    path: str
+    value: Value
+    at: Source
+
+    def assigned(self, world: _T) -> _T:
+        """Return the world with this property.
+
+        Raises:
+            UsageError: it has no such property; with the plan's line.
+        """
+        try:
+            return with_property(world, self.path, self.value)
+        except UsageError as error:
+            raise UsageError(f"{self.at}: error: {error}") from None
+
+
+class Assignments(Struct, frozen=True):
+    """Values of one row."""
+
+    arguments: dict[str, str]
+    """Arguments of the xacro or launch file."""
+    parameters: dict[str, Value]
+    """Global name of a ROS parameter → its value."""
+    properties: list[Property]
+    sources: dict[str, Source]
+    """Path → where the plan assigns it."""
+
+    @contextmanager
+    def unknown_arguments_at_plan(self) -> Generator[None]:
+        """Say where in the plan an argument is assigned that a file does not have."""
+        try:
+            yield
+        except UnknownArgumentError as error:
+            path = f"{ARGUMENTS}/{error.name}"
+            raise DescriptionError(self.sources[path], f"{path}: {error.at}: {error.what}") from None
+
+
+def assignments_of(plan: Plan, row: Row, expressions: StateExpressions) -> Assignments:
+    """Return what a row assigns.
+
+    Raises:
+        UsageError: an expression of `set` has no such value; with its line.
+    """
+    assigned = {
+        each.name: Property(each.name, row.values[each.name], each.at) for each in plan.vary if is_property(each.name)
+    }
+    names = named_values(row.values)
+    for path, formula in plan.assignments.items():
+        assigned[path] = Property(path, _plain(expressions.evaluate(formula, names), formula), formula.at)
+    found = Assignments({}, {}, [], {path: each.at for path, each in assigned.items()})
+    for path, each in assigned.items():
+        kind, _, name = path.partition("/")
+        if kind == ARGUMENTS:
+            found.arguments[name] = _text(each.value)
+        elif kind == PARAMETERS:
+            found.parameters[f"/{name}"] = each.value
+        else:
+            found.properties.append(each)
+    return found
+
+
+def _plain(value: object, formula: Formula) -> Value:
+    if isinstance(value, list | tuple):
+        return tuple(_plain(each, formula) for each in value)
+    if not isinstance(value, bool | int | float | str):
+        raise UsageError(f"{formula.at}: error: {formula.text} must be a number, a text or a list, and is {value!r}")
+    return value
+
+
+def _text(value: Value) -> str:
+    """Return a value as an argument of xacro or roslaunch."""
+    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,0 +1,103 @@
+"""Runs of rows on a GPU, many worlds in one process."""
+
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+import numpy as np
+
+from trundle.base.diagnostics import TrundleError
+from trundle.base.workers import Progress
+from trundle.sim.physics import GpuWorlds
+from trundle.spatial import NS_PER_S
+from trundle.studies.trials import Plan, RowResult, Rows
+
+from ..trial import TrialRunner
+from .device_row import DeviceRow
+from .row_check import why_not_beside
+
+_TOGETHER = 1024
+"""Most worlds at once; each takes a megabyte or less of this machine's memory."""
+_MOST_STEPS = 1000
+"""Most steps between two looks at Ctrl-C."""
+
+
+def run_on_gpu(
+    plan: Plan,
+    numbers: Iterator[int],
+    receive: Callable[[RowResult], object],
+    *,
+    gpu: str,
+    progress: Progress,
+    is_ending: Callable[[], bool],
+) -> None:
+    """Run rows, show their progress, and hand each result on.
+
+    Args:
+        plan: as `check_plan` and `check_worlds` let it pass.
+        numbers: of the rows.
+        receive: called with each result.
+        gpu: as Warp calls it.
+        progress: of the whole; it is closed at the end.
+        is_ending: polled; True ends the runs.
+    """
+    batches = _Batches(plan, gpu)
+    try:
+        while not is_ending() and (some := list(islice(numbers, _TOGETHER))):
+            for result in batches.run(some, is_ending):
+                if result is not None:
+                    progress.add(is_ok=result.status == "ok")
+                    receive(result)
+                progress.show()
+    finally:
+        progress.close()
+
+
+class _Batches:
+    """Worlds like that of the plan's first row."""
+
+    def __init__(self, plan: Plan, gpu: str) -> None:
+        self._rows, self._runner, self._gpu = Rows(plan), TrialRunner(plan), gpu
+        self._until_ns = round(plan.duration_s * NS_PER_S)
+        self._first = self._runner.simulation(self._rows.row(0))
+
+    def run(self, numbers: list[int], is_ending: Callable[[], bool]) -> Iterator[RowResult | None]:
+        """Yield the results of rows as they end, and None in between."""
+        runs: list[DeviceRow] = []
+        for number in numbers:
+            started = self._start(number)
+            if isinstance(started, DeviceRow):
+                runs.append(started)
+            else:
+                yield started
+        if runs:
+            yield from self._step(runs, is_ending)
+
+    def _start(self, number: int) -> DeviceRow | RowResult:
+        row = self._rows.row(number)
+        try:
+            simulation = self._runner.simulation(row)
+        except TrundleError as error:
+            return RowResult(number, "error", str(error))
+        why = why_not_beside(self._first, simulation)
+        if why:
+            return RowResult(number, "error", f"a GPU cannot step this run beside the first, because {why}")
+        return DeviceRow(row, simulation, self._runner, until_ns=self._until_ns)
+
+    def _step(self, runs: list[DeviceRow], is_ending: Callable[[], bool]) -> Iterator[RowResult | None]:
+        worlds, step = GpuWorlds([run.simulation.engine for run in runs], self._gpu), 0
+        going = runs
+        while not is_ending():
+            for run in going:
+                run.act()
+            yield from (run.result for run in going if run.result is not None)
+            going = [run for run in going if run.result is None]
+            if not going:
+                return
+            count = min(min(run.next_step for run in going) - step, _MOST_STEPS)
+            outcomes = worlds.step(count, chosen=np.array([run.result is None for run in runs]))
+            step += count
+            for run, outcome in zip(runs, outcomes, strict=True):
+                if run.result is None:
+                    run.arrive(step, outcome)
+            yield from (run.result for run in going)
+            going = [run for run in going if run.result is None]

@@ -1,0 +1,64 @@
+"""Run of one row, whose physics is stepped together with others."""
+
+from trundle.base.diagnostics import TrundleError
+from trundle.sim.physics import StepOutcome
+from trundle.spatial import NS_PER_S
+from trundle.studies.trials import Row, RowResult
+
+from ..trial import TrialRunner, TrialSimulation
+
+_WHY = {
+    StepOutcome.UNSTABLE: "the physics became unstable {}; a smaller <max_step_size> or more plausible masses and "
+    "inertias may help",
+    StepOutcome.CROWDED: "it has more contacts than the GPU has room for {}; device='cpu' has no such bound",
+}
+
+
+class DeviceRow:
+    """Run that acts between the steps, as `TrialSimulation.advance` does."""
+
+    def __init__(self, row: Row, simulation: TrialSimulation, runner: TrialRunner, *, until_ns: int) -> None:
+        """Take a simulation at time zero.
+
+        Args:
+            row: its values.
+            simulation: with its events.
+            runner: judges it at its end.
+            until_ns: time of its end [ns].
+        """
+        self.simulation = simulation
+        self.result: RowResult | None = None
+        """None: it goes on."""
+        self._row, self._runner, self._until_ns = row, runner, until_ns
+
+    @property
+    def next_step(self) -> int:
+        """Step at which something is due, a load ends, or the run does."""
+        due_ns = self.simulation.script.next_ns
+        stop_ns = self._until_ns if due_ns is None else min(due_ns, self._until_ns)
+        return min([-(-stop_ns // self.simulation.step_ns), *self.simulation.loads.expiry_steps()])
+
+    def act(self) -> None:
+        """Perform what is due now, and at the end measure."""
+        simulation, script = self.simulation, self.simulation.script
+        try:
+            while simulation.time_ns < self._until_ns and not script.is_over:
+                if script.next_ns is None or script.next_ns > simulation.time_ns:
+                    return
+                script.act()
+        except TrundleError as error:
+            self._fail(str(error))
+            return
+        self.result = self._runner.result(self._row, simulation)
+
+    def arrive(self, step: int, outcome: StepOutcome) -> None:
+        """Go on from a step up to which the physics was computed; a run that is not stable ends."""
+        if outcome is StepOutcome.STABLE:
+            self.simulation.steps = step
+            self.simulation.loads.expire(step)
+            return
+        start_s, end_s = self.simulation.time_ns / NS_PER_S, step * self.simulation.step_ns / NS_PER_S
+        self._fail(_WHY[outcome].format(f"between {start_s:g} and {end_s:g} s"))
+
+    def _fail(self, why: str) -> None:
+        self.result = RowResult(self._row.number, "error", why, self.simulation.time_ns / NS_PER_S)

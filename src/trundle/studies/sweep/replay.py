@@ -1,0 +1,35 @@
+"""`trundle sweep PLAN --row N`: one run again, in the browser or without."""
+
+from trundle.base.console import say
+from trundle.base.http.page_address import PageAddress
+from trundle.studies.trials import Plan, Rows
+
+from .launch_trial import LaunchTrialRunner
+from .shown_launch import show_launch
+from .shown_world import show_world
+from .trial import runner_of
+
+
+def replay(plan: Plan, number: int, at: PageAddress | None) -> int:
+    """Run a row again and print its values and its result; return the exit code, 130 after a page's Ctrl-C.
+
+    Args:
+        plan: as read.
+        number: of the row.
+        at: address of the page; None: no page.
+
+    Raises:
+        TrundleError: there is no such row, or its world cannot be read.
+    """
+    row, runner = Rows(plan).row(number), runner_of(plan)
+    say("\n".join([f"row {number}: seed {row.seed}", *(f"  {name} = {value}" for name, value in row.values.items())]))
+    result = runner.run(row)
+    measures = [f"  {name} = {value}" for name, value in result.measures.items()]
+    say("\n".join([f"{result.status}{f': {result.reason}' if result.reason else ''}", *measures]))
+    if at is None:
+        return 0 if result.status == "ok" else 1
+    if isinstance(runner, LaunchTrialRunner):
+        show_launch(plan, row, runner, at, result)
+    else:
+        show_world(plan, row, runner, at, result)
+    return 130

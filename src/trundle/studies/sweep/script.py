@@ -1,0 +1,189 @@
+"""Events, stop conditions and samples of one run.
+
+They are due at the times of the events and at multiples of the sampling period only, so that the engine steps in C in
+between; a run with a page, which is paced, does the same at the same steps.
+"""
+
+import math
+from collections.abc import Callable
+from contextlib import suppress
+
+from trundle.base.diagnostics import UsageError
+from trundle.sim.simulation import JointHandle, LinkHandle, Simulation
+from trundle.spatial import NS_PER_S, Wrench
+from trundle.studies.trials import Event, Formula, Measure, Plan, Row
+
+from .state_names import StateExpressions, state_names
+from .topics import NoMessageError, TopicReader
+
+
+class RunScript:
+    """Events and measures of one run."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        row: Row,
+        simulation: Simulation,
+        expressions: StateExpressions,
+        topics: TopicReader | None = None,
+    ) -> None:
+        """Prepare a run at time zero.
+
+        Raises:
+            UsageError: an event has no such number.
+        """
+        self._topics = topics
+        self._plan = plan
+        self._values = row.values
+        self._simulation = simulation
+        self._expressions = expressions
+        self._events = sorted((self._event(event) for event in plan.events), key=lambda each: each[0])
+        self._next_event = 0
+        self._sampled = {
+            each.name: (each, Formula(text=each.expression, at=each.at))
+            for each in plan.measures
+            if each.expression is not None
+        }
+        self._is_sampled = bool(plan.stop) or any(each.over != "end" for each, _ in self._sampled.values())
+        self._every_ns = max(round(plan.every_s * NS_PER_S), simulation.step_ns)
+        self._next_sample_ns = 0 if self._is_sampled else None
+        self._found: dict[str, float] = {}
+        self._counts: dict[str, int] = {}
+        """Measure → number of its samples."""
+        self._sampled_ns: int | None = None
+        """Time of the last sample."""
+        self.is_over = False
+        """True if a stop condition is true."""
+
+    @property
+    def next_ns(self) -> int | None:
+        """Next time at which something is due [ns]; None: at the end only."""
+        times = [time_ns for time_ns, _ in self._events[self._next_event : self._next_event + 1]]
+        return min([*times, *([] if self._next_sample_ns is None else [self._next_sample_ns])], default=None)
+
+    def act(self) -> None:
+        """Perform what is due now."""
+        now_ns = self._simulation.time_ns
+        if self._next_sample_ns is not None and self._next_sample_ns <= now_ns:
+            self._sample()
+            self._next_sample_ns = (now_ns // self._every_ns + 1) * self._every_ns
+        for time_ns, do in self._events[self._next_event :]:
+            if time_ns <= now_ns:
+                self._next_event += 1
+                do()
+
+    def restart(self) -> None:
+        """Begin again, after the simulation was reset."""
+        self._next_event, self.is_over = 0, False
+        self._next_sample_ns = 0 if self._is_sampled else None
+        self._found.clear()
+        self._counts.clear()
+        self._sampled_ns = None
+
+    def _names(self) -> dict[str, object]:
+        return state_names(self._simulation, self._values, self._topics)
+
+    def _event(self, event: Event) -> tuple[int, Callable[[], None]]:
+        """Return an event's time [ns] and what it does."""
+        numbers = [self._expressions.number(formula, self._values) for formula in event.numbers]
+        at_s = self._expressions.number(event.time_s, self._values)
+        duration_s = None if event.duration_s is None else self._expressions.number(event.duration_s, self._values)
+        return round(at_s * NS_PER_S), lambda: self._perform(event, numbers, duration_s)
+
+    def _perform(self, event: Event, numbers: list[float], duration_s: float | None) -> None:
+        target = self._target(event)
+        if isinstance(target, LinkHandle):
+            wrench = Wrench((numbers[0], numbers[1], numbers[2]), (numbers[3], numbers[4], numbers[5]))
+            target.apply_wrench(wrench, duration_s=duration_s)
+        elif event.kind == "position":
+            target.command_position(numbers[0])
+        elif event.kind == "velocity":
+            target.command_velocity(numbers[0])
+        else:
+            target.command_effort(numbers[0], duration_s=duration_s)
+
+    def _target(self, event: Event) -> LinkHandle | JointHandle:
+        """Return the link or joint of an event.
+
+        Raises:
+            UsageError: there is none; with the event's line.
+        """
+        model, part = event.target
+        try:
+            handle = self._simulation[model]
+            return handle.link(part) if event.kind == "push" else handle.joint(part)
+        except UsageError as error:
+            raise UsageError(f"{event.at}: error: {error}") from None
+
+    def check(self) -> None:
+        """Look up the targets of all events.
+
+        Raises:
+            UsageError: there is no such link or joint; with the event's line.
+        """
+        for event in self._plan.events:
+            self._target(event)
+
+    @property
+    def periods_ns(self) -> list[int]:
+        """Periods of hooks that call `act` whenever something is due [ns]."""
+        sampling = [self._every_ns] if self._is_sampled else []
+        return [*sampling, *(max(time_ns, 1) for time_ns, _ in self._events)]
+
+    def _sample(self) -> None:
+        names = self._names()
+        for measure, formula in self._sampled.values():
+            if measure.over != "end":
+                with suppress(NoMessageError):
+                    self._add_sample(measure, self._expressions.evaluate(formula, names), formula)
+        self._sampled_ns = self._simulation.time_ns
+        for formula in self._plan.stop:
+            with suppress(NoMessageError):
+                self.is_over = self.is_over or bool(self._expressions.evaluate(formula, names))
+
+    def _add_sample(self, measure: Measure, value: object, formula: Formula) -> None:
+        found, name = self._found, measure.name
+        if measure.over == "time":
+            if value and name not in found:
+                found[name] = self._simulation.time_ns / NS_PER_S
+            return
+        number = _number(value, formula)
+        self._counts[name] = self._counts.get(name, 0) + 1
+        match measure.over:
+            case "min":
+                found[name] = min(found.get(name, math.inf), number)
+            case "max":
+                found[name] = max(found.get(name, -math.inf), number)
+            case "mean":
+                found[name] = found.get(name, 0.0) + number
+            case _:
+                found.setdefault(name, number)
+
+    def measures(self) -> dict[str, float | str | None]:
+        """Return the value of each expression at the end; None without a message, or a time at which it became true.
+
+        Raises:
+            UsageError: an expression is no finite number.
+        """
+        if self._is_sampled and self._sampled_ns != self._simulation.time_ns:
+            self._sample()
+        names = self._names()
+        measured: dict[str, float | str | None] = {}
+        for name, (measure, formula) in self._sampled.items():
+            if measure.over == "end":
+                try:
+                    measured[name] = _number(self._expressions.evaluate(formula, names), formula)
+                except NoMessageError:
+                    measured[name] = None
+            elif measure.over == "mean" and name in self._found:
+                measured[name] = self._found[name] / self._counts[name]
+            else:
+                measured[name] = self._found.get(name)
+        return measured
+
+
+def _number(value: object, formula: Formula) -> float:
+    if not isinstance(value, int | float) or not math.isfinite(value):
+        raise UsageError(f"{formula.at}: error: {formula.text} must be a finite number, and is {value!r}")
+    return float(value)

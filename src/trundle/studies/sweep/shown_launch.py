@@ -1,0 +1,53 @@
+"""Row of a launch file on the page, in real time and in lockstep with its nodes."""
+
+from trundle.base.console import say
+from trundle.base.http.page_address import PageAddress
+from trundle.base.signals import stop_flag
+from trundle.live.launch.options import LaunchOptions
+from trundle.page import POSES
+from trundle.spatial import NS_PER_S
+from trundle.studies.trials import Plan, Row, RowResult
+
+from .launch_trial import LaunchTrialRunner, check_running
+from .shown_result import report_shown
+
+_POLL_S = 0.02
+
+
+def show_launch(plan: Plan, row: Row, runner: LaunchTrialRunner, at: PageAddress, result: RowResult) -> None:
+    """Launch a row; time begins when a browser looks at it, and the page stays after its end, until Ctrl-C.
+
+    Args:
+        plan: as read.
+        row: its values.
+        runner: of the plan.
+        at: address of the page.
+        result: of the same row without a page, with which this run's is compared.
+
+    Raises:
+        TrundleError: the launch has no world, or the port asked for is taken.
+    """
+    options = LaunchOptions(
+        duration_s=plan.duration_s,
+        in_step=True,
+        host=at.host,
+        view_port=at.port,
+        allowed=at.allowed,
+        view_only=at.view_only,
+    )
+    end_ns, is_begun, is_reported = round(plan.duration_s * NS_PER_S), False, False
+    with stop_flag() as stop, runner.session(row, options) as (session, setup):
+        page = session.show_world()
+        running = session.start(session.nodes, is_ending=stop.is_set, begins=False)
+        while not stop.wait(_POLL_S):
+            check_running(running)
+            if not is_begun and page.is_watched(POSES):
+                is_begun = True
+                session.begin()
+            if not session.is_over:
+                continue
+            if not is_reported:
+                is_reported = True
+                report_shown(runner.result(row, setup), result, say)
+            if not setup.is_over and setup.simulation.time_ns < end_ns:  # it was reset
+                session.rewind()

@@ -1,0 +1,67 @@
+"""Row of a world on the page, in real time."""
+
+import sys
+
+from trundle.base.console import say
+from trundle.base.http.page_address import PageAddress
+from trundle.base.signals import stop_flag
+from trundle.page.shared_page import SharedPage
+from trundle.page.simulated_world.page import SimulationPage
+from trundle.sim.physics import SimulationUnstableError
+from trundle.sim.realtime_pacer import RealtimePacer, shorten_gil_interval
+from trundle.sim.renderers import RENDERERS
+from trundle.sim.sensors import mount_cameras, mount_sensors
+from trundle.spatial import NS_PER_S
+from trundle.studies.trials import Plan, Row, RowResult
+
+from .shown_result import report_shown
+from .trial import TrialRunner
+
+_IDLE_S = 0.02
+
+
+def show_world(plan: Plan, row: Row, runner: TrialRunner, at: PageAddress, result: RowResult) -> None:
+    """Simulate a row from the moment a browser looks at it; the page stays after its end, until Ctrl-C.
+
+    Args:
+        plan: as read.
+        row: its values.
+        runner: of the plan.
+        at: address of the page.
+        result: of the same row without a page, with which this run's is compared.
+
+    Raises:
+        UsageError: the port asked for is taken.
+    """
+
+    def warn(text: str) -> None:
+        say(text, sys.stderr)
+        page.warn(text)
+
+    shared = SharedPage(say=lambda text: say(text, sys.stderr), at=at)
+    end_ns, is_reported = round(plan.duration_s * NS_PER_S), False
+    with runner.simulation(row) as simulation, stop_flag() as stop:
+        simulation.on_reset(simulation.script.restart)
+        sensors = (*mount_cameras(simulation, RENDERERS["cpu"]), *mount_sensors(simulation))
+        for sensor in sensors:
+            sensor.start(simulation)
+        with SimulationPage(shared, simulation, sensors) as page:
+            pacer, paused, is_seen = RealtimePacer(1.0), False, False
+            shorten_gil_interval()
+            while not stop.is_set():
+                is_seen = is_seen or page.is_seen
+                is_over = simulation.script.is_over or simulation.time_ns >= end_ns
+                if is_over and not is_reported:
+                    is_reported = True
+                    report_shown(runner.result(row, simulation), result, warn)
+                paused = page.handle_requests(pacer, paused=paused or is_over)
+                page.update(pacer, paused=paused or is_over)
+                if paused or is_over or not is_seen:
+                    stop.wait(_IDLE_S)
+                    pacer.restart()
+                    continue
+                try:
+                    simulation.advance(min(pacer.next_target(simulation.time_ns), end_ns))
+                except SimulationUnstableError as error:
+                    warn(str(error))
+                    paused = True

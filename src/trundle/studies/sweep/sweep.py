@@ -1,0 +1,146 @@
+"""`trundle sweep` and `trundle.sweep`: all rows of a plan."""
+
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import closing, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from trundle.base.console import say
+from trundle.base.diagnostics import TrundleError
+from trundle.base.signals import stop_flag
+from trundle.base.workers import Progress, check_workers
+from trundle.studies.trials import Plan, Results, Rows, Table, load_plan, lock_folder
+
+from .argument_rows import argument_rows
+from .device.device_choice import Device, gpu_of
+from .device.row_check import check_worlds
+from .launch_trial import LaunchTrialRunner
+from .plan_digest import RunInputs, plan_digest
+from .processes import run_in_processes
+from .trial import TrialRunner, runner_of
+
+
+@dataclass(frozen=True, slots=True)
+class SweepResult:
+    """Results of a sweep."""
+
+    folder: Path
+    counts: dict[str, int]
+    """Status → number of rows: ok, failed (a criterion is not met), error, timeout, memory, lost."""
+    total: int
+    """Rows of the plan."""
+    rate: float
+    """Rows per second of wall time of this call."""
+    interrupted: bool
+    """True after Ctrl-C; the same sweep goes on where it was."""
+    _results: Results
+
+    @property
+    def table(self) -> Any:
+        """The `pyarrow.Table` of all rows, in the order of their numbers; `.to_pandas()` makes a data frame."""
+        return self._results.read()
+
+    @property
+    def done(self) -> int:
+        """Number of rows with a result."""
+        return sum(self.counts.values())
+
+    def summary(self) -> str:
+        """Return what came out, in one line."""
+        most_first = sorted(self.counts.items(), key=lambda each: -each[1])
+        counts = ", ".join(f"{count} {status}" for status, count in most_first)
+        return f"{self.done} of {self.total} runs: {counts or 'none'}"
+
+
+def results_folder(plan: Plan, output: Path | None) -> Path:
+    """Return the folder of a plan's results: beside its file, or as asked for."""
+    return output or Path(plan.file).with_suffix(".sweep")
+
+
+def open_results(
+    plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | LaunchTrialRunner, *, device: Device | None = None
+) -> Results:
+    """Open the results of a plan in a folder.
+
+    Args:
+        plan: as read.
+        rows: its rows.
+        folder: of the results.
+        runner: of the rows.
+        device: see `Results`.
+
+    Raises:
+        UsageError: the folder has the results of another plan or device, or cannot be written.
+    """
+    digest = plan_digest(plan, _inputs(plan, rows, runner))
+    return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text, device=device)
+
+
+def _inputs(plan: Plan, rows: Rows, runner: TrialRunner | LaunchTrialRunner) -> Iterator[RunInputs]:
+    first, *others = argument_rows(plan, rows)
+    yield runner.inputs(first)
+    for row in others:
+        with suppress(TrundleError):  # the row says so
+            yield runner.inputs(row)
+
+
+def sweep(
+    plan: Plan,
+    *,
+    output: Path | None = None,
+    workers: int | None = None,
+    address: str | None = None,
+    device: Device = "cpu",
+) -> SweepResult:
+    """Run the rows of a plan that have no result yet.
+
+    Args:
+        plan: as read.
+        output: folder of the results; None: beside the plan.
+        workers: number of processes; None: one for each processor.
+        address: of a Ray cluster; None: this machine, without Ray.
+        device: "cuda": a GPU steps the rows in this process, in single precision; without one a line says so, and the
+            processors run them.
+
+    Raises:
+        TrundleError: the plan cannot be run, or its results not be written.
+    """
+    check_workers(workers)
+    gpu = gpu_of(plan, device, workers=workers, address=address)
+    rows, runner = Rows(plan), runner_of(plan)
+    for warning in runner.check(rows.row(0)):
+        say(warning, sys.stderr)
+    if gpu is not None:
+        assert isinstance(runner, TrialRunner)
+        check_worlds(plan, rows.row(0), runner)
+    folder = results_folder(plan, output)
+    with lock_folder(folder), stop_flag() as stop:
+        results = open_results(plan, rows, folder, runner, device="cpu" if gpu is None else device)
+        progress = Progress(len(rows), results.done)
+        with closing(results):
+            if gpu is None:
+                run_in_processes(plan, results, progress, workers=workers, address=address, is_ending=stop.is_set)
+            else:
+                from .device.batches import run_on_gpu  # Warp takes seconds to load
+
+                missing = results.missing()
+                run_on_gpu(plan, missing, results.add, gpu=gpu, progress=progress, is_ending=stop.is_set)
+        return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
+
+
+def sweep_plan(
+    plan: "str | os.PathLike[str] | Mapping[str, object]",
+    *,
+    output: Path | None,
+    workers: int | None,
+    address: str | None,
+    device: Device,
+) -> SweepResult:
+    """See `trundle.sweep`."""
+    result = sweep(load_plan(plan), output=output, workers=workers, address=address, device=device)
+    if result.interrupted:
+        raise KeyboardInterrupt
+    return result

@@ -1,0 +1,230 @@
+"""Runs of single rows: the row's world, its events, its result."""
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from msgspec import Struct
+
+from trundle.base.diagnostics import DescriptionError, Diagnostics, TrundleError, UsageError
+from trundle.live.loaded_simulation import LoadedSimulation
+from trundle.live.world_setup import LoadedWorld, load_world
+from trundle.robots.packages import Packages
+from trundle.ros import GraphLoop, StepRecorder
+from trundle.sim.physics import Recompiler
+from trundle.spatial import NS_PER_S
+from trundle.studies.trials import PARAMETERS, Plan, Row, RowResult, Rows
+
+from .assignments import Assignments, assignments_of
+from .judge import Judge
+from .launch_trial import LaunchTrialRunner
+from .plan_digest import RunInputs
+from .script import RunScript
+from .state_names import StateExpressions
+from .topics import TopicReader, topics_of
+
+_MAX_WORLDS = 8
+"""Most worlds kept, one for each set of xacro arguments."""
+_RECORD_NS = NS_PER_S // 100
+"""Resolution of the stamps in bags."""
+
+
+class Trial(Struct, frozen=True):
+    """Result of a run, and the bag of its last seconds if it is kept."""
+
+    result: RowResult
+    bag: bytes | None = None
+
+
+class TrialSimulation(LoadedSimulation):
+    """Simulation of one row, in which its events happen."""
+
+    script: RunScript
+    recorder: StepRecorder | None = None
+
+    def record(self, loop: GraphLoop, file: Path | None, *, from_ns: int, without_types: frozenset[str]) -> None:
+        """Record the nodes of a loop from a time on [ns], without some types; None: do not."""
+        if file is not None:
+            self.recorder = StepRecorder(loop, file, complain=_leave_out, from_ns=from_ns, without_types=without_types)
+
+    def advance(self, until_ns: int) -> None:
+        """See `Simulation.advance`; the simulation ends where a stop condition is true."""
+        while self.time_ns < until_ns and not self.script.is_over:
+            due_ns = self.script.next_ns
+            if due_ns is not None and due_ns <= self.time_ns:
+                self.script.act()
+                continue
+            next_ns = until_ns if due_ns is None else min(due_ns, until_ns)
+            if self.recorder is None:
+                super().advance(next_ns)
+            else:
+                super().advance(min(next_ns, self.time_ns + _RECORD_NS))
+                self.recorder.write(self.time_ns)
+
+
+class TrialRunner:
+    """Runs rows of a plan one after the other; worlds are read once and compiled models kept."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._expressions = StateExpressions()
+        self._judge = Judge(plan, self._expressions)
+        self._topics = topics_of(plan)
+        self._worlds: dict[tuple[tuple[str, str], ...], LoadedWorld] = {}
+        self._compiler = Recompiler()
+
+    def run(self, row: Row) -> RowResult:
+        """Run a row to its end; what goes wrong is in its result."""
+        time_s: float | None = None
+        try:
+            with self.simulation(row) as simulation:
+                try:
+                    simulation.advance(round(self._plan.duration_s * NS_PER_S))
+                finally:
+                    time_s = simulation.time_ns / NS_PER_S
+                return self.result(row, simulation)
+        except TrundleError as error:
+            return RowResult(row.number, "error", str(error), time_s)
+
+    def result(self, row: Row, simulation: "TrialSimulation") -> RowResult:
+        """Return the result of a run that has come to its end."""
+        time_s = simulation.time_ns / NS_PER_S
+        try:
+            measures = simulation.script.measures() | self._judge.call_functions(simulation)
+            return self._judge.judged(row, time_s, measures, "; ".join(simulation.report.warnings))
+        except TrundleError as error:
+            return RowResult(row.number, "error", str(error), time_s)
+
+    def bag(self, row: Row, result: RowResult) -> bytes | None:
+        """Run a row again and return the bag of its last seconds; None if it does not start."""
+        assert self._plan.bag_s is not None
+        if result.time is None:
+            return None
+        from_ns = round((result.time - self._plan.bag_s) * NS_PER_S)
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / "last.bag"
+            try:
+                with self.simulation(row, record=file, from_ns=from_ns) as simulation:
+                    try:
+                        simulation.advance(round(result.time * NS_PER_S))
+                    finally:
+                        assert simulation.recorder is not None
+                        simulation.recorder.close()
+            except TrundleError:
+                pass  # as in the run itself
+            return file.read_bytes() if file.exists() else None
+
+    def check(self, row: Row) -> list[str]:
+        """Evaluate everything once at the start of a row; return warnings, of which a world has none.
+
+        Raises:
+            TrundleError: the plan cannot be run; with its line.
+        """
+        assigned = assignments_of(self._plan, row, self._expressions)
+        for name in assigned.parameters:
+            path = f"{PARAMETERS}{name}"
+            raise DescriptionError(assigned.sources[path], f"{path}: a world has no ROS parameters; a `launch:` has")
+        with self.simulation(row) as simulation:
+            simulation.script.check()
+            self._judge.check(row, simulation.script.measures())
+        return []
+
+    def simulation(self, row: Row, *, record: Path | None = None, from_ns: int = 0) -> "TrialSimulation":
+        """Return the simulation of a row at time zero, with its events.
+
+        Args:
+            row: its values.
+            record: bag of its topics; None: there is none.
+            from_ns: time at which the bag begins [ns].
+
+        Raises:
+            TrundleError: its world cannot be read or simulated.
+        """
+        report = Diagnostics()
+        stage = self.stage(row)
+        compiled = self._compiler.compile(stage.world, report)
+        simulation = TrialSimulation(stage, report, seed=row.seed, compiled=compiled)
+        try:
+            environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
+            if self._topics or record is not None:
+                simulation.open_graph(
+                    environment,
+                    on_open=lambda loop: simulation.record(
+                        loop, record, from_ns=from_ns, without_types=self._plan.bag_without
+                    ),
+                )
+            reader = TopicReader(simulation.make_node("/sweep"), self._topics) if self._topics else None
+            simulation.script = RunScript(self._plan, row, simulation, self._expressions, reader)
+            if self._plan.plugins:
+                simulation.load_plugins(environment)
+        except BaseException:
+            simulation.close()
+            raise
+        return simulation
+
+    def inputs(self, row: Row) -> RunInputs:
+        """Return what a row depends on.
+
+        Raises:
+            TrundleError: its world cannot be read.
+        """
+        return RunInputs(worlds=(self._assigned_base(assignments_of(self._plan, row, self._expressions)).written,))
+
+    def stage(self, row: Row) -> LoadedWorld:
+        """Return the world of a row.
+
+        Raises:
+            TrundleError: it cannot be read, or has no such property.
+        """
+        assigned = assignments_of(self._plan, row, self._expressions)
+        base = self._assigned_base(assigned)
+        world = base.world
+        for each in assigned.properties:
+            world = each.assigned(world)
+        return replace(base, world=world)
+
+    def _assigned_base(self, assigned: Assignments) -> LoadedWorld:
+        with assigned.unknown_arguments_at_plan():
+            return self._base(assigned.arguments)
+
+    def _base(self, arguments: Mapping[str, str]) -> LoadedWorld:
+        key = tuple(sorted(arguments.items()))
+        found = self._worlds.pop(key, None)
+        if found is None:
+            packages = Packages(dict(os.environ), start=Path.cwd())
+            try:
+                found = load_world(self._plan.world, packages, Diagnostics(), seed=self._plan.seed, arguments=arguments)
+            except DescriptionError:
+                raise
+            except UsageError as error:
+                raise DescriptionError(self._plan.world_at, str(error)) from None
+        self._worlds[key] = found
+        if len(self._worlds) > _MAX_WORLDS:
+            del self._worlds[next(iter(self._worlds))]
+        return found
+
+
+def _leave_out(_why: str) -> None:
+    """Leave a bag that cannot be written out; the row's result stands."""
+
+
+def runner_of(plan: Plan) -> TrialRunner | LaunchTrialRunner:
+    """Return the runner of a plan's rows."""
+    return LaunchTrialRunner(plan) if plan.is_launch else TrialRunner(plan)
+
+
+def run_row(plan: Plan) -> Callable[[int], Trial]:
+    """Return the function that runs a row of a plan by its number."""
+    rows = Rows(plan)
+    runner = runner_of(plan)
+
+    def run(number: int) -> Trial:
+        row = rows.row(number)
+        result = runner.run(row)
+        if plan.bag_s is None or result.status == "ok":
+            return Trial(result)
+        return Trial(result, runner.bag(row, result))
+
+    return run

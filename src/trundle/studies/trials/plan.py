@@ -1,0 +1,114 @@
+"""Plan of a sweep, as read from its file."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+from trundle.base.diagnostics import Source
+
+Value: TypeAlias = bool | int | float | str | tuple["Value", ...]
+Design: TypeAlias = Literal["random", "latin_hypercube", "sobol"]
+Over: TypeAlias = Literal["end", "start", "min", "max", "mean", "time"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Distribution:
+    """Distribution of a number."""
+
+    kind: Literal["uniform", "normal", "log_uniform"]
+    parameters: tuple[float, float]
+    """Smallest and largest value, or mean and standard deviation."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variation:
+    """Quantity that differs from row to row."""
+
+    name: str
+    """Path of a property, or a name of its own."""
+    at: Source
+    values: tuple[Value, ...] = ()
+    """Values of a grid; empty for a distribution."""
+    beside: str | None = None
+    """Variation whose values these go with, one by one; None: every combination."""
+    distribution: Distribution | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Formula:
+    """Expression of a plan."""
+
+    text: str
+    at: Source
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measure:
+    """Number measured in each run: an expression over states, or a Python function."""
+
+    name: str
+    at: Source
+    expression: str | None = None
+    over: Over = "end"
+    """Time of the measure, or statistic of all samples; "time": the first time at which the expression is true [s]."""
+    function: tuple[Path, str] | None = None
+    """File and name of a function of the simulation."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """Push or joint command at a time of each run."""
+
+    at: Source
+    time_s: Formula
+    target: tuple[str, str]
+    """Model, and its link or joint."""
+    kind: Literal["push", "position", "velocity", "effort"]
+    numbers: tuple[Formula, ...]
+    """Force [N] and torque [N·m], world axes; or the joint's command."""
+    duration_s: Formula | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plan:
+    """World, what varies in it, and what is measured."""
+
+    file: str
+    """Plan's name in messages."""
+    folder: Path
+    """Base of relative paths."""
+    text: str
+    world: str
+    """World or description; or, separated by spaces, the launch file or its package and name."""
+    world_at: Source
+    is_launch: bool = False
+    duration_s: float
+    every_s: float = 0.1
+    """Period at which stop conditions and measures over time are evaluated."""
+    time_limit_s: float | None = None
+    """Wall time of one run."""
+    memory_limit_bytes: int | None = None
+    """Resident memory of one run."""
+    bag_s: float | None = None
+    """Last seconds of a run that is not ok, kept as a bag [s]; None: none."""
+    bag_without: frozenset[str] = frozenset()
+    """Message types that the bag leaves out."""
+    seed: int = 0
+    seeds: tuple[int, ...] = ()
+    """Seed of each repetition; empty: drawn from the plan's seed and the row's number."""
+    repetitions: int = 1
+    samples: int = 1
+    """Samples of the distributions at each point of the grid."""
+    design: Design = "random"
+    plugins: bool = False
+    vary: tuple[Variation, ...] = ()
+    assignments: Mapping[str, Formula] = field(default_factory=dict[str, Formula])
+    """Path of a property → its value."""
+    events: tuple[Event, ...] = ()
+    stop: tuple[Formula, ...] = ()
+    measures: tuple[Measure, ...] = ()
+    criteria: tuple[Formula, ...] = ()
+    """Conditions on the measures; a run that does not meet one has failed."""
+    keys: Mapping[str, Source] = field(default_factory=dict[str, Source])
+    """Key of the plan → its line."""

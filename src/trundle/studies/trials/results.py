@@ -1,0 +1,159 @@
+"""Results of a sweep on disk.
+
+A row is added to `journal.jsonl` as it comes. Rows of consecutive numbers become a row group, a Parquet file of its
+own, as soon as the last of them is there; at the end the groups become `results.parquet`. Each step leaves the folder
+so that a killed sweep goes on from it, and the final table does not depend on the order in which rows came.
+"""
+
+import json
+import shutil
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import IO, Any
+
+from msgspec import json as msgspec_json
+
+from trundle.base.atomic_write import write_atomically
+from trundle.base.diagnostics import UsageError
+
+from .row_result import RowResult
+from .table import Table
+
+GROUP_ROWS = 1000
+"""Rows of a row group."""
+_JOURNAL, _GROUPS, _PLAN, RESULTS = "journal.jsonl", "groups", "plan.json", "results.parquet"
+
+
+class Results:
+    """Results of one plan in a folder."""
+
+    def __init__(
+        self, folder: Path, table: Table, *, rows: int, digest: str, text: str, device: str | None = None
+    ) -> None:
+        """Open a folder; what is there of the same plan counts.
+
+        Args:
+            folder: made if it is not there.
+            table: its columns.
+            rows: number of rows.
+            digest: of everything that the results depend on.
+            text: of the plan, kept beside its results.
+            device: that runs the rows; None: whichever did, to read them.
+
+        Raises:
+            UsageError: the folder has the results of another plan or device, or cannot be written.
+        """
+        self.folder = folder
+        self._table = table
+        self._rows = rows
+        try:
+            (folder / _GROUPS).mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UsageError(f"{folder}: {error.strerror}; give another folder with -o") from None
+        self._check_plan(digest, text, device)
+        self._waiting: dict[int, dict[int, RowResult]] = {}
+        """Group → its rows in the journal."""
+        self._full = {int(each.stem) for each in (folder / _GROUPS).glob("*.parquet")}
+        self.counts: dict[str, int] = {}
+        """Status → number of rows."""
+        self.is_complete = (folder / RESULTS).exists()
+        if self.is_complete:
+            self._count(self._table.statuses(folder / RESULTS))
+            self._remove_parts()
+        else:
+            for group in self._full:
+                self._count(self._table.statuses(self._group_file(group)))
+            self._read_journal()
+        self._journal: IO[bytes] | None = None
+
+    def _check_plan(self, digest: str, text: str, device: str | None) -> None:
+        path, now = self.folder / _PLAN, {"digest": digest, "rows": self._rows}
+        if not path.exists():
+            write_atomically(path, json.dumps({**now, "device": device, "text": text}))
+            return
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if {key: value for key, value in found.items() if key in now} != now:
+            what = "has the results of another plan, or the plan or its world has changed since"
+            raise UsageError(f"{self.folder} {what}; give another folder with -o, or delete this one")
+        before = found.get("device")
+        if None not in (before, device) and before != device:
+            raise UsageError(f"{self.folder} has rows that ran on {before!r}; give another folder with -o")
+
+    def _read_journal(self) -> None:
+        """Read the journal; a line that a kill cut short is left out, and its row is run again."""
+        path = self.folder / _JOURNAL
+        data = path.read_bytes() if path.exists() else b""
+        whole = data[: data.rfind(b"\n") + 1]
+        if len(whole) != len(data):
+            with path.open("r+b") as file:
+                file.truncate(len(whole))
+        for line in whole.splitlines():
+            result = msgspec_json.decode(line, type=RowResult)
+            group = result.row // GROUP_ROWS
+            if group not in self._full and result.row not in self._waiting.setdefault(group, {}):
+                self._waiting[group][result.row] = result
+                self._count([result.status])
+        for group in list(self._waiting):
+            self._write_if_full(group)
+
+    def _count(self, statuses: Sequence[str]) -> None:
+        for status in statuses:
+            self.counts[status] = self.counts.get(status, 0) + 1
+
+    @property
+    def done(self) -> int:
+        """Number of rows with a result."""
+        return sum(self.counts.values())
+
+    def missing(self) -> Iterator[int]:
+        """Yield the rows without a result."""
+        if self.is_complete:
+            return
+        for row in range(self._rows):
+            group = row // GROUP_ROWS
+            if group not in self._full and row not in self._waiting.get(group, {}):
+                yield row
+
+    def add(self, result: RowResult) -> None:
+        """Add a row; once this returns a kill does not lose it."""
+        if self._journal is None:
+            self._journal = (self.folder / _JOURNAL).open("ab", buffering=0)
+        self._journal.write(msgspec_json.encode(result) + b"\n")
+        group = result.row // GROUP_ROWS
+        self._waiting.setdefault(group, {})[result.row] = result
+        self._count([result.status])
+        self._write_if_full(group)
+
+    def _write_if_full(self, group: int) -> None:
+        found = self._waiting[group]
+        if len(found) < min(GROUP_ROWS, self._rows - group * GROUP_ROWS):
+            return
+        self._table.write(self._group_file(group), [found[row] for row in sorted(found)])
+        self._full.add(group)
+        del self._waiting[group]
+
+    def _group_file(self, group: int) -> Path:
+        return self.folder / _GROUPS / f"{group:06}.parquet"
+
+    def close(self) -> None:
+        """Close the journal; if every row is there, join the groups to the final table and remove what it replaces."""
+        if self._journal is not None:
+            self._journal.close()
+            self._journal = None
+        if self.done < self._rows or self.is_complete:
+            return
+        self._table.join([self._group_file(group) for group in sorted(self._full)], self.folder / RESULTS)
+        self.is_complete = True
+        self._remove_parts()
+
+    def _remove_parts(self) -> None:
+        """Remove what the final table replaces."""
+        (self.folder / _JOURNAL).unlink(missing_ok=True)
+        shutil.rmtree(self.folder / _GROUPS, ignore_errors=True)
+
+    def read(self) -> Any:
+        """Return all rows so far as a `pyarrow.Table`, in the order of their numbers."""
+        if self.is_complete:
+            return self._table.read([self.folder / RESULTS])
+        waiting = [result for group in self._waiting.values() for result in group.values()]
+        return self._table.read([self._group_file(group) for group in sorted(self._full)], waiting)

@@ -1,0 +1,121 @@
+"""Rows of a sweep: each row's values and seed, from the plan and the row's number alone.
+
+Rows count the points of the grid, at each point the samples of the distributions, and of each sample its repetitions,
+which differ in their seed only.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from statistics import NormalDist
+from typing import TYPE_CHECKING
+
+import numpy as np
+from msgspec import Struct
+
+from trundle.base.diagnostics import DescriptionError, UsageError
+from trundle.base.extras import import_extra
+
+from .plan import Distribution, Plan, Value, Variation
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_MAX_ROWS = 100_000_000
+_LEAST = 1e-12
+"""Smallest quantile, and distance of the largest from 1: a normal distribution has no others."""
+
+
+class Row(Struct, frozen=True):
+    """One run."""
+
+    number: int
+    values: Mapping[str, Value]
+    """Variation → its value."""
+    seed: int
+    """Seed of the simulation."""
+
+
+class Rows:
+    """Rows of one plan."""
+
+    def __init__(self, plan: Plan) -> None:
+        """Count the rows.
+
+        Raises:
+            DescriptionError: there are too many.
+        """
+        self._plan = plan
+        self._axes = [each for each in plan.vary if each.values and each.beside is None]
+        self._random = [each for each in plan.vary if each.distribution is not None]
+        points = math.prod(len(axis.values) for axis in self._axes)
+        self._count = points * plan.samples * plan.repetitions
+        if self._count > _MAX_ROWS:
+            at = plan.vary[0].at
+            raise DescriptionError(at, f"{self._count} runs; a sweep has at most {_MAX_ROWS}: give fewer values")
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Row]:
+        return map(self.row, range(self._count))
+
+    def row(self, number: int) -> Row:
+        """Return a row.
+
+        Raises:
+            UsageError: there is no such row.
+        """
+        if not 0 <= number < self._count:
+            raise UsageError(f"there is no row {number}; the plan has rows 0 to {self._count - 1}")
+        case, repetition = divmod(number, self._plan.repetitions)
+        point, sample = divmod(case, self._plan.samples)
+        values: dict[str, Value] = {}
+        chosen: dict[str, int] = {}
+        for axis in reversed(self._axes):
+            point, chosen[axis.name] = divmod(point, len(axis.values))
+        quantiles = iter(self._quantiles(case, sample))
+        for each in self._plan.vary:
+            if each.distribution is not None:
+                values[each.name] = quantile(each.distribution, next(quantiles))
+            else:
+                values[each.name] = each.values[chosen[each.beside or each.name]]
+        seeds = self._plan.seeds
+        drawn = np.random.SeedSequence((self._plan.seed, number)).generate_state(1)[0]
+        return Row(number, values, seeds[repetition] if seeds else int(drawn))
+
+    def _quantiles(self, case: int, sample: int) -> list[float]:
+        if not self._random:
+            return []
+        if self._plan.design == "random":
+            return np.random.default_rng((self._plan.seed, case)).random(len(self._random)).tolist()
+        return self._table[sample].tolist()
+
+    @cached_property
+    def _table(self) -> "NDArray[np.float64]":
+        """(samples, distributions) quantiles of a space-filling design."""
+        qmc = import_extra("scipy.stats.qmc")
+        plan, width = self._plan, len(self._random)
+        if plan.design == "latin_hypercube":
+            return qmc.LatinHypercube(width, rng=plan.seed).random(plan.samples)
+        # Sobol' points are balanced in powers of two only; the first of the next power are used.
+        return qmc.Sobol(width, rng=plan.seed).random_base2(max(plan.samples - 1, 1).bit_length())[: plan.samples]
+
+
+def quantile(distribution: Distribution, q: float) -> float:
+    """Return the value below which a share `q` of a distribution lies."""
+    a, b = distribution.parameters
+    if distribution.kind == "uniform":
+        return a + (b - a) * q
+    if distribution.kind == "log_uniform":
+        return math.exp(math.log(a) + (math.log(b) - math.log(a)) * q)
+    return NormalDist(a, b).inv_cdf(min(max(q, _LEAST), 1 - _LEAST))
+
+
+def column_type(variation: Variation) -> type:
+    """Return the type of a variation's column; lists and mixed values are written as text."""
+    kinds = {type(value) for value in variation.values} or {float}
+    if kinds == {int, float}:
+        return float
+    (kind,) = kinds if len(kinds) == 1 else (str,)
+    return kind if kind in (bool, int, float) else str

@@ -1,0 +1,43 @@
+"""Varied quantities that change nothing."""
+
+from collections.abc import Iterator
+
+from trundle.base.diagnostics import DescriptionError, nearest
+from trundle.base.expressions import MATH_NAMES, PYTHON_NAMES, free_names
+
+from .plan import Plan, Variation
+from .property_path import TIME_STEP, is_property
+
+
+def check_used(plan: Plan) -> None:
+    """Refuse a quantity that changes nothing; texts that go `with` another quantity are its labels.
+
+    Raises:
+        DescriptionError: no expression names it, or `set` replaces it; with its line.
+    """
+    used = {name for text in _expressions(plan) for name in free_names(text)}
+    for each in plan.vary:
+        if each.name in plan.assignments:
+            raise DescriptionError(each.at, f"vary: `set` gives {each.name!r} another value; leave one of them out")
+        if not is_property(each.name) and each.name not in used and not _is_label(each):
+            unknown = used - {other.name for other in plan.vary} - MATH_NAMES.keys() - PYTHON_NAMES.keys()
+            near = nearest(each.name, {TIME_STEP, *unknown})
+            said = f"; the nearest name is {near!r}" if near else ""
+            what = "name it in `set`, `events`, `stop`, `measure` or `pass`, or vary a property, whose path has a /"
+            raise DescriptionError(each.at, f"vary: nothing uses {each.name!r}{said}; {what}")
+
+
+def _is_label(variation: Variation) -> bool:
+    return variation.beside is not None and all(isinstance(value, str) for value in variation.values)
+
+
+def _expressions(plan: Plan) -> Iterator[str]:
+    """Yield the text of each expression."""
+    for formula in (*plan.assignments.values(), *plan.stop, *plan.criteria):
+        yield formula.text
+    for measure in plan.measures:
+        if measure.expression is not None:
+            yield measure.expression
+    for event in plan.events:
+        for formula in (event.time_s, *event.numbers, *([] if event.duration_s is None else [event.duration_s])):
+            yield formula.text
