@@ -95,11 +95,11 @@ def test_a_camera_nobody_looks_at_costs_nothing() -> None:
     assert strides == [1000]
 
 
-def test_a_camera_that_is_always_on_counts_pictures_that_nobody_looks_at_and_draws_none() -> None:
+def test_a_camera_that_is_always_on_counts_its_instants_and_draws_for_nobody() -> None:
     sim, (eye,), renderer = mounted(camera(always_on=True))
     eye.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
     sim.run(1.0)
-    assert (eye.reading_count, renderer.updates, renderer.views) == (30, [], [])
+    assert (eye.reading_count, eye.image_count, renderer.updates, renderer.views) == (30, 0, [], [])
 
 
 def test_pictures_of_a_camera_that_is_always_on_do_not_depend_on_when_somebody_began_to_look() -> None:
@@ -124,7 +124,7 @@ def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_
     taken: list[CameraReading] = []
     eye.listen(taken.append)
     sim.run(10.0)
-    assert len(taken) == eye.reading_count == len(renderer.views) == 300
+    assert len(taken) == eye.image_count == len(renderer.views) == 300
     period_ns = 1e9 / 30
     assert all(0 <= reading.time_ns - (i + 1) * period_ns < 1.001 * MS for i, reading in enumerate(taken))
     assert all(reading.time_ns % MS == 0 for reading in taken)

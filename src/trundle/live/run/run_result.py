@@ -57,7 +57,7 @@ class RunResult:
     """Over the whole run [s], as are the steps; a reset sets only the snapshot's time back."""
     wall_s: float
     images: int
-    """Number of camera images rendered."""
+    """Number of camera images rendered, for whatever read them."""
     report: Diagnostics
     interrupted: bool
     """True if Ctrl-C or SIGTERM ended it."""

@@ -81,6 +81,8 @@ class CameraSensor(LiveSensor[CameraReading]):
         )
         self.projection = projection_of(optics, self.intrinsics)
         self._spot = mount
+        self.image_count = 0
+        """Images rendered."""
         self.scene = scene
         self.multicamera: Sequence[CameraSensor] = (self,)
         """All cameras of its sensor, which share one clock."""
@@ -148,6 +150,7 @@ class CameraSensor(LiveSensor[CameraReading]):
 
     def render(self, snapshot: Snapshot) -> Picture:
         """Return the rendered image of the camera."""
+        self.image_count += 1
         if self._request is None or self._request.snapshot is not snapshot:
             self.request(snapshot)
         assert self._request is not None
