@@ -56,7 +56,7 @@ def test_its_references_name_what_there_is(site: Path) -> None:
     assert "libgazebo_ros_diff_drive.so" in page("plugins")
     assert "topic_tools/throttle" in page("nodes")
     assert "trundle topic echo" in page("cli")
-    assert re.search(r"mu2.*description/sdf/surface\.py", page("sdf"))
+    assert re.search(r"mu2.*robots/description/sdf/surface\.py", page("sdf"))
     assert "leaves no freedom; rigid" in page("diagnostics")
     assert 'id="trundle.sim.simulation.Simulation.run"' in page("python")
 

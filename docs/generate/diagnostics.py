@@ -10,7 +10,10 @@ from .markdown import cell
 
 _SOURCE = Path(trundle.__file__).parent
 _SEVERITY = {"warn": "warning", "info": "info", "DescriptionError": "error"}
-_ROOMS = ("xmlnode", "description", "robot", "launch", "lint", "physics", "sensors", "plugins", "nodes")
+_ROOMS = (
+    *("base/xmlnode", "robots/description", "robots/robot", "robots/launch", "robots/lint"),
+    *("sim/physics", "sim/sensors", "gazebo/plugins", "gazebo/nodes"),
+)
 _INTRO = """# Diagnostics
 
 A diagnostic says where, what, and what is done instead:

@@ -20,15 +20,15 @@ _UNUSED = re.compile(
     r"(.*: )?<(?P<tag>\w+)>( in <\w+>)? (?P<why>tunes Gazebo's engines|is not supported(?=; this <visual>)); .*"
 )
 _SAYS_SO = {
-    "description/sdf/geometry.py",
-    "description/sdf/joint.py",
-    "description/sdf/surface.py",
-    "description/urdf/gazebo_tags.py",
+    "robots/description/sdf/geometry.py",
+    "robots/description/sdf/joint.py",
+    "robots/description/sdf/surface.py",
+    "robots/description/urdf/gazebo_tags.py",
 }
 _OF_SEVERAL = ("ode", "horizontal", "vertical", "pressure")
 _VERSIONS = ("1.3", "1.6", "1.12")
 """SDF's, of which each reads elements that the others do not."""
-_ONLY_NAMED = {"description/sdf/required.py"}
+_ONLY_NAMED = {"robots/description/sdf/required.py"}
 """Reads the names of elements that are not supported, too."""
 HERE = Path(__file__).parent
 _INTRO = """# {format} elements
