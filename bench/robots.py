@@ -94,14 +94,14 @@ def _beside_loop(sim: Simulation, count: int, steps: int) -> Row:
 
 
 def _with_cameras(count: int) -> Row:
-    """Robots whose cameras are always on and that nobody reads."""
+    """Robots with always-on cameras that have no reader."""
     plain, equipped = rolling_robots(count, rolling=count), rolling_robots(count, rolling=count)
     MountedSensors(equipped, RENDERERS["cpu"]).start()
     for sim in (plain, equipped):
         sim.step(1024)
     pairs = [(cpu_rate(equipped.step, 200), cpu_rate(plain.step, 200)) for _ in range(_PAIRS)]
     value, ratio = statistics.median(a for a, _ in pairs), statistics.median(a / b for a, b in pairs)
-    name = f"{count} RP2W rolling, {2 * count} cameras that nobody reads"
+    name = f"{count} RP2W rolling, {2 * count} cameras without a reader"
     return Row(name, value, "steps/s", "the same without cameras", ratio)
 
 

@@ -50,7 +50,7 @@ DirectSender::Sent DirectSender::send(PyObject* arguments, PyObject* keywords) {
       sent = is_open() ? Sent::kWhole : Sent::kInPart;
     });
   } catch (const PythonError&) {
-    PyErr_Clear();  // raised again by the caller, who serializes the message anew
+    PyErr_Clear();  // the caller serializes the message again and raises it
   }
   return sent;
 }

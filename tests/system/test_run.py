@@ -46,7 +46,7 @@ def test_what_the_published_robot_lacks_is_said_once(trundle, seed) -> None:
     assert "stands at" in done.stdout
 
 
-def test_no_image_is_drawn_that_nobody_reads(trundle) -> None:
+def test_no_image_is_drawn_without_a_reader(trundle) -> None:
     """Both of its cameras are always on."""
     done = trundle("run", str(EXAMPLE), *FLAT_OUT, "--duration", "1", "--json", "--no-ros")
 
@@ -92,7 +92,7 @@ def test_the_plugin_drives_on_cmd_vel(start, trundle, master, until) -> None:
 
 
 def test_the_living_room_is_seen_by_its_robot(trundle, tmp_path) -> None:
-    """`make demo HEADLESS=1`: no image is drawn that nobody reads, and only movable models are printed."""
+    """`make demo HEADLESS=1`: no image is drawn without a reader, and only movable models are printed."""
     ran = trundle("run", "rp2w_at_home.world", *FLAT_OUT, "--duration", "1")
     seen = trundle("render", "rp2w_at_home.world", "--camera", "my_sensor", "-o", "seen.png")
 

@@ -81,7 +81,7 @@ def test_the_front_door_exports_in_order() -> None:
 
 def test_a_camera_nobody_looks_at_costs_nothing() -> None:
     sim, (eye,), renderer = mounted(camera())
-    eye.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
+    eye.listen(lambda _: pytest.fail("the listener is disabled"), enabled=lambda: False)
     strides: list[int] = []
     step = sim.engine.step
 
@@ -97,7 +97,7 @@ def test_a_camera_nobody_looks_at_costs_nothing() -> None:
 
 def test_a_camera_that_is_always_on_counts_its_instants_and_draws_for_nobody() -> None:
     sim, (eye,), renderer = mounted(camera(always_on=True))
-    eye.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
+    eye.listen(lambda _: pytest.fail("the listener is disabled"), enabled=lambda: False)
     sim.run(1.0)
     assert (eye.reading_count, eye.image_count, renderer.updates, renderer.views) == (30, 0, [], [])
 
@@ -199,7 +199,7 @@ def test_only_who_wants_a_picture_gets_it_and_it_is_taken_once() -> None:
     second: list[CameraReading] = []
     eye.listen(first.append)
     eye.listen(second.append)
-    eye.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
+    eye.listen(lambda _: pytest.fail("the listener is disabled"), enabled=lambda: False)
     sim.run(0.5)
     assert len(first) == eye.reading_count == 5
     assert all(a is b for a, b in zip(first, second, strict=True))
