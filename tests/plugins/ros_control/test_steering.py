@@ -149,6 +149,7 @@ def test_a_single_joint_for_an_axle_is_refused(gazebo: Gazebo) -> None:
         log = gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
         wanted = "Could not load controller 'base': parameter /base/front_wheel must be a left and a right joint"
         call = ("/controller_manager/load_controller", "controller_manager_msgs/LoadController", {"name": "base"})
+        gazebo.loop.run(gazebo.client.wait_for_service(call[0], PATIENCE_S))
 
         def is_said() -> bool:
             assert not gazebo.loop.run(gazebo.client.call_service(*call), timeout_s=PATIENCE_S).ok
