@@ -15,6 +15,7 @@ from bench.table import Row
 from trundle.base.http.page_address import PageAddress
 from trundle.page import POSES, PageServer, Session
 from trundle.page.shared_page import SharedPage
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.page import SimulationPage
 from trundle.sim.realtime_pacer import RealtimePacer
 from trundle.sim.simulation import Simulation
@@ -31,7 +32,7 @@ def run() -> list[Row]:
     sim = rolling_robots(_ROBOTS, rolling=_ROBOTS)
     wall = _Wall()
     with PageServer.start(Session(title="bench", kind="simulation"), at=PageAddress(port=0)) as server:
-        page = SimulationPage(SharedPage(say=print, server=server), sim, [], wall_ns=wall)
+        page = SimulationPage(SharedPage(say=print, server=server), BareWorld(sim), wall_ns=wall)
         pacer = RealtimePacer(None)
 
         def show() -> None:

@@ -18,7 +18,8 @@ import mujoco
 import trundle
 from bench.table import Row
 from trundle.sim.physics.step.sleeping import DECISION_PERIOD, SleepPolicy
-from trundle.studies.sweep.trial import TrialRunner, TrialSimulation
+from trundle.sim.simulation import Simulation
+from trundle.studies.sweep.trial import TrialRunner
 from trundle.studies.trials import Rows, read_plan
 
 _RUNS = 1000
@@ -83,13 +84,13 @@ def _pairs(numbers: range, sleeps: bool) -> list[tuple[float, float]]:
         began = time.process_time()
         runner.run(row)
         ours_s = time.process_time() - began
-        with runner.simulation(row) as simulation:
-            steps, bare_s = _bare_run(simulation, float(str(row.values["push"])))
+        with runner.start(row) as run:
+            steps, bare_s = _bare_run(run.simulation, float(str(row.values["push"])))
         pairs.append((steps / ours_s, steps / bare_s))
     return pairs
 
 
-def _bare_run(simulation: TrialSimulation, push: float) -> tuple[int, float]:
+def _bare_run(simulation: Simulation, push: float) -> tuple[int, float]:
     """Step a row's model to its end, deciding on sleep when the engine does; return steps and CPU time [s]."""
     compiled = simulation.engine.compiled
     model, data = compiled.model, mujoco.MjData(compiled.model)
@@ -111,7 +112,7 @@ def _start_ms() -> float:
     starts: list[float] = []
     for row in rows:
         began = time.process_time()
-        runner.simulation(row).close()
+        runner.start(row).close()
         starts.append(time.process_time() - began)
     return statistics.median(starts) * 1000
 

@@ -4,10 +4,13 @@ import threading
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
+from tests.graphs import until
 
 import trundle
 from trundle.base.diagnostics import UsageError
 from trundle.live.graph import Graph
+from trundle.robots.model import Sensor
 
 WORLD = """<sdf version="1.6"><world name="w"><plugin name="blower" filename="libblower.so"/>
 <model name="m"><link name="l"/><plugin name="pusher" filename="libpusher.so"/></model></world></sdf>"""
@@ -51,6 +54,33 @@ def test_plugins_run_where_they_are_asked_for(world: Path) -> None:
     assert pushed["m"].pose.position[0] == pytest.approx(1.0, rel=0.01)
     assert any("'pusher' of m: " in str(finding) for finding in pushed.report.findings)
     assert [line for line in pushed.report.warnings if "libblower.so" in line]
+
+
+def test_a_spawned_model_comes_and_goes_with_its_plugins_and_sensors(world: Path) -> None:
+    """The copy is pushed as the model that the file has, and its imu has a topic until it is deleted."""
+    with trundle.load(world, plugins=True, ros=True) as sim:
+        imu = Sensor(name="turn", type="imu", at=sim.world.at, update_rate_hz=100.0)
+        model = sim["m"].model
+        copy = replace(model, name="copy", links=(replace(model.links[0], sensors=(imu,)),))
+        sim.spawn(copy)
+        node = sim.make_node("/me")
+
+        def names() -> set[str]:
+            published, subscribed, _ = node.loop.run(node.master.call("getSystemState"))
+            return {name for _, names in (*published, *subscribed) for name in names}
+
+        def imu_topics() -> list[str]:
+            return [name for name, _ in node.loop.run(node.master.call("getPublishedTopics", "/")) if "turn" in name]
+
+        sim.run(1.0)
+        assert sim["copy"].pose.position[0] == pytest.approx(1.0, rel=0.01)
+        assert sim.sensor_names == ("copy::l::turn",)
+        assert "/copy/pusher" in names()
+        until(imu_topics)
+        sim.delete("copy")
+        sim.run(0.1)
+        until(lambda: "/copy/pusher" not in names() and not imu_topics())
+        assert sim.sensor_names == ()
 
 
 def test_a_ros_graph_of_its_own_carries_clock_and_commands(world: Path) -> None:

@@ -10,6 +10,7 @@ from tests.bringup.simulation_page.fake_server import shared_page
 
 import trundle
 from trundle.page.ray_overlay import RayOverlay
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.page import SimulationPage
 from trundle.sim.realtime_pacer import RealtimePacer
 from trundle.sim.render import NativeRenderer
@@ -104,11 +105,12 @@ def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
     """The page gets all cameras again whenever a model comes or goes."""
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
     shared, server = shared_page()
-    page = SimulationPage(shared, sim, [])
+    shown = BareWorld(sim, [first])
+    page = SimulationPage(shared, shown)
     assert sim.lines_are_shown
 
     def show(*cameras: Any) -> None:
-        page.set_sensors(cameras)
+        shown.sensors = cameras
         page.update(RealtimePacer(None), paused=False, at_once=True)
         server.images.clear()
         sim.run(0.1)

@@ -26,7 +26,7 @@ AXLES: dict[str, Vector3] = {
 def world(shared: Path) -> World:
     """The RP2W on Gazebo's ground plane."""
     robot = shared / "seeds" / "rp2w" / "model.sdf"
-    return load_world(str(robot), Packages({}, start=robot), Diagnostics()).world
+    return load_world(str(robot), Packages({}, start=robot), Diagnostics()).flat
 
 
 def on_the_ground(world: World) -> Simulation:

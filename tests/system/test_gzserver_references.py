@@ -59,12 +59,12 @@ def test_models_rest_where_gazebo_has_them(corpus: Path, tmp_path: Path) -> None
             "ROS_PACKAGE_PATH": str(corpus / "repos"),
         }
         file = described(corpus, answer["file"], tmp_path)
-        stage = load_world(str(file), Packages(environment, start=tmp_path), report)
-        simulation = Simulation(stage.world, report)
+        loaded = load_world(str(file), Packages(environment, start=tmp_path), report)
+        simulation = Simulation(loaded.flat, report)
         poses = simulation.snapshot().poses
         theirs = {link["name"].partition("::")[2]: link for link in answer["model"]["links"]}
         index = 0
-        for model in stage.world.models:
+        for model in loaded.flat.models:
             ours = model.name == answer["model"]["name"]
             for link in model.links:
                 if ours and link.name in theirs:

@@ -21,8 +21,8 @@ class Run:
 
     def __init__(self, folder: Path) -> None:
         report = Diagnostics()
-        stage = load_world(str(folder), Packages({}, start=folder), report)
-        self.sim = Simulation(stage.world, report)
+        loaded = load_world(str(folder), Packages({}, start=folder), report)
+        self.sim = Simulation(loaded.flat, report)
         self.robot = self.sim.models[0]
         self.plugin: Plugin = load_plugins(self.sim, None, {}, say=lambda _: None)[0]
 
@@ -111,8 +111,8 @@ def test_the_world_of_the_demo_loads_its_plugin_without_a_finding(
     monkeypatch.chdir(tmp_path)
     with running_graph() as graph:
         report = Diagnostics()
-        stage = load_world("rp2w_at_home.world", Packages({}, start=tmp_path), report)
-        sim = Simulation(stage.world, report)
+        loaded = load_world("rp2w_at_home.world", Packages({}, start=tmp_path), report)
+        sim = Simulation(loaded.flat, report)
 
         loaded = load_plugins(sim, graph.node, {}, say=lambda _: None)
         sim.run(0.2)

@@ -128,7 +128,7 @@ class WorldStates:
 
     def _at_time_of(self, row: int) -> LoadedSimulation:
         simulation = self.simulation
-        simulation.steps = round(float(self.time_s[row]) * NS_PER_S / simulation.step_ns)
+        simulation.set_step(round(float(self.time_s[row]) * NS_PER_S / simulation.step_ns))
         return simulation
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Self
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.robots.packages import Packages
 from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS
-from trundle.sim.renderers import RENDERERS
 from trundle.sim.simulation import Simulation
 
 from .world_setup import LoadedWorld, load_built, load_world
@@ -21,6 +20,7 @@ if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors
     from trundle.sim.physics import CompiledWorld
     from trundle.sim.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
 
+    from .live_world import LiveWorld
     from .run.ros_interface import RosInterface
 
 
@@ -31,18 +31,26 @@ class LoadedSimulation(Simulation):
     """
 
     def __init__(
-        self, stage: LoadedWorld, report: Diagnostics, *, seed: int = 0, compiled: "CompiledWorld | None" = None
+        self,
+        loaded: LoadedWorld,
+        report: Diagnostics,
+        environment: Mapping[str, str],
+        *,
+        seed: int = 0,
+        compiled: "CompiledWorld | None" = None,
     ) -> None:
         """Compile a world; time is zero.
 
         Args:
-            stage: the world to compile.
+            loaded: the world to compile.
             report: takes repairs by physics.
+            environment: locates models and plugins; ROS_MASTER_URI is the master to join.
             seed: of all random numbers.
             compiled: the world, compiled already.
         """
-        super().__init__(stage.world, report, seed=seed, compiled=compiled)
-        self._stage = stage
+        super().__init__(loaded.flat, report, seed=seed, compiled=compiled)
+        self._loaded = loaded
+        self._environment = environment
         self._ros: RosInterface | None = None
 
     def camera(self, name: str) -> "CameraHandle":
@@ -86,10 +94,20 @@ class LoadedSimulation(Simulation):
         return self._sensors.names()
 
     @cached_property
-    def _sensors(self) -> "MountedSensors":
-        from trundle.sim.sensors import MountedSensors
+    def live(self) -> "LiveWorld":
+        """Sensors, plugins and topics, which come and go with their models; begun on first use."""
+        from .live_world import LiveWorld
 
-        return MountedSensors(self, RENDERERS["cpu"])
+        packages = Packages(self._environment, start=Path.cwd())
+        return LiveWorld(self, packages=packages, environment=self._environment, say=self._say)
+
+    def _say(self, line: str) -> None:
+        self.report.info(self.world.at, line)
+
+    @property
+    def _sensors(self) -> "MountedSensors":
+        assert self.live.mounted is not None
+        return self.live.mounted
 
     def profile(self) -> "StrideProfile":
         """Profiler of where wall time goes: `with sim.profile() as profile: sim.run(10)`, then `profile.read()`."""
@@ -99,31 +117,19 @@ class LoadedSimulation(Simulation):
 
     # -- the ROS graph
 
-    def open_graph(
-        self, environment: Mapping[str, str], *, on_open: "Callable[[GraphLoop], None]" = lambda _loop: None
-    ) -> None:
+    def open_graph(self, *, on_open: "Callable[[GraphLoop], None]" = lambda _loop: None) -> None:
         """Advertise clock, frames, sensors and joints on a ROS graph, as `trundle run` does.
 
         Args:
-            environment: ROS_MASTER_URI is the master to join; without it a master is started here.
             on_open: called with the loop of the graph, before anything is advertised.
 
         Raises:
-            UsageError: that master does not answer.
+            UsageError: the master of ROS_MASTER_URI does not answer.
         """
         from .run.ros_interface import RosInterface
 
-        sensors = self._sensors
-        sensors.start()
-        self._ros = RosInterface.open(
-            self,
-            self._stage,
-            sensors.cameras,
-            sensors.instruments,
-            environment,
-            host="127.0.0.1",
-            on_open=on_open,
-        )
+        self.live.start_sensors()
+        self._ros = RosInterface.open(self.live, self._loaded, self._environment, host="127.0.0.1", on_open=on_open)
 
     @property
     def ros_master_uri(self) -> str:
@@ -148,16 +154,9 @@ class LoadedSimulation(Simulation):
             raise UsageError("the simulation is part of no ROS graph; load it with ros=True")
         return self._ros
 
-    def load_plugins(self, environment: Mapping[str, str]) -> None:
-        """Load the plugins of the world and its models; `report` lists them."""
-        from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
-
-        def say(line: str) -> None:
-            self.report.info(self.world.at, line)
-
-        make_node = None if self._ros is None else self._ros.make_node
-        load_plugins(self, make_node, environment, say=say)
-        load_world_plugins(self, make_node, environment, say=say)
+    def load_plugins(self) -> None:
+        """Load the plugins of the world and its models, and those of models spawned later; `report` lists them."""
+        self.live.load_plugins()
 
     def advance(self, until_ns: int) -> None:
         """See `Simulation.advance`; messages reach the nodes of this process within 50 ms of simulation time."""
@@ -191,18 +190,20 @@ def load_simulation(
 ) -> LoadedSimulation:
     """Read and compile a file, with os.environ; see `trundle.load`."""
     environment = dict(os.environ)
+    if isinstance(ros, str):
+        environment["ROS_MASTER_URI"] = ros
     report = Diagnostics()
     packages = Packages(environment, start=Path.cwd())
     if isinstance(file, str):
-        stage = load_world(file, packages, report, seed=seed)
+        loaded = load_world(file, packages, report, seed=seed)
     else:
-        stage = load_built(file, packages, report, seed=seed)
-    simulation = LoadedSimulation(stage, report, seed=seed)
+        loaded = load_built(file, packages, report, seed=seed)
+    simulation = LoadedSimulation(loaded, report, environment, seed=seed)
     try:
         if ros:
-            simulation.open_graph(environment if ros is True else environment | {"ROS_MASTER_URI": ros})
+            simulation.open_graph()
         if plugins:
-            simulation.load_plugins(environment)
+            simulation.load_plugins()
     except BaseException:
         simulation.close()
         raise

@@ -24,9 +24,9 @@ if TYPE_CHECKING:  # SDF loads neither the URDF reader nor the builder
 class LoadedWorld:
     """World ready to compile, and the URDF that it came from, if any."""
 
-    world: model.World
-    """Nested models are merged into the outer ones, as physics needs it."""
-    written: model.World
+    flat: model.World
+    """World whose nested models are merged into the outer ones, as physics needs it."""
+    nested: model.World
     """The same world, nested as in the file."""
     robot: "Robot | None"
     urdf: str | None
@@ -72,7 +72,7 @@ def load_built(built: "Model | World", packages: Packages, report: Diagnostics, 
 def place(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> LoadedWorld:
     """Put a robot alone on a ground plane under a sun; take a world as it is."""
     world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
-    return LoadedWorld(world=with_actors(flattened(world), report), written=world, robot=loaded.robot, urdf=loaded.urdf)
+    return LoadedWorld(flat=with_actors(flattened(world), report), nested=world, robot=loaded.robot, urdf=loaded.urdf)
 
 
 def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> model.World:

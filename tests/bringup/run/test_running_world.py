@@ -62,7 +62,7 @@ def test_the_nodes_and_topics_of_a_model_go_and_come_with_it(graph: Graph, world
     edits.handle(DeleteModel("cart"))
     until(lambda: nodes() == {"/cart_0/move"})
     until(lambda: topic not in imu_topics())
-    assert [sensor.model.name for sensor in world.sensors] == ["cart_0"]
+    assert [sensor.model.name for sensor in world.live.sensors] == ["cart_0"]
     edits.handle(RestoreModel("cart"))
     until(lambda: nodes() == {ours, "/cart_0/move"})
     until(lambda: topic in imu_topics())
@@ -78,7 +78,7 @@ def test_what_is_put_back_is_in_the_state_that_it_had_and_its_plugins_drive_it(
     simulation["cart"].set_pose(Pose((1.0, 2.0, 3.0)))
     edits.handle(DeleteModel("cart"))
     until(lambda: not velocity.has_subscribers)
-    world.advance(100_000_000)
+    world.live.advance(100_000_000)
     edits.handle(RestoreModel("cart"))
     cart = simulation["cart"]
     assert cart.pose.position == pytest.approx((1.0, 2.0, 3.0))
@@ -88,7 +88,7 @@ def test_what_is_put_back_is_in_the_state_that_it_had_and_its_plugins_drive_it(
 
     def moves() -> bool:
         velocity.publish({"linear": {"x": 1.0}})
-        world.advance(simulation.time_ns + 10_000_000)
+        world.live.advance(simulation.time_ns + 10_000_000)
         return cart.pose.position[0] > 1.1
 
     until(moves)
@@ -105,11 +105,11 @@ def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: Ru
 
     def both_move() -> bool:
         velocity.publish({"linear": {"x": 1.0}})
-        world.advance(simulation.time_ns + 10_000_000)
+        world.live.advance(simulation.time_ns + 10_000_000)
         return simulation["cart"].pose.position[0] > 0.05 and simulation["cart_0"].pose.position[0] > 3.05
 
     def both_are_fast() -> bool:
-        world.advance(simulation.time_ns + 10_000_000)
+        world.live.advance(simulation.time_ns + 10_000_000)
         return all(simulation[name].twist.linear[0] > 1.5 for name in ("cart", "cart_0"))
 
     until(both_move)
@@ -117,7 +117,7 @@ def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: Ru
     until(both_are_fast)  # all that was published before has come
     before = simulation["cart_0"].pose.position[0]
     edits.handle(ResetModel("cart"))
-    world.advance(simulation.time_ns + 500_000_000)
+    world.live.advance(simulation.time_ns + 500_000_000)
     assert simulation["cart"].pose.position == pytest.approx((0, 0, 0), abs=1e-6)
     assert simulation["cart_0"].pose.position[0] == pytest.approx(before + 1.0, abs=0.05)
 
@@ -132,30 +132,29 @@ def test_a_reset_that_is_undone_lets_plugins_go_on(graph: Graph, world: RunningW
     axle.command_velocity(2.0)
 
     def moves() -> bool:
-        world.advance(simulation.time_ns + 10_000_000)
+        world.live.advance(simulation.time_ns + 10_000_000)
         return cart.pose.position[0] > 0.05
 
     until(moves)
     before = cart.pose.position[0], axle.position
     edits.handle(ResetModel("cart"))
-    world.advance(simulation.time_ns + 200_000_000)
+    world.live.advance(simulation.time_ns + 200_000_000)
     assert (cart.pose.position[0], axle.position) == pytest.approx((0.0, 0.0), abs=1e-6)
     edits.handle(UndoReset("cart"))
     assert (cart.pose.position[0], axle.position) == pytest.approx(before, abs=1e-9)
-    world.advance(simulation.time_ns + 500_000_000)
+    world.live.advance(simulation.time_ns + 500_000_000)
     assert cart.pose.position[0] == pytest.approx(before[0] + 0.5, abs=0.01)
     assert axle.position == pytest.approx(before[1] + 1.0, abs=0.01)
 
 
 def test_the_timeline_begins_again_where_plugins_go(world: RunningWorld) -> None:
     """Before that its nodes were there, which do not come again."""
-    world.advance(500_000_000)
-    assert world.timeline is not None
-    assert world.timeline.start_ns == 0
-    world.delete("cart")
-    assert world.timeline.start_ns == 500_000_000
+    world.live.advance(500_000_000)
+    assert world.live.timeline is not None
+    assert world.live.timeline.start_ns == 0
+    world.live.delete("cart")
+    assert world.live.timeline.start_ns == 500_000_000
 
 
 def _model_edits(world: RunningWorld) -> ModelEdits:
-    assert world.timeline is not None
-    return ModelEdits(world.simulation, world, world.timeline.do)
+    return ModelEdits(world.live)

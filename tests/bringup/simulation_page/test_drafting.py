@@ -11,11 +11,11 @@ import pytest
 
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.page import AddPart, BeginDraft, DraftAction, FinishDraft, LeaveDraft, SaveDraft, SetField, SetMass
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.code_consent import CodeConsent
 from trundle.page.simulated_world.drafting import Drafting, ShownDraft
 from trundle.page.simulated_world.edits import edit
 from trundle.page.simulated_world.model_edits import ModelEdits
-from trundle.page.world_contents import BareContents
 from trundle.robots.description import load_text
 from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
@@ -35,14 +35,11 @@ class Editor:
         packages, report = Packages({}, start=folder), Diagnostics()
         world = load_text(WORLD, name=str(folder / "yard.sdf"), folder=folder, packages=packages, report=report).world
         self.simulation = Simulation(world, report)
-        contents = BareContents(self._do)
-        self.edits = ModelEdits(self.simulation, contents, self._do)
+        self.world = BareWorld(self.simulation)
+        self.edits = ModelEdits(self.world)
         self._answers: queue.SimpleQueue[tuple[str | None, dict[str, Any]]] = queue.SimpleQueue()
-        self.drafting = Drafting(self._respond, contents, folder, CodeConsent(os.environ))
+        self.drafting = Drafting(self._respond, self.world.packages, os.environ, folder, CodeConsent(os.environ))
         self.shown: list[ShownDraft] = []
-
-    def _do(self, command: Any) -> None:
-        command(self.simulation)
 
     def _respond(self, request_id: int, error: str | None = None, **fields: Any) -> None:
         del request_id
@@ -53,12 +50,12 @@ class Editor:
         self.drafting.handle(1, action, self.simulation)
         end = time.monotonic() + _PATIENCE_S
         while time.monotonic() < end:
-            self.shown += self.drafting.poll(self.simulation, self.edits)
+            self.shown += self.drafting.poll(self.world, self.edits)
             try:
                 error, fields = self._answers.get(timeout=0.01)
             except queue.Empty:
                 continue
-            self.shown += self.drafting.poll(self.simulation, self.edits)
+            self.shown += self.drafting.poll(self.world, self.edits)
             return fields if error is None else {"error": error}
         raise AssertionError(f"no answer to {action}")
 

@@ -1,6 +1,5 @@
 """Edits from the page: what they do to the simulation, their bounds, and that a timeline repeats them."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +22,9 @@ from trundle.page import (
     SetTwist,
     UndoReset,
 )
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.edits import edit
 from trundle.page.simulated_world.model_edits import ModelEdits
-from trundle.page.world_contents import BareContents
 from trundle.sim.simulation import Simulation
 from trundle.sim.timeline import Timeline
 from trundle.spatial import Pose, Twist
@@ -40,10 +39,7 @@ _WORLD = """<gravity>0 0 0</gravity><light name="sun" type="directional"><diffus
 
 
 def _model_edits(sim: Simulation) -> ModelEdits:
-    def do(command: Callable[[Simulation], None]) -> None:
-        command(sim)
-
-    return ModelEdits(sim, BareContents(do), do)
+    return ModelEdits(BareWorld(sim))
 
 
 @pytest.fixture

@@ -1,6 +1,5 @@
 """Models that a person at the page carries, pulls and holds: what they do meanwhile, and what they do when let go."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -20,12 +19,12 @@ from trundle.page import (
     RestoreModel,
     SetPose,
 )
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world import handling
 from trundle.page.simulated_world.controls import SimulationControls
 from trundle.page.simulated_world.edits import edit
 from trundle.page.simulated_world.handling import handled_models
 from trundle.page.simulated_world.model_edits import ModelEdits
-from trundle.page.world_contents import BareContents
 from trundle.robots.model import Joint, JointType
 from trundle.sim.realtime_pacer import RealtimePacer
 from trundle.sim.simulation import Simulation
@@ -121,7 +120,7 @@ def test_a_person_who_fell_silent_lets_go(sim: Simulation) -> None:
     """A second after the last request, by the wall clock."""
     wall_s = [0.0]
     timeline = Timeline(sim)
-    controls = SimulationControls(sim, None, timeline, wall_ns=lambda: round(wall_s[0] * 1e9))
+    controls = SimulationControls(BareWorld(sim, timeline=timeline), None, wall_ns=lambda: round(wall_s[0] * 1e9))
     pacer = RealtimePacer(1.0)
 
     def ask(action: EditAction) -> None:
@@ -144,7 +143,7 @@ def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
     """The timeline repeats the pull without requests, and lets go as before; the bytes are the same."""
     timeline = Timeline(sim)
     wall_s = [0.0]
-    controls = SimulationControls(sim, None, timeline, wall_ns=lambda: round(wall_s[0] * 1e9))
+    controls = SimulationControls(BareWorld(sim, timeline=timeline), None, wall_ns=lambda: round(wall_s[0] * 1e9))
     pacer = RealtimePacer(1.0)
     for _ in range(15):
         controls.handle(Pull("cart", "base", (0.1, 0, 0), (2, 0, 6)), pacer, paused=False)
@@ -207,7 +206,4 @@ def test_what_is_tied_to_another_model_is_not_moved_alone(sim: Simulation) -> No
 
 
 def model_edits(sim: Simulation) -> ModelEdits:
-    def do(command: Callable[[Simulation], None]) -> None:
-        command(sim)
-
-    return ModelEdits(sim, BareContents(do), do)
+    return ModelEdits(BareWorld(sim))

@@ -10,6 +10,7 @@ import pytest
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.gazebo.plugins import find_user_file
 from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels, RestoreLight
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.code_consent import CodeConsent
 from trundle.page.simulated_world.insertion import Insertion
 from trundle.page.simulated_world.model_edits import ModelEdits
@@ -23,21 +24,19 @@ CRATE = '<sdf version="1.6"><model name="crate"><link name="body"/>{}</model></s
 CONFIG = "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf><description>Of  wood.</description></model>"
 
 
-class Contents:
+class Contents(BareWorld):
     """Adds models to a simulation without sensors and plugins."""
 
     def __init__(self, simulation: Simulation, packages: Packages, environment: Mapping[str, str]) -> None:
-        self._simulation, self.packages, self.environment = simulation, packages, environment
+        super().__init__(simulation)
+        self.packages, self.environment = packages, environment
 
-    def spawn(self, model: Model, robot: Robot | None) -> None:
+    def spawn(self, model: Model, robot: Robot | None = None) -> None:
         assert robot is None
-        self._simulation.spawn(model)
+        self.simulation.spawn(model)
 
     def robot(self, model: str) -> None:
-        assert any(each.name == model for each in self._simulation.models)
-
-    def delete(self, name: str) -> None:
-        self._simulation.delete(name)
+        assert any(each.name == model for each in self.simulation.models)
 
 
 @pytest.fixture
@@ -60,13 +59,13 @@ def packages(tmp_path: Path, environment: dict[str, str]) -> Packages:
 @pytest.fixture
 def insertion(simulation: Simulation, packages: Packages, environment: dict[str, str]) -> Insertion:
     contents = Contents(simulation, packages, environment)
-    return Insertion(simulation, contents, lambda command: command(simulation), CodeConsent(environment))
+    return Insertion(contents, CodeConsent(environment))
 
 
 @pytest.fixture
 def edits(simulation: Simulation, tmp_path: Path, environment: dict[str, str]) -> ModelEdits:
     contents = Contents(simulation, Packages(environment, start=tmp_path), environment)
-    return ModelEdits(simulation, contents, lambda command: command(simulation))
+    return ModelEdits(contents)
 
 
 def _put_crate(tmp_path: Path, plugin: str = "") -> None:

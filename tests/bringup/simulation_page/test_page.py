@@ -38,6 +38,7 @@ from trundle.page import (
     TimelineSpan,
 )
 from trundle.page.shared_page import SharedPage
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.page import SimulationPage
 from trundle.sim.realtime_pacer import RealtimePacer
 from trundle.sim.simulation import DebugLine, Simulation, read_state_log
@@ -63,7 +64,7 @@ class Shown:
     def __init__(self, sim: Simulation, sensors: Any = (), recorder: Any = None, timeline: Any = None) -> None:
         self.sim, self.clock = sim, Clock()
         page, self.server = shared_page()
-        self.page = SimulationPage(page, sim, sensors, recorder=recorder, timeline=timeline, wall_ns=self.clock)
+        self.page = SimulationPage(page, BareWorld(sim, sensors, timeline), recorder=recorder, wall_ns=self.clock)
         self.pacer = RealtimePacer(1.0)
         self.paused = False
 
@@ -416,7 +417,7 @@ def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -
     sim, sensors = loaded(tmp_path, model("eye", CAMERA + BOX) + model("ball", BOX, static=False))
     shared = SharedPage(say=print, at=PageAddress(port=0))
     with (
-        SimulationPage(shared, sim, sensors) as page,
+        SimulationPage(shared, BareWorld(sim, sensors)) as page,
         ProtocolClient(str(shared.url)) as client,
     ):
         pacer = RealtimePacer(None)

@@ -9,8 +9,8 @@ from tests.timeline.test_timeline import PUSH, Driver, seconds, world
 
 import trundle
 from trundle.page import ResetModel, UndoReset
+from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.model_edits import ModelEdits
-from trundle.page.world_contents import BareContents
 from trundle.ros import GraphLoop
 from trundle.sim.simulation import Simulation
 from trundle.sim.timeline import Timeline
@@ -22,7 +22,7 @@ def test_a_robot_drives_on_and_its_plugins_know_what_they_knew(tmp_path: Path) -
     (tmp_path / "robots.world").write_text(world(2), encoding="utf-8")
     with trundle.load(str(tmp_path / "robots.world"), plugins=True, ros=True) as simulation, GraphLoop() as loop:
         timeline = Timeline(simulation, wall_ns=lambda: 0)
-        edits = ModelEdits(simulation, BareContents(timeline.do), timeline.do)
+        edits = ModelEdits(BareWorld(simulation, timeline=timeline))
         timeline.advance(seconds(0.3))
         Driver(simulation, loop).drive(timeline, 0.5, 0.2)
         now_ns = simulation.time_ns + seconds(0.25)

@@ -71,15 +71,15 @@ class PictureRenderer:
             UsageError: no such camera, or too large a picture.
         """
         packages = Packages(environment, start=start)
-        stage = load_world(file, packages, report)
+        loaded = load_world(file, packages, report)
         self._content = options.content
-        self.empty_reason = empty_reason(stage.world)
+        self.empty_reason = empty_reason(loaded.flat)
         """Reason why the picture is empty, or drawn from the URDF without physics; None: neither."""
-        self.simulation = Simulation(stage.world, report)
-        scene = scene_from_world(stage.world, report)
+        self.simulation = Simulation(loaded.flat, report)
+        scene = scene_from_world(loaded.flat, report)
         self._written: NDArray[np.float64] = np.zeros((0, 7))
         """(N, 7) poses of bodies that are drawn and not simulated."""
-        robot = stage.robot if options.camera is None and not _is_seen(stage.world) else None
+        robot = loaded.robot if options.camera is None and not _is_seen(loaded.flat) else None
         if robot is not None and any(link.visuals for link in robot.links):
             self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
             scene, self._written = add_robot(scene, robot, packages, report)
@@ -107,7 +107,7 @@ class PictureRenderer:
             raise UsageError(f"a picture of {asked} is too large; it may have {_MAX_PX} pixels, as 3840x2160 has")
         if options.at_s > 0.0:
             self.simulation.run(options.at_s)
-        added = [options.camera is None and model.added for model in stage.world.models for _ in model.links]
+        added = [options.camera is None and model.added for model in loaded.flat.models for _ in model.links]
         self._ground = np.flatnonzero(added)
         self._sunk_m = 0.0
         self._cloud = scene_corners(scene, self._poses(self.simulation.snapshot()))

@@ -9,7 +9,6 @@ from trundle.ros import Node
 from trundle.spatial import Pose
 
 if TYPE_CHECKING:
-    from trundle.robots.model import World
     from trundle.sim.sensors import CameraSensor, InstrumentSensor
     from trundle.sim.simulation import Simulation
 
@@ -133,11 +132,11 @@ class Simulator(Protocol):
         """
         ...
 
-    def edit(self, world: "World") -> None:
-        """Change gravity, masses, limits or lights.
+    def do(self, command: "Callable[[Simulation], object]") -> None:
+        """Give the simulation a command, which its timeline repeats.
 
         Raises:
-            TrundleError: the world cannot be simulated; nothing has changed.
+            TrundleError: of the command.
         """
         ...
 

@@ -1,4 +1,4 @@
-"""Models of the world behind /gazebo, with their sensors and plugins, as they come and go."""
+"""World behind /gazebo, into which models are spawned from texts."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -6,27 +6,25 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from trundle.base.diagnostics import Diagnostics, UsageError
-from trundle.robots.model import Model, World
+from trundle.robots.model import World
 from trundle.robots.packages import Packages
-from trundle.robots.robot import Robot
-from trundle.ros import Clock, Deliver, Node
+from trundle.ros import Clock, Node, StaticTransformBroadcaster
 from trundle.ros.bridge import ClockTopic
 from trundle.sim.physics import BackgroundCutting
 from trundle.sim.renderers import RendererName
-from trundle.sim.sensors import CameraSensor, InstrumentSensor
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 from ..graph import Graph
+from ..live_world import LiveWorld
+from ..model_interfaces import ModelInterfaces
 from ..state_logs import WorldRecorder
 from .models import read_spawned
-from .plugins import GazeboPlugins
-from .sensors import GazeboSensors
 from .world_setup import WorldSetup
 
 
 class GazeboContents:
-    """One simulation and everything on it; on its thread."""
+    """Live world of one gzserver, its state logs and its plugins' nodes; on its thread."""
 
     def __init__(
         self,
@@ -41,7 +39,7 @@ class GazeboContents:
         renderer: RendererName,
         clock: Clock,
         clock_hz: float | None,
-        deliver: Deliver,
+        post: Callable[[Callable[[], object]], None],
         say: Callable[[str], None],
         setup: WorldSetup | None,
         is_lockstep: bool,
@@ -59,77 +57,65 @@ class GazeboContents:
             renderer: draws the cameras' images.
             clock: time of the plugins' nodes.
             clock_hz: rate of /clock; None: the usual one.
-            deliver: runs the plugins' callbacks on this thread.
+            post: calls a function on this thread.
             say: prints which plugins are loaded, and where logs are.
             setup: seeds the simulation, begins with it, changes spawned models; None: they are spawned as read.
             is_lockstep: hollow meshes are cut before time goes on, so that runs repeat; else in the background.
         """
-        self.packages, self.environment = packages, env
+        self._node, self._graph, self._clock, self._post = node, graph, clock, post
         self._folder, self._report, self._say = folder, report, say
         self._cutting = (
-            None if is_lockstep else BackgroundCutting(say, lambda count: deliver(lambda: self._use_cuts(count)))
+            None if is_lockstep else BackgroundCutting(say, lambda count: post(lambda: self._use_cuts(count)))
         )
         seed = 0 if setup is None else setup.seed
-        self.simulation = Simulation(world, report, seed=seed, cutting=self._cutting)
+        simulation = Simulation(world, report, seed=seed, cutting=self._cutting)
         self._setup = setup
         if setup is not None:
-            setup.start(self.simulation, node)
-        ClockTopic(node, rate_hz=clock_hz).attach(self.simulation)
-        self._sensors = GazeboSensors(self.simulation, node, renderer)
-        self._plugins = GazeboPlugins(
-            self.simulation, node, graph=graph, env=env, clock=clock, deliver=deliver, say=say
-        )
+            setup.start(simulation, node)
+        ClockTopic(node, rate_hz=clock_hz).attach(simulation)
+        self.live = LiveWorld(simulation, packages=packages, environment=env, say=say, renderer=renderer)
         self._recorder: WorldRecorder | None = None
-
-    @property
-    def sensors(self) -> list[CameraSensor | InstrumentSensor]:
-        """Sensors of all models."""
-        return self._sensors.all
 
     def load(self, record: Path | None) -> None:
         """Start state logs in a folder (None: without), sensors and plugins."""
+        live, simulation = self.live, self.live.simulation
         if record is not None:
-            self._recorder = WorldRecorder(self.simulation, record, self._say)
-            self.simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
-        self._sensors.mount()
-        self._plugins.load()
+            self._recorder = WorldRecorder(simulation, record, self._say)
+            simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
+        live.start_sensors()
+        broadcaster = StaticTransformBroadcaster(self._node)
+        live.join_graph(ModelInterfaces(self._node, broadcaster, simulation, self._make_node))
+        live.load_plugins()
+
+    def _make_node(self, name: str) -> Node:
+        graph, simulation = self._graph, self.live.simulation
+        node = Node(
+            name,
+            loop=graph.loop,
+            master_uri=graph.master_uri,
+            clock=self._clock,
+            deliver=lambda callback: self._post(lambda: simulation.receive_input(callback)),
+            host=graph.host,
+        )
+        node.profile = self._node.profile
+        return node
 
     def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
         """Add a model with its sensors and plugins."""
-        if any(model.name == name for model in self.simulation.models):
+        if any(model.name == name for model in self.live.simulation.models):
             raise UsageError(f"Failure - model name {name} already exist.")
         model, robot = read_spawned(
-            xml, name=name, namespace=namespace, folder=self._folder, packages=self.packages, report=self._report
+            xml, name=name, namespace=namespace, folder=self._folder, packages=self.live.packages, report=self._report
         )
         pose = world_from_model @ model.world_from_model
-        self.insert(replace(model, name=name, world_from_model=pose), robot)
-
-    def insert(self, model: Model, robot: Robot | None) -> None:
-        """Add a model, already read, with its sensors."""
-        if self._setup is not None:
-            model = self._setup.model(model)
-        self.simulation.spawn(model)
-        self._sensors.mount(model.name, robot=robot)
+        model = replace(model, name=name, world_from_model=pose)
+        self.live.spawn(model if self._setup is None else self._setup.model(model), robot)
 
     def _use_cuts(self, count: int) -> None:
         """Replace the hulls that stood in for hollow meshes."""
-        self.simulation.recompile()
+        self.live.simulation.recompile()
         if count:
             self._say(f"{count} hollow meshes are cut, and collide as their convex pieces from now on")
-
-    def robot(self, model: str) -> Robot | None:
-        """Return the URDF that a model was spawned from."""
-        return self._sensors.robot(model)
-
-    def load_plugins(self, name: str) -> None:
-        """Load the plugins of a spawned model."""
-        self._plugins.load_model(self.simulation[name])
-
-    def delete(self, name: str) -> None:
-        """Remove a model with its sensors and plugins."""
-        self.simulation.delete(name)
-        self._plugins.unload(name)
-        self._sensors.unmount(name)
 
     def close_logs(self) -> None:
         """Complete the state logs."""
@@ -141,4 +127,4 @@ class GazeboContents:
         """Shut down the plugins' nodes without waiting, and cut no more meshes; from any thread."""
         if self._cutting is not None:
             self._cutting.close()
-        self._plugins.close()
+        self.live.close()

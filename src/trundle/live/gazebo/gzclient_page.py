@@ -1,32 +1,32 @@
 """Page that takes gzclient's place, opened when a node asks for it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from trundle.base.diagnostics import TrundleError
 from trundle.page.shared_page import SharedPage
 from trundle.page.simulated_world.page import SimulationPage
-from trundle.page.world_contents import WorldContents
 from trundle.ros import Node
 from trundle.sim.realtime_pacer import RealtimePacer
-from trundle.sim.sensors import CameraSensor, InstrumentSensor
-from trundle.sim.simulation import Simulation
 
+from ..live_world import LiveWorld
 from ..state_logs import PageRecording
 
 
 class GzclientPage:
     """Page of the world behind /gazebo; all but `url` and `is_wanted` belongs to the simulation's thread."""
 
-    def __init__(self, shared: SharedPage | None, say: Callable[[str], None], contents: WorldContents) -> None:
+    def __init__(
+        self, shared: SharedPage | None, say: Callable[[str], None], *, reload: Callable[[], None] | None
+    ) -> None:
         """Prepare; `open` serves the page.
 
         Args:
             shared: page of the graph's windows; None: headless.
             say: prints a line.
-            contents: adds models with their sensors and plugins.
+            reload: loads the world again; None: it cannot be.
         """
-        self._contents = contents
         self._shared = shared
+        self._reload = reload
         self._say = say
         self._page: SimulationPage | None = None
 
@@ -40,23 +40,17 @@ class GzclientPage:
         """True if the page is still to be opened."""
         return self._shared is not None and self._page is None
 
-    def open(self, simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor], node: Node) -> None:
+    def open(self, live: LiveWorld, node: Node) -> None:
         """Open the page unless it is open; a failure is logged by the node."""
         if self._shared is None or self._page is not None:
             return
         try:
-            recorder = PageRecording(simulation, self._say)
-            self._page = SimulationPage(
-                self._shared, simulation, sensors, node=node, recorder=recorder, contents=self._contents
-            )
+            recorder = PageRecording(live.simulation, self._say)
+            self._page = SimulationPage(self._shared, live, node=node, recorder=recorder)
+            self._page.on_reload = self._reload
         except TrundleError as error:
             node.log.error(str(error))
             self._shared = None
-
-    def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        """Set the sensors that measure after models came or went."""
-        if self._page is not None:
-            self._page.set_sensors(sensors)
 
     def update(self, pacer: RealtimePacer, *, paused: bool) -> bool:
         """Handle the page's requests and send it the state; return True if the simulation is paused now."""

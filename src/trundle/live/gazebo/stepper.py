@@ -1,6 +1,7 @@
 """Steps of the simulation behind /gazebo: in real time, flat out or in lockstep with nodes, unless it is paused."""
 
 from collections.abc import Callable
+from functools import partial
 
 from trundle.gazebo.plugin_error import plugin_error
 from trundle.ros import GraphLoop, SimClock
@@ -8,6 +9,7 @@ from trundle.sim.physics import SimulationUnstableError
 from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS, RealtimePacer
 from trundle.sim.simulation import Simulation
 
+from ..live_world import LiveWorld
 from ..lockstep import Lockstep
 from .simulation_thread import SimulationThread
 
@@ -75,21 +77,24 @@ class GazeboStepper:
         if self._lockstep is not None:
             self._loop.begin_batch()
 
-    def step(self, simulation: Simulation) -> None:
+    def step(self, live: LiveWorld) -> None:
         """Advance as far as the pacer says, or wait a moment while paused."""
+        simulation = live.simulation
         if self.paused or self.is_held or not (self._lockstep is None or self._lockstep.is_ready):
             self.pacer.restart()
             simulation.advance(simulation.time_ns)
+            self.clock.set(simulation.time_ns)  # the page may have gone to another moment
             self._loop.end_batch()
             self._ending.wait(IDLE_S)
             return
         try:
             target_ns = self.pacer.next_target(simulation.time_ns)
             if self._lockstep is None or target_ns == simulation.time_ns:
-                simulation.advance(target_ns)
+                live.advance(target_ns)
             else:
                 target_ns = simulation.time_ns + STRIDE_FLAT_OUT_NS  # not the pacer's: so that runs repeat at any speed
-                self._step_lockstep(simulation, self._lockstep, self._lockstep.target_ns(target_ns))
+                step = partial(self._step_lockstep, simulation, self._lockstep)
+                live.advance(self._lockstep.target_ns(target_ns), step)
         except SimulationUnstableError as error:
             self._stop(str(error))
         except Exception as error:  # a plugin's code may raise anything

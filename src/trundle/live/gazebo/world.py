@@ -8,9 +8,8 @@ from pathlib import Path
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.page.shared_page import SharedPage
 from trundle.robots.description import load
-from trundle.robots.model import Model, World
+from trundle.robots.model import World
 from trundle.robots.packages import Packages
-from trundle.robots.robot import Robot
 from trundle.ros import Node
 from trundle.ros.bridge import clock_rate_hz
 from trundle.sim.realtime_pacer import shorten_gil_interval
@@ -20,6 +19,7 @@ from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
 from ..graph import Graph
+from ..live_world import LiveWorld
 from ..lockstep import Lockstep
 from .contents import GazeboContents
 from .gzclient_page import GzclientPage
@@ -46,6 +46,8 @@ class GazeboWorld:
         page: SharedPage | None,
         speed: float | None = 1.0,
         renderer: RendererName = "cpu",
+        timeline_mb: int = 256,
+        reload: Callable[[], None] | None = None,
         steps: Lockstep | None = None,
         setup: WorldSetup | None = None,
     ) -> None:
@@ -61,6 +63,8 @@ class GazeboWorld:
             page: of the graph's windows; None: headless.
             speed: times real time; None: flat out.
             renderer: draws the cameras' images.
+            timeline_mb: memory of the timeline, with a page [MB]; 0: none.
+            reload: asks, from any thread, to load the world again; None: it cannot be.
             steps: holds time until the nodes are done; None: time is free.
             setup: changes the world and its models, and begins with it; None: they are simulated as read.
         """
@@ -72,7 +76,8 @@ class GazeboWorld:
         self._folder = folder
         self._say = say
         self._renderer: RendererName = renderer
-        self._window = GzclientPage(page, say, _Contents(self))
+        self._timeline_mb = timeline_mb
+        self._window = GzclientPage(page, say, reload=reload)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
         self._stepper = GazeboStepper(graph.loop, self._thread, speed=speed, lockstep=steps, say=say)
@@ -119,7 +124,7 @@ class GazeboWorld:
         """Open the page once there is a world, and keep it until cancelled."""
         while not node.closed.is_set():
             if self._window.is_wanted and self._contents is not None:
-                self.post(lambda: self._window.open(self.simulation, self.sensors, node))
+                self.post(lambda: self._open_window(node))
             await asyncio.sleep(_POLL_S)
         return 0
 
@@ -142,20 +147,20 @@ class GazeboWorld:
     # -- on its thread
 
     @property
-    def contents(self) -> GazeboContents:
+    def live(self) -> LiveWorld:
         """The running simulation, with its sensors and plugins."""
         assert self._contents is not None, "open() comes first"
-        return self._contents
+        return self._contents.live
 
     @property
     def simulation(self) -> Simulation:
         """The running simulation."""
-        return self.contents.simulation
+        return self.live.simulation
 
     @property
     def sensors(self) -> Sequence[CameraSensor | InstrumentSensor]:
         """Sensors of all models."""
-        return self.contents.sensors
+        return self.live.sensors
 
     @property
     def is_lockstep(self) -> bool:
@@ -178,29 +183,23 @@ class GazeboWorld:
 
     def open_window(self, node: Node) -> str | None:
         """Open the page unless it is open; return its URL, or None if it cannot be served."""
-        self._window.open(self.simulation, self.sensors, node)
+        self._open_window(node)
         return self._window.url
 
     def spawn(self, xml: str, *, name: str, world_from_model: Pose, namespace: str) -> None:
         """Add a model."""
-        self.contents.spawn(xml, name=name, world_from_model=world_from_model, namespace=namespace)
-        self._update_page()
-        self.contents.load_plugins(name)
-
-    def insert(self, model: Model, robot: Robot | None) -> None:
-        """Add a model, already read."""
-        self.contents.insert(model, robot)
-        self._update_page()
-        self.contents.load_plugins(model.name)
+        assert self._contents is not None, "open() comes first"
+        self._contents.spawn(xml, name=name, world_from_model=world_from_model, namespace=namespace)
+        self._stepper.pacer.restart()
 
     def delete(self, name: str) -> None:
         """Remove a model."""
-        self.contents.delete(name)
-        self._update_page()
+        self.live.delete(name)
+        self._stepper.pacer.restart()
 
-    def edit(self, world: World) -> None:
-        """Replace gravity, masses, limits or lights."""
-        self.simulation.edit(world)
+    def do(self, command: Callable[[Simulation], object]) -> None:
+        """Give the simulation a command, which its timeline repeats."""
+        self.live.do(command)
 
     def set_speed(self, speed: float | None) -> None:
         """Set the real-time factor; None: flat out."""
@@ -208,10 +207,15 @@ class GazeboWorld:
 
     def reset(self, *, time: bool) -> None:
         """Put every model back to its initial state."""
-        self.simulation.reset(time=time)
+        self.live.do(lambda simulation: simulation.reset(time=time))
         self._stepper.restart(self.simulation.time_ns)
 
     # -- inside
+
+    def _open_window(self, node: Node) -> None:
+        if self._window.is_wanted and self.live.timeline is None and self._timeline_mb and self._setup is None:
+            self.live.keep_timeline(self._timeline_mb * 1_000_000)
+        self._window.open(self.live, node)
 
     def _tick(self) -> None:
         """Handle the page's requests and step, once there is a simulation."""
@@ -220,7 +224,7 @@ class GazeboWorld:
             return
         paused = self._stepper.paused or self._stepper.is_over
         self._stepper.paused = self._window.update(self._stepper.pacer, paused=paused)
-        self._stepper.step(self._contents.simulation)
+        self._stepper.step(self._contents.live)
 
     def _end(self) -> None:
         self._window.close()
@@ -240,42 +244,9 @@ class GazeboWorld:
             renderer=self._renderer,
             clock=self._stepper.clock,
             clock_hz=clock_hz,
-            deliver=self.post,
+            post=self.post,
             say=self._say,
             setup=self._setup,
             is_lockstep=self._stepper.is_lockstep,
         )
         self._contents.load(logs)
-
-    def _update_page(self) -> None:
-        self._window.set_sensors(self.sensors)
-        self._stepper.pacer.restart()
-
-
-class _Contents:
-    """World as the page inserts into it and deletes from it."""
-
-    def __init__(self, world: GazeboWorld) -> None:
-        self._world = world
-
-    @property
-    def packages(self) -> Packages:
-        """Finder of models."""
-        return self._world.contents.packages
-
-    @property
-    def environment(self) -> Mapping[str, str]:
-        """Variables that locate plugins."""
-        return self._world.contents.environment
-
-    def robot(self, model: str) -> Robot | None:
-        """Return the URDF that a model was spawned from."""
-        return self._world.contents.robot(model)
-
-    def spawn(self, model: Model, robot: Robot | None) -> None:
-        """Add a model with its sensors and plugins."""
-        self._world.insert(model, robot)
-
-    def delete(self, name: str) -> None:
-        """Remove a model with its sensors and plugins."""
-        self._world.delete(name)

@@ -1,16 +1,15 @@
 """ROS interface of a simulation: its node, clock, frames, sensor topics and parameters on the graph."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Self
 
 from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
 from trundle.ros.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms
-from trundle.sim.sensors import CameraSensor, InstrumentSensor
 from trundle.sim.simulation import Simulation
 
 from ..graph import DEFAULT_PORT, Graph
-from ..model_nodes import ModelNodes
-from ..model_topics import ModelTopics
+from ..live_world import LiveWorld
+from ..model_interfaces import ModelInterfaces
 from ..world_setup import LoadedWorld
 
 NODE_NAME = "/trundle"
@@ -29,16 +28,11 @@ class SimulationClock(SimClock):
 
 
 class RosInterface:
-    """Node, topics and parameters of one simulation."""
+    """Node, topics and parameters of one world."""
 
-    def __init__(
-        self,
-        graph: Graph,
-        simulation: Simulation,
-        cameras: Sequence[CameraSensor],
-        sensors: Sequence[InstrumentSensor],
-        stage: LoadedWorld,
-    ) -> None:
+    def __init__(self, graph: Graph, live: LiveWorld, loaded: LoadedWorld) -> None:
+        """Advertise a world, whose sensors are started, on a graph."""
+        simulation = live.simulation
         self._graph = graph
         self._simulation = simulation
         self._nodes: list[Node] = []
@@ -49,15 +43,13 @@ class RosInterface:
         loop.run(self.node.params.set("/use_sim_time", True))
         ClockTopic(self.node).attach(simulation)
         static_broadcaster = StaticTransformBroadcaster(self.node)
-        frames = LinkTransforms(self.node, static_broadcaster, stage.world, simulation.snapshot())
+        frames = LinkTransforms(self.node, static_broadcaster, loaded.flat, simulation.snapshot())
         simulation.on_change(lambda: frames.set_world(simulation.world, simulation.snapshot()))
         simulation.add_hook(frames, period_ns=frames.period_ns, enabled=frames.enabled, name="/tf")
-        self._sensor_topics = ModelTopics(self.node, static_broadcaster, simulation)
-        self.plugin_nodes = ModelNodes(loop, self.make_node)
-        self._frame_names = FrameNames.from_world(stage.world, stage.robot)
-        self.advertise(cameras, sensors)
-        if stage.urdf is not None:
-            loop.run(self.node.params.set("/robot_description", stage.urdf))
+        names = FrameNames.from_world(loaded.flat, loaded.robot)
+        live.join_graph(ModelInterfaces(self.node, static_broadcaster, simulation, self.make_node, frames=names))
+        if loaded.urdf is not None:
+            loop.run(self.node.params.set("/robot_description", loaded.urdf))
             states, robot = JointStatesTopic(self.node, simulation.models[0]), simulation.models[0].name
             simulation.on_change(
                 lambda: states.set_model(next((each for each in simulation.models if each.name == robot), None))
@@ -67,20 +59,18 @@ class RosInterface:
     @classmethod
     def open(
         cls,
-        simulation: Simulation,
-        stage: LoadedWorld,
-        cameras: Sequence[CameraSensor],
-        sensors: Sequence[InstrumentSensor],
+        live: LiveWorld,
+        loaded: LoadedWorld,
         environment: Mapping[str, str],
         *,
         host: str,
         on_open: Callable[[GraphLoop], None] = lambda _loop: None,
     ) -> Self:
-        """Join or start a graph, call `on_open` with its loop, and advertise the simulation."""
+        """Join or start a graph, call `on_open` with its loop, and advertise the world."""
         graph = Graph.open(environment, host=host, ports=(DEFAULT_PORT, 0))
         try:
             on_open(graph.loop)
-            return cls(graph, simulation, cameras, sensors, stage)
+            return cls(graph, live, loaded)
         except BaseException:
             graph.close()
             raise
@@ -104,15 +94,6 @@ class RosInterface:
         self._nodes.append(node)
         return node
 
-    def advertise(self, cameras: Sequence[CameraSensor], sensors: Sequence[InstrumentSensor]) -> None:
-        """Advertise the topics of sensors."""
-        self._sensor_topics.advertise(cameras, sensors, self._frame_names)
-
-    def unload(self, model: str) -> None:
-        """Shut down the nodes of a deleted model, and unregister the topics of its sensors."""
-        self.plugin_nodes.shut_down(model)
-        self._sensor_topics.unregister(model)
-
     def settle(self) -> None:
         """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""
         self._graph.loop.wait_idle()
@@ -128,17 +109,11 @@ class RosInterface:
         if wait:
             self._graph.loop.flush_deliveries()
 
-    def replaced(
-        self,
-        simulation: Simulation,
-        stage: LoadedWorld,
-        cameras: Sequence[CameraSensor],
-        sensors: Sequence[InstrumentSensor],
-    ) -> Self:
-        """Leave the graph and return the interface of another simulation on it."""
+    def replaced(self, live: LiveWorld, loaded: LoadedWorld) -> Self:
+        """Leave the graph and return the interface of another world on it."""
         for node in self._nodes:
             self._graph.loop.run(node.shutdown())
-        return type(self)(self._graph, simulation, cameras, sensors, stage)
+        return type(self)(self._graph, live, loaded)
 
     def close(self) -> None:
         """Leave the graph; stop it if it was started here."""

@@ -65,12 +65,12 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         show.findings()
         simulation = world.simulation
         return RunResult(
-            world=with_actors(world.stage.written, report),
+            world=with_actors(world.loaded.nested, report),
             snapshot=simulation.snapshot(),
             steps=simulation.simulated_steps,
             simulated_s=simulation.simulated_ns / NS_PER_S,
             wall_s=wall_s,
-            images=sum(camera.image_count for camera in world.cameras),
+            images=world.live.image_count,
             report=report,
             interrupted=stop.is_set(),
             recording_broke_off=world.recorder is not None and world.recorder.has_failed,
@@ -93,22 +93,16 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
             graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
             opens_browser=options.opens_browser,
         ),
-        world.simulation,
-        (*world.cameras, *world.sensors),
+        world.live,
         node=None if ros is None else ros.node,
         recorder=PageRecording(world.simulation, say),
-        timeline=world.timeline,
-        contents=world,
     )
-    world.on_sensors = lambda: page.set_sensors((*world.cameras, *world.sensors))
 
     def reload() -> None:
         page.end_recording()
         world.reload()
         node = None if world.ros is None else world.ros.node
-        recorder = PageRecording(world.simulation, say)
-        sensors = (*world.cameras, *world.sensors)
-        page.show(world.simulation, sensors, node=node, recorder=recorder, timeline=world.timeline)
+        page.show(world.live, node=node, recorder=PageRecording(world.simulation, say))
         say(f"{world.simulation.world.name} is loaded again")
 
     page.on_reload = reload
@@ -151,7 +145,7 @@ def _simulate(
                 pacer.restart()
                 continue
             target_ns = pacer.next_target(world.simulation.time_ns)
-            world.advance(target_ns if end_ns is None else min(target_ns, end_ns))
+            world.live.advance(target_ns if end_ns is None else min(target_ns, end_ns))
         except SimulationUnstableError as error:
             resets += 1
             paused = _recover(world.simulation, options, error, resets, warn)

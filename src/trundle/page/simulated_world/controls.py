@@ -24,10 +24,9 @@ from trundle.page import (
     Step,
 )
 from trundle.sim.realtime_pacer import RealtimePacer
-from trundle.sim.simulation import Simulation
-from trundle.sim.timeline import Timeline
 from trundle.spatial import NS_PER_S
 
+from ..shown_world import ShownWorld
 from .edits import edit, find_model
 from .handling import handled_models
 
@@ -58,27 +57,20 @@ class SimulationControls:
     """State of the controls: paused or not, and the steps that are still to do."""
 
     def __init__(
-        self,
-        simulation: Simulation,
-        recorder: Recorder | None,
-        timeline: Timeline | None = None,
-        *,
-        wall_ns: Callable[[], int] = time.monotonic_ns,
+        self, world: ShownWorld, recorder: Recorder | None, *, wall_ns: Callable[[], int] = time.monotonic_ns
     ) -> None:
         """Prepare.
 
         Args:
-            simulation: the running one.
+            world: the running one.
             recorder: None: it cannot be recorded.
-            timeline: None: it cannot go back.
             wall_ns: the wall clock [ns].
         """
         self._wall_ns = wall_ns
         self._handled_ns: dict[str, int] = {}
         """Model that is carried or pulled → wall time of the last request to [ns]."""
-        self._simulation = simulation
+        self._world, self._simulation = world, world.simulation
         self.recorder = recorder
-        self.timeline = timeline
         self._steps = 0
 
     def handle(self, action: PageAction, pacer: RealtimePacer, *, paused: bool) -> bool:
@@ -98,17 +90,17 @@ class SimulationControls:
             case RunTo(time_ns):
                 paused, self._steps = True, self._steps_to(time_ns)
             case Reset(what):
-                self.do(lambda sim: sim.reset(time=what != "poses", poses=what != "time"))
+                self._world.do(lambda sim: sim.reset(time=what != "poses", poses=what != "time"))
                 pacer.restart()
             case SetSpeed(factor):
                 pacer.set_speed(factor)
             case _ if isinstance(action, EditAction):
-                self.do(partial(edit, action))
+                self._world.do(partial(edit, action))
                 if isinstance(action, Carry | Pull):
                     self._handled_ns[find_model(self._simulation, action.model).name] = self._wall_ns()
-            case Seek(time_ns) if self.timeline is not None:
+            case Seek(time_ns) if self._world.timeline is not None:
                 paused, self._steps = True, 0
-                self.timeline.seek(time_ns)
+                self._world.timeline.seek(time_ns)
                 if self.recorder is not None:
                     self.recorder.follow()
                 pacer.restart()
@@ -140,27 +132,18 @@ class SimulationControls:
         count = min(self._steps, _STEPS_AT_ONCE)
         if count:
             self._steps -= count
-            simulation = self._simulation
-            advance = simulation.advance if self.timeline is None else self.timeline.advance
-            advance(simulation.time_ns + count * simulation.step_ns)
+            self._world.advance(self._simulation.time_ns + count * self._simulation.step_ns)
             pacer.restart()
         return count > 0
 
     def let_lapsed_go(self) -> None:
         """Let models go whose person has fallen silent, such as one whose connection is lost."""
-        if self.timeline is not None and self.timeline.is_repeating:
+        if self._world.timeline is not None and self._world.timeline.is_repeating:
             return
         since_ns = self._wall_ns() - _PATIENCE_NS
         for model in handled_models(self._simulation):
             if self._handled_ns.get(model, since_ns) <= since_ns:
-                self.do(partial(edit, LetGo(model)))
-
-    def do(self, command: Callable[[Simulation], None]) -> None:
-        """Give the simulation a command, which a timeline repeats."""
-        if self.timeline is None:
-            command(self._simulation)
-        else:
-            self.timeline.do(command)
+                self._world.do(partial(edit, LetGo(model)))
 
 
 def reason_of(error: TrundleError) -> str:

@@ -2,7 +2,7 @@
 
 import os
 import queue
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -31,6 +31,7 @@ from trundle.page import (
 )
 from trundle.robots.description import copy_model
 from trundle.robots.model import Model
+from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -40,7 +41,7 @@ from ..model_editor.new_parts import new_model
 from ..model_editor.offers import draft_offers
 from ..model_editor.overview import draft_overview
 from ..model_editor.reader import ModelReader
-from ..world_contents import WorldContents
+from ..shown_world import ShownWorld
 from .code_consent import CodeConsent
 from .controls import reason_of
 from .current_world import current_world
@@ -78,18 +79,26 @@ class _Finished(Struct, frozen=True, kw_only=True):
 class Drafting:
     """Edits one draft; used on the simulation's thread, but for `respond`, which is called on the draft's own, too."""
 
-    def __init__(self, respond: Callable[..., None], contents: WorldContents, root: Path, consent: CodeConsent) -> None:
+    def __init__(
+        self,
+        respond: Callable[..., None],
+        packages: Packages,
+        environment: Mapping[str, str],
+        root: Path,
+        consent: CodeConsent,
+    ) -> None:
         """Prepare.
 
         Args:
             respond: answers a request by its id, with an error or fields.
-            contents: adds models with what belongs to them.
+            packages: finder of models.
+            environment: variables that locate plugins.
             root: folder to write below.
             consent: asks before code is run.
         """
         self._respond, self._consent = respond, consent
-        self._contents = contents
-        self._reader = ModelReader(contents.packages, contents.environment, root)
+        self._packages = packages
+        self._reader = ModelReader(packages, environment, root)
         self._root = root
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-draft")
         self._shown: queue.SimpleQueue[ShownDraft] = queue.SimpleQueue()
@@ -150,7 +159,7 @@ class Drafting:
         self._is_open = True
 
         def copy() -> Json:
-            text = copy_model(found, packages=self._contents.packages, folder=self._root)
+            text = copy_model(found, packages=self._packages, folder=self._root)
             return self._open(text, found.name, posed.world_from_model)
 
         return copy
@@ -167,13 +176,13 @@ class Drafting:
     def _do(self, request_id: int, action: DraftAction) -> Json | None:
         """Do an edit, on the draft's thread; return the answer's fields, None: it is answered later."""
         if isinstance(action, ListOffers):
-            return draft_offers(self._contents.packages)
+            return draft_offers(self._packages)
         draft = self._draft
         if draft is None:
             raise UsageError("no model is edited now")
         match action:
             case SaveDraft():
-                return save_draft(draft, action, self._root, self._contents.packages)
+                return save_draft(draft, action, self._root, self._packages)
             case FinishDraft():
                 return self._finish(request_id, action, draft)
             case LeaveDraft():
@@ -217,35 +226,36 @@ class Drafting:
         self._files = WorldFiles()
         self._shown.put(ShownDraft(entry=None, resources=[], files={}))
 
-    def poll(self, simulation: Simulation, edits: ModelEdits) -> list[ShownDraft]:
+    def poll(self, world: ShownWorld, edits: ModelEdits) -> list[ShownDraft]:
         """Put a finished draft into the world; return what is to be shown since the last call."""
         while (finished := _next(self._finished)) is not None:
             try:
-                name = self._spawn(finished, simulation, edits)
+                name = _spawn(finished, world, edits)
             except TrundleError as error:
                 self._respond(finished.request_id, reason_of(error))
             else:
                 self._submit(finished.request_id, lambda name=name: (self._close(), {"name": name})[1])
         return list(iter(lambda: _next(self._shown), None))
 
-    def _spawn(self, finished: _Finished, simulation: Simulation, edits: ModelEdits) -> str:
-        """Put a model into the world, in place of the one that it is a copy of; return its name."""
-        there, of = {model.name for model in simulation.models}, finished.of
-        name = free_name(finished.model.name, there - {of})
-        if of is None or of not in there:
-            self._contents.spawn(replace(finished.model, name=name), None)
-            return name
-        edits.handle(DeleteModel(of))
-        try:
-            self._contents.spawn(replace(finished.model, name=name), None)
-        except TrundleError:
-            edits.handle(RestoreModel(of))
-            raise
-        return name
-
     def close(self) -> None:
         """Stop after the edit that is being done."""
         self._thread.shutdown(wait=False, cancel_futures=True)
+
+
+def _spawn(finished: _Finished, world: ShownWorld, edits: ModelEdits) -> str:
+    """Put a model into the world, in place of the one that it is a copy of; return its name."""
+    present, of = {model.name for model in world.simulation.models}, finished.of
+    name = free_name(finished.model.name, present - {of})
+    if of is None or of not in present:
+        world.spawn(replace(finished.model, name=name))
+        return name
+    edits.handle(DeleteModel(of))
+    try:
+        world.spawn(replace(finished.model, name=name))
+    except TrundleError:
+        edits.handle(RestoreModel(of))
+        raise
+    return name
 
 
 def _edit(draft: Draft, action: DraftAction) -> Part:

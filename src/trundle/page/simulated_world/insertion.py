@@ -14,10 +14,9 @@ from trundle.robots.description import load, load_text
 from trundle.robots.model import Light, Model, flattened
 from trundle.robots.packages import Packages
 from trundle.robots.robot import Robot
-from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
-from ..world_contents import Do, WorldContents
+from ..shown_world import ShownWorld
 from .code_consent import CodeConsent
 from .model_edits import add_light
 
@@ -34,19 +33,12 @@ _LIGHT_ANGLES = {"spot": {"inner_angle_rad": 0.6, "outer_angle_rad": 1.0, "fallo
 
 
 class Insertion:
-    """Inserts into one simulation."""
+    """Inserts into one world."""
 
-    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do, consent: CodeConsent) -> None:
-        """Prepare.
-
-        Args:
-            simulation: the running one.
-            contents: adds models with what belongs to them.
-            do: gives the simulation a command that a timeline can repeat.
-            consent: asks before code is run.
-        """
-        self._simulation, self._contents, self._do, self._consent = simulation, contents, do, consent
-        self._packages = contents.packages
+    def __init__(self, world: ShownWorld, consent: CodeConsent) -> None:
+        """Prepare; `consent` asks before code is run."""
+        self._world, self._consent = world, consent
+        self._simulation, self._packages = world.simulation, world.packages
 
     def handle(self, action: InsertAction) -> Json:
         """Do what a person asks for; return the answer's fields.
@@ -68,7 +60,7 @@ class Insertion:
             return question
         name = free_name(model.name, {each.name for each in self._simulation.models})
         pose = Pose(action.position) @ model.world_from_model
-        self._contents.spawn(replace(model, name=name, world_from_model=pose), robot)
+        self._world.spawn(replace(model, name=name, world_from_model=pose), robot)
         return {"name": name}
 
     def _read(self, name: str) -> tuple[Model, Robot | None]:
@@ -103,7 +95,7 @@ class Insertion:
             cast_shadows=action.type == "directional",
         )
         lit = replace(light, **_LIGHT_ANGLES.get(action.type, {}))
-        add_light(lit, self._simulation, self._do)
+        add_light(lit, self._world)
         return {"name": light.name}
 
 

@@ -21,7 +21,7 @@ from trundle.robots.robot import Robot
 from trundle.sim.simulation import ModelHandle, Simulation
 from trundle.sim.timeline import SavedObjects, save_plugins
 
-from ..world_contents import Do, WorldContents
+from ..shown_world import ShownWorld
 from .edits import find_model
 from .saved_model import SavedModel, saved_model
 
@@ -33,17 +33,10 @@ _MAX_BYTES = 64 * 1024 * 1024
 
 
 class ModelEdits:
-    """Copies, deletes and resets models and lights of one simulation."""
+    """Copies, deletes and resets models and lights of one world."""
 
-    def __init__(self, simulation: Simulation, contents: WorldContents, do: Do) -> None:
-        """Prepare.
-
-        Args:
-            simulation: the running one.
-            contents: adds and removes models with what belongs to them.
-            do: gives the simulation a command that a timeline can repeat.
-        """
-        self._simulation, self._contents, self._do = simulation, contents, do
+    def __init__(self, world: ShownWorld) -> None:
+        self._world, self._simulation = world, world.simulation
         self._models: dict[str, tuple[SavedModel, Robot | None]] = {}
         self._lights: dict[str, Light] = {}
         self._before_resets: deque[tuple[SavedModel, SavedObjects]] = deque(maxlen=_MAX_KEPT)
@@ -58,7 +51,7 @@ class ModelEdits:
         match action:
             case CopyModel(name, new, offset):
                 model = find_model(self._simulation, name)
-                self._spawn(saved_model(self._simulation, model).copy(new, offset), self._contents.robot(model.name))
+                self._spawn(saved_model(self._simulation, model).copy(new, offset), self._world.robot(model.name))
             case DeleteModel(name):
                 self._delete(find_model(self._simulation, name).name)
             case RestoreModel(name):
@@ -75,12 +68,12 @@ class ModelEdits:
                 self._restore_light(name)
 
     def _spawn(self, saved: SavedModel, robot: Robot | None) -> None:
-        self._contents.spawn(saved.model, robot)
-        self._do(saved.apply)
+        self._world.spawn(saved.model, robot)
+        self._world.do(saved.apply)
 
     def _delete(self, name: str) -> None:
-        saved = saved_model(self._simulation, self._simulation[name]), self._contents.robot(name)
-        self._contents.delete(name)
+        saved = saved_model(self._simulation, self._simulation[name]), self._world.robot(name)
+        self._world.delete(name)
         _remember(self._models, name, saved)
 
     def _reset(self, model: ModelHandle) -> None:
@@ -89,7 +82,7 @@ class ModelEdits:
         kept.append((saved_model(self._simulation, model), plugins))
         while len(kept) > 1 and sum(each.size for _, each in kept) > _MAX_BYTES:
             kept.popleft()
-        self._do(lambda sim: sim[model.name].reset())
+        self._world.do(lambda sim: sim[model.name].reset())
 
     def _undo_reset(self, model: ModelHandle) -> None:
         before = next((each for each in reversed(self._before_resets) if each[0].model.name == model.name), None)
@@ -104,7 +97,7 @@ class ModelEdits:
             saved.apply(simulation)
             plugins.restore()
 
-        self._do(undo)
+        self._world.do(undo)
 
     def _delete_light(self, name: str) -> None:
         lights = {light.name: light for light in self._simulation.world.lights}
@@ -114,24 +107,24 @@ class ModelEdits:
         def delete(sim: Simulation) -> None:
             sim.edit(replace(sim.world, lights=tuple(each for each in sim.world.lights if each.name != name)))
 
-        self._do(delete)
+        self._world.do(delete)
         _remember(self._lights, name, lights[name])
 
     def _restore_light(self, name: str) -> None:
         if name not in self._lights:
             raise UsageError(f"the page has deleted no light {name!r}")
-        add_light(self._lights[name], self._simulation, self._do)
+        add_light(self._lights[name], self._world)
 
 
-def add_light(light: Light, simulation: Simulation, do: Do) -> None:
+def add_light(light: Light, world: ShownWorld) -> None:
     """Add a light to the world itself.
 
     Raises:
         UsageError: its name is taken.
     """
-    if any(each.name == light.name for each in simulation.world.lights):
+    if any(each.name == light.name for each in world.simulation.world.lights):
         raise UsageError(f"there is a light {light.name!r} already")
-    do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, light))))
+    world.do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, light))))
 
 
 def _remember(kept: dict[str, _Value], name: str, value: _Value) -> None:

@@ -1,7 +1,7 @@
 """Page of a running simulation: its life, and the requests of those who look at it."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Self
 
@@ -26,12 +26,10 @@ from trundle.page import (
 from trundle.ros import Node
 from trundle.ros.bridge import WORLD_FRAME
 from trundle.sim.realtime_pacer import RealtimePacer
-from trundle.sim.sensors import CameraSensor, InstrumentSensor
 from trundle.sim.simulation import Simulation
-from trundle.sim.timeline import Timeline
 
 from ..shared_page import SharedPage
-from ..world_contents import BareContents, WorldContents
+from ..shown_world import ShownWorld
 from .code_consent import CodeConsent
 from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
@@ -55,25 +53,19 @@ class SimulationPage:
     def __init__(
         self,
         page: SharedPage,
-        simulation: Simulation,
-        sensors: Sequence[CameraSensor | InstrumentSensor],
+        world: ShownWorld,
         *,
         node: Node | None = None,
         recorder: Recorder | None = None,
-        timeline: Timeline | None = None,
-        contents: WorldContents | None = None,
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        """Serve the page, and show a simulation there.
+        """Serve the page, and show a world there.
 
         Args:
             page: which windows of the graph may share.
-            simulation: the running one.
-            sensors: those that measure; cameras and rays are drawn.
+            world: the running one.
             node: publishes the stop of a robot that is driven when the page's server dies.
             recorder: records the run; None: it cannot be recorded.
-            timeline: of the run; None: it cannot go back.
-            contents: adds models with their sensors and plugins; None: those without can be inserted.
             wall_ns: the wall clock [ns].
 
         Raises:
@@ -84,66 +76,44 @@ class SimulationPage:
         self._page = page
         self._wall_ns = wall_ns
         self._warning: str | None = None
-        source = Path(simulation.world.at.file)
+        source = Path(world.simulation.world.at.file)
         if page.session.rviz is None and page.session.fixed_frame is None:
             page.change(fixed_frame=WORLD_FRAME)
-        self._set_titles(simulation)
+        self._set_titles(world.simulation)
         self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
         here = Path.cwd()
-        self._contents = BareContents(self._do) if contents is None else contents
-        packages = self._contents.packages
+        packages, environment = world.packages, world.environment
         self._replays = ReplaySaver(self._server.respond)
         self._saver = WorldSaver(self._server.respond, packages, here)
         self._model_pictures = ModelPictures(self._respond_picture, packages)
         self._streams = WorldStreams(
             self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
         )
-        self._consent = CodeConsent(self._contents.environment)
-        self._drafting = Drafting(self._server.respond, self._contents, here, self._consent)
+        self._consent = CodeConsent(environment)
+        self._drafting = Drafting(self._server.respond, packages, environment, here, self._consent)
         self._pictures = WorldPictures(self._server.respond_picture)
         self._performance = PerformanceStream(self._server)
-        self._set_simulation(simulation, sensors, node, recorder, timeline)
+        self._set_world(world, node, recorder)
 
     @property
     def is_seen(self) -> bool:
         """True while a browser draws the world."""
         return self._server.is_watched(POSES)
 
-    def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        """Set the sensors that measure after models came or went."""
-        self._streams.set_sensors(sensors)
-
-    def show(
-        self,
-        simulation: Simulation,
-        sensors: Sequence[CameraSensor | InstrumentSensor],
-        *,
-        node: Node | None,
-        recorder: Recorder | None,
-        timeline: Timeline | None = None,
-    ) -> None:
-        """Show another simulation in place of the one before; arguments are those of the constructor."""
-        self._set_titles(simulation)
+    def show(self, world: ShownWorld, *, node: Node | None, recorder: Recorder | None) -> None:
+        """Show another world in place of the one before; arguments are those of the constructor."""
+        self._set_titles(world.simulation)
         self._server.set_node(node)
-        self._set_simulation(simulation, sensors, node, recorder, timeline)
+        self._set_world(world, node, recorder)
 
-    def _set_simulation(
-        self,
-        simulation: Simulation,
-        sensors: Sequence[CameraSensor | InstrumentSensor],
-        node: Node | None,
-        recorder: Recorder | None,
-        timeline: Timeline | None,
-    ) -> None:
-        self._simulation = simulation
-        self._controls = SimulationControls(simulation, recorder, timeline, wall_ns=self._wall_ns)
-        self._insertion = Insertion(simulation, self._contents, self._do, self._consent)
-        self._model_edits = ModelEdits(simulation, self._contents, self._do)
-        self._streams.show(simulation, sensors, recorder, timeline)
-        self._performance.show(simulation, node)
-
-    def _do(self, command: Callable[[Simulation], None]) -> None:
-        self._controls.do(command)
+    def _set_world(self, world: ShownWorld, node: Node | None, recorder: Recorder | None) -> None:
+        self._world = world
+        self._simulation = world.simulation
+        self._controls = SimulationControls(world, recorder, wall_ns=self._wall_ns)
+        self._insertion = Insertion(world, self._consent)
+        self._model_edits = ModelEdits(world)
+        self._streams.show(world, recorder)
+        self._performance.show(world.simulation, node)
 
     def _set_titles(self, simulation: Simulation) -> None:
         title, robot = page_names(simulation.world)
@@ -171,7 +141,7 @@ class SimulationPage:
         self._performance.begin_page()
         requests = self._page.requests(of_world=True)
         if self._server.uploads is not None:
-            self._contents.packages.add_models(self._server.uploads)
+            self._world.packages.add_models(self._server.uploads)
         for request in requests:
             if isinstance(request.action, RenderView):
                 self._draw(request.id, request.action)
@@ -225,7 +195,7 @@ class SimulationPage:
 
     def _show_draft(self) -> None:
         """Show the draft's edits since the last call."""
-        for draft in self._drafting.poll(self._simulation, self._model_edits):
+        for draft in self._drafting.poll(self._world, self._model_edits):
             self._streams.show_draft(draft)
 
     def _respond_picture(self, request_id: int, drawn: bytes | str) -> None:

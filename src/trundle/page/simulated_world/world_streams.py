@@ -1,7 +1,7 @@
 """Streams of a simulated world to its page: the world itself, poses, lines, joints, the clock and camera pictures."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from trundle.page import CONTACTS, JOINTS, LINES, POSES, RANGES, ClockState, PageServer, Recording, TimelineSpan
 from trundle.robots.model import World
 from trundle.sim.realtime_pacer import RealtimePacer
-from trundle.sim.sensors import CameraReading, CameraSensor, InstrumentSensor
-from trundle.sim.simulation import Simulation, Snapshot
-from trundle.sim.timeline import Timeline
+from trundle.sim.sensors import CameraReading, CameraSensor
+from trundle.sim.simulation import Snapshot
 
 from ..actor_bones import ActorBones
 from ..ray_overlay import RayOverlay
+from ..shown_world import ShownWorld
 from .body_numbers import BodyNumbers
 from .contact_rows import ContactRows
 from .controls import Recorder
@@ -77,33 +77,21 @@ class WorldStreams:
         self._state: ClockState | None = None
         self._missing: str | None = None
         self._shown_world: World | None = None
-        """World of the manifest; None: it is to be sent again."""
+        """World of the manifest."""
 
-    def show(
-        self,
-        simulation: Simulation,
-        sensors: Sequence[CameraSensor | InstrumentSensor],
-        recorder: Recorder | None,
-        timeline: Timeline | None,
-    ) -> None:
-        """Show a simulation; arguments are those of `SimulationPage`."""
-        self._simulation = simulation
-        self._sensors = sensors
+    def show(self, world: ShownWorld, recorder: Recorder | None) -> None:
+        """Show a world; arguments are those of `SimulationPage`."""
+        self._world = world
+        self._simulation = world.simulation
         self._recorder = recorder
-        self._timeline = timeline
         self._show_world()
-
-    def set_sensors(self, sensors: Sequence[CameraSensor | InstrumentSensor]) -> None:
-        """Set the sensors that measure after models came or went."""
-        self._sensors = sensors
-        self._shown_world = None
 
     def _show_world(self) -> None:
         """Show the world again after models came, went or changed; its files are made meanwhile."""
         simulation = self._simulation
         self._shown_world = simulation.world
-        there = {model.name for model in simulation.models}
-        sensors = [sensor for sensor in self._sensors if sensor.model.name in there]
+        present = {model.name for model in simulation.models}
+        sensors = [sensor for sensor in self._world.sensors if sensor.model.name in present]
         simulation.lines_are_shown = True
         self._bones = ActorBones(simulation.world)
         bodies = (*simulation.engine.compiled.link_names, *self._bones.names)
@@ -195,7 +183,7 @@ class WorldStreams:
         return np.stack([column[self._axes] for column in columns], axis=-1)
 
     def _put_state(self, time_ns: int, pacer: RealtimePacer, *, paused: bool) -> None:
-        recorder, timeline = self._recorder, self._timeline
+        recorder, timeline = self._recorder, self._world.timeline
         since_ns = None if recorder is None else recorder.since_ns
         state = ClockState(
             time_ns=time_ns,

@@ -57,9 +57,9 @@ class StepRecorder:
         self._is_abandoned = False
         loop.local.on_publisher.append(self._follow)
 
-    def receive(self, message: Message) -> None:
+    def receive(self, message: Message, *, from_outside: bool) -> None:
         """Never called, since `is_raw`."""
-        raise AssertionError(message)
+        raise AssertionError(message, from_outside)
 
     def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
         """Receive a serialized message; on the loop."""

@@ -36,6 +36,11 @@ class LocalPublisher(Protocol):
         ...
 
     @property
+    def is_outside(self) -> bool:
+        """True if its node is part of no simulation: what it sent does not come again when time is repeated."""
+        ...
+
+    @property
     def latch(self) -> bool:
         """True if new subscribers get the last message."""
         ...
@@ -57,8 +62,8 @@ class LocalSubscriber(Protocol):
     needs_every_message: bool
     """True if no message may be skipped; else the newest suffices."""
 
-    def receive(self, message: Message) -> None:
-        """Receive a message object."""
+    def receive(self, message: Message, *, from_outside: bool) -> None:
+        """Receive a message object; `from_outside` is `LocalPublisher.is_outside`."""
         ...
 
     def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:

@@ -153,6 +153,11 @@ class Publisher:
         """Name of the publishing node."""
         return self._node.name
 
+    @property
+    def is_outside(self) -> bool:
+        """See `LocalPublisher`: the callbacks of a simulation's nodes run on its thread."""
+        return self._node.deliver is None
+
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
         """Accept a subscriber's connection, or refuse it with the original's reason."""
         peer = header.get("callerid", "unknown")
@@ -317,7 +322,7 @@ class Publisher:
 
     def _deliver(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
         if not subscriber.is_raw and not isinstance(message, _BYTES):
-            subscriber.receive(message)
+            subscriber.receive(message, from_outside=self.is_outside)
             return
         framed = self._framed(message) if framed is None else framed
         if framed is not None:

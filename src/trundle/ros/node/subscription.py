@@ -61,7 +61,7 @@ class Subscription:
         self._deliver = None if on_loop else node.deliver
         self._is_called_at_once = self._deliver is None and not self._is_async
         self._queue: deque[tuple[Message, bool]] = deque()
-        """Messages, and if they came from outside this process."""
+        """Messages, and if they came from outside the simulation of this process."""
         self._queue_size = queue_size
         self._worker: asyncio.Task[None] | None = None
         self._tasks: dict[str, asyncio.Task[None]] = {}
@@ -109,8 +109,8 @@ class Subscription:
             self._worker.cancel()
         self._queue.clear()
 
-    def receive(self, message: Message, *, from_outside: bool = False) -> None:
-        """Receive a message of this process or from outside: call back, or queue it for the callback thread."""
+    def receive(self, message: Message, *, from_outside: bool) -> None:
+        """Receive a message: call back, or queue it for the callback thread."""
         self.received += 1
         if self._is_called_at_once:
             try:
@@ -145,7 +145,7 @@ class Subscription:
         try:
             header = {"type": publisher.type, "md5sum": publisher.md5sum, "callerid": publisher.caller}
             header |= {"message_definition": definition, "latching": str(int(publisher.latch))}
-            self.receive_data(data, header, from_outside=False)
+            self.receive_data(data, header, from_outside=publisher.is_outside)
         except MessageError as error:
             self._node.log.error(f"a message on {self.topic} is dropped: {error}")
 

@@ -23,13 +23,13 @@ def mount_sensors(
         model: only the sensors of this model.
         ray_scene: shared with existing sensors.
     """
-    if not any(map(_has_instruments, simulation.world.models)):
+    if not any(map(has_instruments, simulation.world.models)):
         return []
     from .mount_instruments import mount_instruments
 
     return mount_instruments(simulation, model=model, ray_scene=ray_scene)
 
 
-def _has_instruments(model: Model) -> bool:
+def has_instruments(model: Model) -> bool:
     on_links = (sensor.type in MEASURING for link in model.links for sensor in link.sensors)
     return any(on_links) or any(joint.sensors for joint in model.joints)

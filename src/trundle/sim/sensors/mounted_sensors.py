@@ -2,28 +2,33 @@
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from trundle.base.diagnostics import UsageError
-from trundle.sim.render import Renderer, Scene
 from trundle.sim.simulation import ModelHandle, Simulation
 
-from .cameras.camera import CameraSensor
-from .cameras.camera_handle import CameraHandle
 from .cameras.mount import mount_cameras
-from .instruments import mount_sensors
-from .sensor_handle import SensorHandle
+from .instruments import has_instruments, mount_sensors
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # a world without cameras or without lidars starts without theirs
+    from trundle.sim.render import Renderer, Scene
+
+    from .cameras.camera import CameraSensor
+    from .cameras.camera_handle import CameraHandle
     from .mount_instruments import InstrumentSensor
     from .range import RangeSensor
     from .ray_scene import RayScene
+    from .sensor_handle import SensorHandle
+
+    AnySensor: TypeAlias = CameraSensor | InstrumentSensor
+
+_Sensor = TypeVar("_Sensor", bound="AnySensor")
 
 
 class MountedSensors:
-    """Sensors of one simulation; those of spawned models are mounted on the next lookup."""
+    """Sensors of one simulation; `update` follows models that were spawned or deleted, as each lookup does."""
 
-    def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer]) -> None:
+    def __init__(self, simulation: Simulation, make: "Callable[[Scene], Renderer]") -> None:
         """Mount the existing sensors.
 
         Args:
@@ -32,36 +37,47 @@ class MountedSensors:
         """
         self._simulation = simulation
         self._make = make
-        self._mounted: list[tuple[ModelHandle, CameraSensor | InstrumentSensor]] = []
+        self._cameras: list[tuple[ModelHandle, CameraSensor]] = []
+        self._instruments: list[tuple[ModelHandle, InstrumentSensor]] = []
         self._known: list[ModelHandle] = []
-        self._started: list[CameraSensor | InstrumentSensor] = []
-        self._handles: list[tuple[CameraSensor | InstrumentSensor, SensorHandle]] = []
-        self._update()
+        self._started: dict[int, AnySensor] = {}
+        """By identity."""
+        self._handles: list[tuple[AnySensor, SensorHandle]] = []
+        self.update()
 
     def start(self) -> None:
         """Start all sensors; each measures at its rate while it has a listener."""
-        for _, sensor in self._mounted:
+        for sensor in (*self.cameras, *self.instruments):
             self._start(sensor)
 
     @property
     def cameras(self) -> "list[CameraSensor]":
         """Cameras in file order."""
-        return [sensor for _, sensor in self._mounted if isinstance(sensor, CameraSensor)]
+        return [camera for _, camera in self._cameras]
 
     @property
     def instruments(self) -> "list[InstrumentSensor]":
         """Sensors other than cameras, in file order."""
-        return [sensor for _, sensor in self._mounted if not isinstance(sensor, CameraSensor)]
+        return [instrument for _, instrument in self._instruments]
 
-    def camera(self, name: str) -> CameraHandle:
-        """Return a camera by name; see `Simulation.camera`."""
-        full, sensor = _find(name, self._named(CameraSensor), "camera")
-        assert isinstance(sensor, CameraSensor)
-        return CameraHandle(self._simulation, sensor, full)
+    def of_model(self, model: ModelHandle) -> "tuple[list[CameraSensor], list[InstrumentSensor]]":
+        """Return the cameras and the other sensors of a model."""
+        cameras = [camera for owner, camera in self._cameras if owner is model]
+        return cameras, [instrument for owner, instrument in self._instruments if owner is model]
 
-    def sensor(self, name: str) -> SensorHandle:
-        """Return a sensor by name; see `Simulation.sensor`."""
-        full, sensor = _find(name, self._named(object), "sensor")
+    def camera(self, name: str) -> "CameraHandle":
+        """Return a camera by name; see `LoadedSimulation.camera`."""
+        from .cameras.camera_handle import CameraHandle
+
+        self.update()
+        full, camera = _find(name, _by_name(self._cameras), "camera")
+        return CameraHandle(self._simulation, camera, full)
+
+    def sensor(self, name: str) -> "SensorHandle":
+        """Return a sensor by name; see `LoadedSimulation.sensor`."""
+        from .sensor_handle import SensorHandle
+
+        full, sensor = _find(name, self._all(), "sensor")
         for each, handle in self._handles:
             if each is sensor:
                 return handle
@@ -75,38 +91,52 @@ class MountedSensors:
         """Return a lidar or ray sensor by name; see `LoadedSimulation.range_sensor`."""
         from .range import RangeSensor
 
-        _, sensor = _find(name, self._named(RangeSensor), "lidar")
-        assert isinstance(sensor, RangeSensor)
-        return sensor
+        self.update()
+        lidars = [(model, each) for model, each in self._instruments if isinstance(each, RangeSensor)]
+        return _find(name, _by_name(lidars), "lidar")[1]
 
     def names(self) -> tuple[str, ...]:
         """Return `model::link::sensor` of each sensor, in file order."""
-        return tuple(self._named(object))
+        return tuple(self._all())
 
     def camera_names(self) -> tuple[str, ...]:
         """Return the names of the cameras."""
-        return tuple(self._named(CameraSensor))
+        self.update()
+        return tuple(_by_name(self._cameras))
 
-    def _start(self, sensor: "CameraSensor | InstrumentSensor") -> None:
-        if not any(each is sensor for each in self._started):
-            self._started.append(sensor)
+    def update(self) -> None:
+        """Mount the sensors of spawned models; stop and drop those of deleted ones."""
+        known = set(map(id, self._known))
+        spawned = [model for model in self._simulation.models if id(model) not in known]
+        if len(spawned) > 1 and not known:
+            self._mount({model.name: model for model in spawned}, None)
+        else:
+            for model in spawned:
+                self._mount({model.name: model}, model.name)
+        self._known = list(self._simulation.models)
+        self._cameras = self._remaining(self._cameras)
+        self._instruments = self._remaining(self._instruments)
+
+    def _remaining(self, mounted: "list[tuple[ModelHandle, _Sensor]]") -> "list[tuple[ModelHandle, _Sensor]]":
+        """Stop the sensors of deleted models; return the others."""
+        known = set(map(id, self._known))
+        for model, sensor in mounted:
+            if id(model) not in known and (started := self._started.pop(id(sensor), None)) is not None:
+                started.stop(self._simulation)
+        return [each for each in mounted if id(each[0]) in known]
+
+    def _start(self, sensor: "AnySensor") -> None:
+        if id(sensor) not in self._started:
+            self._started[id(sensor)] = sensor
             sensor.start(self._simulation)
 
-    def _update(self) -> None:
-        """Mount the sensors of spawned models, and drop those of deleted ones."""
-        models = self._simulation.models
-        for model in models:
-            if not any(model is known for known in self._known):
-                self._mount(model)
-        self._known = list(models)
-        self._mounted = [each for each in self._mounted if any(each[0] is model for model in models)]
-
-    def _mount(self, model: ModelHandle) -> None:
-        cameras = mount_cameras(self._simulation, self._make, model=model.name, beside=self.cameras)
-        self._mounted += [(model, camera) for camera in cameras]
-        if model.model.links:
-            instruments = mount_sensors(self._simulation, model=model.name, ray_scene=self._ray_scene)
-            self._mounted += [(model, instrument) for instrument in instruments]
+    def _mount(self, models: Mapping[str, ModelHandle], name: str | None) -> None:
+        """Mount the sensors of models by name: of the one with this name, or of all."""
+        cameras = mount_cameras(self._simulation, self._make, model=name, beside=self.cameras)
+        self._cameras += [(models[camera.model.name], camera) for camera in cameras]
+        if any(has_instruments(model.model) for model in models.values()):
+            instruments = mount_sensors(self._simulation, model=name, ray_scene=self._ray_scene)
+            self._instruments += [(models[each.model.name], each) for each in instruments]
 
     @cached_property
     def _ray_scene(self) -> "RayScene":
@@ -114,18 +144,22 @@ class MountedSensors:
 
         return RayScene(self._simulation)
 
-    def _named(self, kind: type) -> "dict[str, CameraSensor | InstrumentSensor]":
-        self._update()
+    def _all(self) -> "dict[str, AnySensor]":
+        """Return all sensors by name, model by model."""
+        self.update()
         return {
-            f"{model.name}::{sensor.parent_name}::{sensor.name}": sensor
-            for model, sensor in self._mounted
-            if isinstance(sensor, kind)
+            name: sensor
+            for model in self._known
+            for mounted in (self._cameras, self._instruments)
+            for name, sensor in _by_name([each for each in mounted if each[0] is model]).items()
         }
 
 
-def _find(
-    name: str, named: "Mapping[str, CameraSensor | InstrumentSensor]", kind: str
-) -> "tuple[str, CameraSensor | InstrumentSensor]":
+def _by_name(mounted: "list[tuple[ModelHandle, _Sensor]]") -> "dict[str, _Sensor]":
+    return {f"{model.name}::{sensor.parent_name}::{sensor.name}": sensor for model, sensor in mounted}
+
+
+def _find(name: str, named: "Mapping[str, _Sensor]", kind: str) -> "tuple[str, _Sensor]":
     """Return the sensor whose scoped name is `name` or ends in it, as Gazebo's SensorManager::GetSensor does.
 
     Raises:

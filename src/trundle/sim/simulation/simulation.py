@@ -182,6 +182,11 @@ class Simulation:
         self._stride(until_ns - self.time_ns)
         self._drain()
 
+    def set_step(self, step: int) -> None:
+        """Set the step of the engine's state, which was computed elsewhere, as on a GPU."""
+        self.steps = step
+        self.loads.expire(step)
+
     def _stride(self, most_ns: int) -> int:
         """Simulate at most a duration [ns]; return the simulated part."""
         profiler = self.profiler
@@ -457,9 +462,10 @@ class Simulation:
         Args:
             call: returns what repeats it; None: it comes again by itself if the simulation is repeated.
         """
-        self.post(lambda sim: sim._call_input(call))
+        self.post(lambda sim: sim.receive_input(call))
 
-    def _call_input(self, call: Callable[[], Repeat | None]) -> None:
+    def receive_input(self, call: Callable[[], Repeat | None]) -> None:
+        """Call a callback of `post_input` now, between two steps."""
         repeat = call()
         if repeat is not None and self.record_input is not None:
             self.record_input(repeat)

@@ -114,28 +114,29 @@ class Timeline:
         self._commands.append(_Recorded(self._simulation.time_ns, command))
         self._next = len(self._commands)
 
-    def advance(self, until_ns: int) -> None:
+    def advance(self, until_ns: int, simulate: Callable[[int], None] | None = None) -> None:
         """Simulate up to a time [ns], with the commands that came between.
+
+        Args:
+            until_ns: time [ns].
+            simulate: simulates up to a time; None: `Simulation.advance`.
 
         Raises:
             SimulationUnstableError: the physics became unstable; the world has its last good state.
         """
         simulation = self._simulation
+        simulate = simulate or simulation.advance
         while self._next < len(self._commands) and (at_ns := self._commands[self._next].time_ns) <= until_ns:
             if at_ns > simulation.time_ns:
-                simulation.advance(at_ns)
+                simulate(at_ns)
             self._commands[self._next].command(simulation)
             self._next += 1
         if until_ns > simulation.time_ns:
-            simulation.advance(until_ns)
+            simulate(until_ns)
         self._save_if_due()
 
-    def seek(self, time_ns: int, advance: Callable[[int], None] | None = None) -> None:
-        """Go to a moment.
-
-        Args:
-            time_ns: from `start_ns` to `end_ns`.
-            advance: simulates up to a time; None: `Timeline.advance` alone.
+    def seek(self, time_ns: int) -> None:
+        """Go to a moment, from `start_ns` to `end_ns`.
 
         Raises:
             UsageError: the moment is not part of the timeline.
@@ -153,7 +154,7 @@ class Timeline:
             self._next = keyframe.commands - self._dropped
         self._is_seeking = True
         try:
-            (advance or self.advance)(time_ns)
+            self.advance(time_ns)
         finally:
             self._is_seeking = False
 

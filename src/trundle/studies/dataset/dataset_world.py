@@ -24,7 +24,7 @@ def picture_maker(plan: DatasetPlan) -> PictureMaker:
     """
     packages = Packages(dict(os.environ), start=Path.cwd())
     with _errors_at(plan.world_at):
-        world = load_world(plan.world, packages, Diagnostics(), seed=plan.seed).world
+        world = load_world(plan.world, packages, Diagnostics(), seed=plan.seed).flat
     names = {model.name for model in world.models}
     instances: list[Instance] = []
     added: list[Model] = []

@@ -28,10 +28,11 @@ def end_picture(plan: Plan, runner: TrialRunner, row: Row) -> str | None:
     The view holds its start, too.
     """
     try:
-        with runner.simulation(row) as simulation:
+        with runner.start(row) as run:
+            simulation = run.simulation
             start = simulation.snapshot().poses
             with suppress(TrundleError):  # unstable: the last good state
-                simulation.advance(round(plan.duration_s * NS_PER_S))
+                run.advance(round(plan.duration_s * NS_PER_S))
             scene = scene_from_world(simulation.world, Diagnostics())
             scene = replace(scene, ambient=STUDIO_LIGHT, background=BACKDROP)
             if not scene.shapes:

@@ -9,8 +9,6 @@ from trundle.page.shared_page import SharedPage
 from trundle.page.simulated_world.page import SimulationPage
 from trundle.sim.physics import SimulationUnstableError
 from trundle.sim.realtime_pacer import RealtimePacer, shorten_gil_interval
-from trundle.sim.renderers import RENDERERS
-from trundle.sim.sensors import mount_cameras, mount_sensors
 from trundle.spatial import NS_PER_S
 from trundle.studies.trials import Plan, Row, RowResult
 
@@ -40,20 +38,19 @@ def show_world(plan: Plan, row: Row, runner: TrialRunner, at: PageAddress, resul
 
     shared = SharedPage(say=lambda text: say(text, sys.stderr), at=at)
     end_ns, is_reported = round(plan.duration_s * NS_PER_S), False
-    with runner.simulation(row) as simulation, stop_flag() as stop:
-        simulation.on_reset(simulation.script.restart)
-        sensors = (*mount_cameras(simulation, RENDERERS["cpu"]), *mount_sensors(simulation))
-        for sensor in sensors:
-            sensor.start(simulation)
-        with SimulationPage(shared, simulation, sensors) as page:
+    with runner.start(row) as run, stop_flag() as stop:
+        simulation = run.simulation
+        simulation.on_reset(run.script.restart)
+        simulation.live.start_sensors()
+        with SimulationPage(shared, simulation.live) as page:
             pacer, paused, is_seen = RealtimePacer(1.0), False, False
             shorten_gil_interval()
             while not stop.is_set():
                 is_seen = is_seen or page.is_seen
-                is_over = simulation.script.is_over or simulation.time_ns >= end_ns
+                is_over = run.script.is_over or simulation.time_ns >= end_ns
                 if is_over and not is_reported:
                     is_reported = True
-                    report_shown(runner.result(row, simulation), result, warn)
+                    report_shown(runner.result(row, run), result, warn)
                 paused = page.handle_requests(pacer, paused=paused or is_over)
                 page.update(pacer, paused=paused or is_over)
                 if paused or is_over or not is_seen:
@@ -61,7 +58,7 @@ def show_world(plan: Plan, row: Row, runner: TrialRunner, at: PageAddress, resul
                     pacer.restart()
                     continue
                 try:
-                    simulation.advance(min(pacer.next_target(simulation.time_ns), end_ns))
+                    run.advance(min(pacer.next_target(simulation.time_ns), end_ns))
                 except SimulationUnstableError as error:
                     warn(str(error))
                     paused = True

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Self
 
 from msgspec import Struct
 
@@ -38,30 +39,41 @@ class Trial(Struct, frozen=True):
     bag: bytes | None = None
 
 
-class TrialSimulation(LoadedSimulation):
+class RowRun:
     """Simulation of one row, in which its events happen."""
 
-    script: RunScript
-    recorder: StepRecorder | None = None
-
-    def record(self, loop: GraphLoop, file: Path | None, *, from_ns: int, without_types: frozenset[str]) -> None:
-        """Record the nodes of a loop from a time on [ns], without some types; None: do not."""
-        if file is not None:
-            self.recorder = StepRecorder(loop, file, complain=_leave_out, from_ns=from_ns, without_types=without_types)
+    def __init__(self, simulation: LoadedSimulation, script: RunScript, recorder: StepRecorder | None) -> None:
+        """Take a simulation at time zero; the recorder of its topics is closed with it."""
+        self.simulation = simulation
+        self.script = script
+        self._recorder = recorder
 
     def advance(self, until_ns: int) -> None:
-        """See `Simulation.advance`; the simulation ends where a stop condition is true."""
-        while self.time_ns < until_ns and not self.script.is_over:
+        """See `Simulation.advance`; the run ends where a stop condition is true."""
+        simulation = self.simulation
+        while simulation.time_ns < until_ns and not self.script.is_over:
             due_ns = self.script.next_ns
-            if due_ns is not None and due_ns <= self.time_ns:
+            if due_ns is not None and due_ns <= simulation.time_ns:
                 self.script.act()
                 continue
             next_ns = until_ns if due_ns is None else min(due_ns, until_ns)
-            if self.recorder is None:
-                super().advance(next_ns)
+            if self._recorder is None:
+                simulation.advance(next_ns)
             else:
-                super().advance(min(next_ns, self.time_ns + _RECORD_NS))
-                self.recorder.write(self.time_ns)
+                simulation.advance(min(next_ns, simulation.time_ns + _RECORD_NS))
+                self._recorder.write(simulation.time_ns)
+
+    def close(self) -> None:
+        """Complete the bag, and leave the ROS graph."""
+        if self._recorder is not None:
+            self._recorder.close()
+        self.simulation.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
 
 class TrialRunner:
@@ -79,20 +91,21 @@ class TrialRunner:
         """Run a row to its end; what goes wrong is in its result."""
         time_s: float | None = None
         try:
-            with self.simulation(row) as simulation:
+            with self.start(row) as run:
                 try:
-                    simulation.advance(round(self._plan.duration_s * NS_PER_S))
+                    run.advance(round(self._plan.duration_s * NS_PER_S))
                 finally:
-                    time_s = simulation.time_ns / NS_PER_S
-                return self.result(row, simulation)
+                    time_s = run.simulation.time_ns / NS_PER_S
+                return self.result(row, run)
         except TrundleError as error:
             return RowResult(row.number, "error", str(error), time_s)
 
-    def result(self, row: Row, simulation: "TrialSimulation") -> RowResult:
+    def result(self, row: Row, run: RowRun) -> RowResult:
         """Return the result of a run that has come to its end."""
+        simulation = run.simulation
         time_s = simulation.time_ns / NS_PER_S
         try:
-            measures = simulation.script.measures() | self._judge.call_functions(simulation)
+            measures = run.script.measures() | self._judge.call_functions(simulation)
             return self._judge.judged(row, time_s, measures, "; ".join(simulation.report.warnings))
         except TrundleError as error:
             return RowResult(row.number, "error", str(error), time_s)
@@ -106,12 +119,8 @@ class TrialRunner:
         with TemporaryDirectory() as folder:
             file = Path(folder) / "last.bag"
             try:
-                with self.simulation(row, record=file, from_ns=from_ns) as simulation:
-                    try:
-                        simulation.advance(round(result.time * NS_PER_S))
-                    finally:
-                        assert simulation.recorder is not None
-                        simulation.recorder.close()
+                with self.start(row, record=file, from_ns=from_ns) as run:
+                    run.advance(round(result.time * NS_PER_S))
             except TrundleError:
                 pass  # as in the run itself
             return file.read_bytes() if file.exists() else None
@@ -126,13 +135,13 @@ class TrialRunner:
         for name in assigned.parameters:
             path = f"{PARAMETERS}{name}"
             raise DescriptionError(assigned.sources[path], f"{path}: a world has no ROS parameters; a `launch:` has")
-        with self.simulation(row) as simulation:
-            simulation.script.check()
-            self._judge.check(row, simulation.script.measures())
+        with self.start(row) as run:
+            run.script.check()
+            self._judge.check(row, run.script.measures())
         return []
 
-    def simulation(self, row: Row, *, record: Path | None = None, from_ns: int = 0) -> "TrialSimulation":
-        """Return the simulation of a row at time zero, with its events.
+    def start(self, row: Row, *, record: Path | None = None, from_ns: int = 0) -> RowRun:
+        """Return the run of a row at time zero, with its events.
 
         Args:
             row: its values.
@@ -143,26 +152,29 @@ class TrialRunner:
             TrundleError: its world cannot be read or simulated.
         """
         report = Diagnostics()
-        stage = self.stage(row)
-        compiled = self._compiler.compile(stage.world, report)
-        simulation = TrialSimulation(stage, report, seed=row.seed, compiled=compiled)
+        loaded = self.load(row)
+        compiled = self._compiler.compile(loaded.flat, report)
+        environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
+        simulation = LoadedSimulation(loaded, report, environment, seed=row.seed, compiled=compiled)
+        recorders: list[StepRecorder] = []
+
+        def start_bag(loop: GraphLoop) -> None:
+            if record is not None:
+                kept_out = self._plan.bag_without
+                recorder = StepRecorder(loop, record, complain=_leave_out, from_ns=from_ns, without_types=kept_out)
+                recorders.append(recorder)
+
         try:
-            environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
             if self._topics or record is not None:
-                simulation.open_graph(
-                    environment,
-                    on_open=lambda loop: simulation.record(
-                        loop, record, from_ns=from_ns, without_types=self._plan.bag_without
-                    ),
-                )
+                simulation.open_graph(on_open=start_bag)
             reader = TopicReader(simulation.make_node("/sweep"), self._topics) if self._topics else None
-            simulation.script = RunScript(self._plan, row, simulation, self._expressions, reader)
+            script = RunScript(self._plan, row, simulation, self._expressions, reader)
             if self._plan.plugins:
-                simulation.load_plugins(environment)
+                simulation.load_plugins()
         except BaseException:
             simulation.close()
             raise
-        return simulation
+        return RowRun(simulation, script, next(iter(recorders), None))
 
     def inputs(self, row: Row) -> RunInputs:
         """Return what a row depends on.
@@ -170,9 +182,9 @@ class TrialRunner:
         Raises:
             TrundleError: its world cannot be read.
         """
-        return RunInputs(worlds=(self._assigned_base(assignments_of(self._plan, row, self._expressions)).written,))
+        return RunInputs(worlds=(self._assigned_base(assignments_of(self._plan, row, self._expressions)).nested,))
 
-    def stage(self, row: Row) -> LoadedWorld:
+    def load(self, row: Row) -> LoadedWorld:
         """Return the world of a row.
 
         Raises:
@@ -180,10 +192,10 @@ class TrialRunner:
         """
         assigned = assignments_of(self._plan, row, self._expressions)
         base = self._assigned_base(assigned)
-        world = base.world
+        world = base.flat
         for each in assigned.properties:
             world = each.assigned(world)
-        return replace(base, world=world)
+        return replace(base, flat=world)
 
     def _assigned_base(self, assigned: Assignments) -> LoadedWorld:
         with assigned.unknown_arguments_at_plan():

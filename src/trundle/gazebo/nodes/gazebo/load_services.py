@@ -53,7 +53,7 @@ class _LoadServices:
             x, y, z = link.pose.position
             arm = (arm[0] - x, arm[1] - y, arm[2] - z)
         wrench = Wrench(force=force, torque=torque) + Wrench(torque=cross(arm, force))
-        self._wrenches.add(link, wrench, **_times(request))
+        self._simulator.do(lambda _: self._wrenches.add(link, wrench, **_times(request)))
         return {}
 
     def apply_joint_effort(self, request: "gazebo_msgs.ApplyJointEffortRequest") -> dict[str, Any]:
@@ -62,13 +62,14 @@ class _LoadServices:
         expect_finite(request.effort)
         if not joint.axes:
             raise UsageError(f"joint {joint.name!r} cannot move")
-        self._efforts.add(joint, float(request.effort), **_times(request))
+        self._simulator.do(lambda _: self._efforts.add(joint, float(request.effort), **_times(request)))
         return {}
 
     def clear_body_wrenches(self, request: "gazebo_msgs.BodyRequestRequest") -> dict[str, Any]:
         """Remove the wrenches of a link; like gazebo_ros, report success for unknown links."""
         try:
-            self._wrenches.clear(find_link(self._simulator.simulation, request.body_name))
+            link = find_link(self._simulator.simulation, request.body_name)
+            self._simulator.do(lambda _: self._wrenches.clear(link))
         except UsageError as error:
             self._node.log.warn(str(error))
         return {}
@@ -76,7 +77,8 @@ class _LoadServices:
     def clear_joint_forces(self, request: "gazebo_msgs.JointRequestRequest") -> dict[str, Any]:
         """Remove the efforts of a joint."""
         try:
-            self._efforts.clear(find_joint(self._simulator.simulation, request.joint_name))
+            joint = find_joint(self._simulator.simulation, request.joint_name)
+            self._simulator.do(lambda _: self._efforts.clear(joint))
         except UsageError as error:
             self._node.log.warn(str(error))
         return {}

@@ -18,6 +18,7 @@ from .ode import IGNORED, OdeSettings
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import gazebo_msgs, std_msgs
+    from trundle.sim.simulation import Simulation
 
 _NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
 """Settings of ODE joints without counterparts in MuJoCo."""
@@ -62,7 +63,7 @@ def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_h
     world = simulator.simulation.world
     before = world.physics
     physics = replace(before, max_step_size_s=step_s, gravity=gravity, real_time_update_rate_hz=rate_hz)
-    simulator.edit(replace(world, physics=physics))
+    simulator.do(lambda simulation: simulation.edit(replace(world, physics=physics)))
     speed = rate_hz * step_s
     if speed != before.real_time_update_rate_hz * before.max_step_size_s:
         simulator.set_speed(speed or None)
@@ -118,8 +119,14 @@ class _PropertySetters:
         changed = replace(joint, axis=_axis(joint, 0, asked), axis2=_axis(joint, 1, asked))
         if changed != joint:
             self._put(replace(model, joints=_with(model.joints, changed)))
-        for axis, (effort, speed) in enumerate(zip(asked.fmax, asked.vel, strict=False)):
-            handle.command_velocity(float(speed), max_effort=float(effort), axis=axis)
+        motors = [(float(effort), float(speed)) for effort, speed in zip(asked.fmax, asked.vel, strict=False)]
+
+        def drive(_: "Simulation") -> None:
+            for axis, (effort, speed) in enumerate(motors):
+                handle.command_velocity(speed, max_effort=effort, axis=axis)
+
+        if motors:
+            self._simulator.do(drive)
         ignored = [name for name in _NO_COUNTERPART if len(getattr(asked, name))]
         note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
         return {"status_message": note} if ignored else {}
@@ -153,13 +160,12 @@ class _PropertySetters:
     def _light(self, light: Light, now: list[Light]) -> None:
         world = self._simulator.simulation.world
         lights = tuple(new for old in world.lights for new in (now if old is light else [old]))
-        self._simulator.edit(replace(world, lights=lights))
+        self._simulator.do(lambda simulation: simulation.edit(replace(world, lights=lights)))
 
     def _put(self, model: Model) -> None:
         world = self._simulator.simulation.world
-        self._simulator.edit(
-            replace(world, models=tuple(model if there.name == model.name else there for there in world.models))
-        )
+        models = tuple(model if there.name == model.name else there for there in world.models)
+        self._simulator.do(lambda simulation: simulation.edit(replace(world, models=models)))
 
 
 def _with(parts: "Sequence[Link] | Sequence[Joint]", part: "Link | Joint") -> Any:

@@ -76,9 +76,13 @@ class _StateServices:
         model = find_model(simulation, state.model_name)
         frame = world_from_entity(simulation, state.reference_frame)
         pose, twist = frame @ read_pose(state.pose), _turned(frame, read_twist(state.twist))
-        model.set_pose(pose)
-        if not model.model.static:
-            model.set_link_twists(twist)
+
+        def place(_: Simulation) -> None:
+            model.set_pose(pose)
+            if not model.model.static:
+                model.set_link_twists(twist)
+
+        self._simulator.do(place)
         return {}
 
     def on_link_state(self, state: "gazebo_msgs.LinkState") -> dict[str, Any]:
@@ -86,8 +90,12 @@ class _StateServices:
         link = find_link(simulation, state.link_name)
         frame = world_from_entity(simulation, state.reference_frame)
         pose, twist = frame @ read_pose(state.pose), _turned(frame, read_twist(state.twist))
-        link.set_pose(pose)
-        link.set_twist(twist)
+
+        def place(_: Simulation) -> None:
+            link.set_pose(pose)
+            link.set_twist(twist)
+
+        self._simulator.do(place)
         return {}
 
     def set_model_configuration(self, request: "gazebo_msgs.SetModelConfigurationRequest") -> dict[str, Any]:
@@ -100,9 +108,13 @@ class _StateServices:
             for name, p in zip(request.joint_names, request.joint_positions, strict=True)
         }
         known = {joint.name for joint in model.joints}
-        for name in joints.keys() & known:
-            model.joint(name).set_position(joints[name])
-            model.joint(name).set_velocity(0.0)
+
+        def place(_: Simulation) -> None:
+            for name in joints.keys() & known:
+                model.joint(name).set_position(joints[name])
+                model.joint(name).set_velocity(0.0)
+
+        self._simulator.do(place)
         absent = ", ".join(repr(name) for name in joints if name not in known)
         note = f"{_CONFIGURED}; model {request.model_name!r} has no joint {absent}"  # which Gazebo ignores
         return {"status_message": note} if absent else {}

@@ -58,7 +58,7 @@ class _Batches:
     def __init__(self, plan: Plan, gpu: str) -> None:
         self._rows, self._runner, self._gpu = Rows(plan), TrialRunner(plan), gpu
         self._until_ns = round(plan.duration_s * NS_PER_S)
-        self._first = self._runner.simulation(self._rows.row(0))
+        self._first = self._runner.start(self._rows.row(0)).simulation
 
     def run(self, numbers: list[int], is_ending: Callable[[], bool]) -> Iterator[RowResult | None]:
         """Yield the results of rows as they end, and None in between."""
@@ -75,13 +75,13 @@ class _Batches:
     def _start(self, number: int) -> DeviceRow | RowResult:
         row = self._rows.row(number)
         try:
-            simulation = self._runner.simulation(row)
+            run = self._runner.start(row)
         except TrundleError as error:
             return RowResult(number, "error", str(error))
-        why = why_not_beside(self._first, simulation)
+        why = why_not_beside(self._first, run.simulation)
         if why:
             return RowResult(number, "error", f"a GPU cannot step this run beside the first, because {why}")
-        return DeviceRow(row, simulation, self._runner, until_ns=self._until_ns)
+        return DeviceRow(row, run, self._runner, until_ns=self._until_ns)
 
     def _step(self, runs: list[DeviceRow], is_ending: Callable[[], bool]) -> Iterator[RowResult | None]:
         worlds, step = GpuWorlds([run.simulation.engine for run in runs], self._gpu), 0

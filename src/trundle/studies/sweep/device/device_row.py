@@ -5,7 +5,7 @@ from trundle.sim.physics import StepOutcome
 from trundle.spatial import NS_PER_S
 from trundle.studies.trials import Row, RowResult
 
-from ..trial import TrialRunner, TrialSimulation
+from ..trial import RowRun, TrialRunner
 
 _WHY = {
     StepOutcome.UNSTABLE: "the physics became unstable {}; a smaller <max_step_size> or more plausible masses and "
@@ -15,32 +15,32 @@ _WHY = {
 
 
 class DeviceRow:
-    """Run that acts between the steps, as `TrialSimulation.advance` does."""
+    """Run that acts between the steps, as `RowRun.advance` does."""
 
-    def __init__(self, row: Row, simulation: TrialSimulation, runner: TrialRunner, *, until_ns: int) -> None:
-        """Take a simulation at time zero.
+    def __init__(self, row: Row, run: RowRun, runner: TrialRunner, *, until_ns: int) -> None:
+        """Take a run at time zero.
 
         Args:
             row: its values.
-            simulation: with its events.
+            run: with its events.
             runner: judges it at its end.
             until_ns: time of its end [ns].
         """
-        self.simulation = simulation
+        self.simulation = run.simulation
         self.result: RowResult | None = None
         """None: it goes on."""
-        self._row, self._runner, self._until_ns = row, runner, until_ns
+        self._row, self._run, self._runner, self._until_ns = row, run, runner, until_ns
 
     @property
     def next_step(self) -> int:
         """Step at which something is due, a load ends, or the run does."""
-        due_ns = self.simulation.script.next_ns
+        due_ns = self._run.script.next_ns
         stop_ns = self._until_ns if due_ns is None else min(due_ns, self._until_ns)
         return min([-(-stop_ns // self.simulation.step_ns), *self.simulation.loads.expiry_steps()])
 
     def act(self) -> None:
         """Perform what is due now, and at the end measure."""
-        simulation, script = self.simulation, self.simulation.script
+        simulation, script = self.simulation, self._run.script
         try:
             while simulation.time_ns < self._until_ns and not script.is_over:
                 if script.next_ns is None or script.next_ns > simulation.time_ns:
@@ -49,13 +49,12 @@ class DeviceRow:
         except TrundleError as error:
             self._fail(str(error))
             return
-        self.result = self._runner.result(self._row, simulation)
+        self.result = self._runner.result(self._row, self._run)
 
     def arrive(self, step: int, outcome: StepOutcome) -> None:
         """Go on from a step up to which the physics was computed; a run that is not stable ends."""
         if outcome is StepOutcome.STABLE:
-            self.simulation.steps = step
-            self.simulation.loads.expire(step)
+            self.simulation.set_step(step)
             return
         start_s, end_s = self.simulation.time_ns / NS_PER_S, step * self.simulation.step_ns / NS_PER_S
         self._fail(_WHY[outcome].format(f"between {start_s:g} and {end_s:g} s"))

@@ -7,9 +7,10 @@ from msgspec.structs import replace
 from trundle.base.diagnostics import DescriptionError, Source, TrundleError
 from trundle.base.expressions import free_names
 from trundle.sim.physics import gpu_differences, gpu_limits
+from trundle.sim.simulation import Simulation
 from trundle.studies.trials import Plan, Row, Value, Variation, is_property, quantile
 
-from ..trial import TrialRunner, TrialSimulation
+from ..trial import TrialRunner
 
 _MOST = 32
 """Most values of a list that are tried."""
@@ -24,7 +25,8 @@ def check_worlds(plan: Plan, first: Row, runner: TrialRunner) -> None:
     Raises:
         DescriptionError: which; with its line.
     """
-    with runner.simulation(first) as simulation:
+    with runner.start(first) as run:
+        simulation = run.simulation
         if simulation.actors:
             what = f"a sweep on a GPU has no actors, as {next(iter(simulation.actors))!r}"
             raise DescriptionError(plan.world_at, f"{what}; leave out the device")
@@ -38,7 +40,7 @@ def check_worlds(plan: Plan, first: Row, runner: TrialRunner) -> None:
                 _check_beside(plan, simulation, other, variation, runner)
 
 
-def why_not_beside(first: TrialSimulation, other: TrialSimulation) -> str:
+def why_not_beside(first: Simulation, other: Simulation) -> str:
     """Return why a GPU cannot step two worlds side by side; empty: it can."""
     found = gpu_differences(first.engine.compiled, other.engine.compiled)
     more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
@@ -51,10 +53,10 @@ def _values(variation: Variation) -> Iterator[Value]:
     yield from variation.values[1 : 1 + _MOST]
 
 
-def _check_beside(plan: Plan, first: TrialSimulation, row: Row, variation: Variation, runner: TrialRunner) -> None:
+def _check_beside(plan: Plan, first: Simulation, row: Row, variation: Variation, runner: TrialRunner) -> None:
     try:
-        with runner.simulation(row) as other:
-            why = why_not_beside(first, other)
+        with runner.start(row) as other:
+            why = why_not_beside(first, other.simulation)
     except TrundleError:
         return  # the row says so
     if why:

@@ -1,0 +1,236 @@
+"""World in motion whose models come and go with their sensors, plugins, topics and nodes."""
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
+from trundle.page.shown_world import has_sensors_or_plugins
+from trundle.robots.packages import Packages
+from trundle.sim.simulation import ModelHandle, Simulation
+
+if TYPE_CHECKING:  # a world without a graph, a timeline or plugins starts without their modules
+    from trundle.gazebo.plugins import Plugin
+    from trundle.robots.model import Model
+    from trundle.robots.robot import Robot
+    from trundle.sim.renderers import RendererName
+    from trundle.sim.sensors import CameraSensor, InstrumentSensor, MountedSensors
+    from trundle.sim.timeline import Timeline
+
+    from .model_interfaces import ModelInterfaces
+
+
+class LiveWorld:
+    """One simulation, and what measures and moves its models.
+
+    Sensors, plugins, topics and nodes come and go with their model, whether a person at the page, a service, a plugin
+    or a program spawns and deletes it. A live world belongs to the simulation's thread.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        *,
+        packages: Packages,
+        environment: Mapping[str, str],
+        say: Callable[[str], None],
+        renderer: "RendererName" = "cpu",
+        has_sensors: bool = True,
+    ) -> None:
+        """Follow the models; the other parts begin with `start_sensors`, `load_plugins` and `keep_timeline`.
+
+        Args:
+            simulation: the running one.
+            packages: finder of models.
+            environment: variables that locate plugins.
+            say: prints which plugins are loaded.
+            renderer: draws the cameras' images.
+            has_sensors: False: nothing measures.
+        """
+        self.simulation = simulation
+        self.packages = packages
+        self.environment = environment
+        self.timeline: Timeline | None = None
+        """Last minutes of the simulation; None: it cannot go back."""
+        self.on_parts: Callable[[], None] = lambda: None
+        """Called after sensors or plugins came or went with a model."""
+        self._say = say
+        self._renderer: RendererName = renderer
+        self._has_sensors = has_sensors
+        self._interfaces: ModelInterfaces | None = None
+        self._arriving: Robot | None = None
+        """URDF of the model that is being spawned."""
+        self._robots: dict[ModelHandle, Robot] = {}
+        self._plugins: dict[ModelHandle, list[Plugin]] = {}
+        self._known = list(simulation.models)
+        self._starts_sensors = self._loads_plugins = self._is_timeline_due = False
+        simulation.on_change(self._follow_models)
+
+    @cached_property
+    def mounted(self) -> "MountedSensors | None":
+        """Sensors by name, mounted on first use; None: nothing measures."""
+        from trundle.sim.renderers import RENDERERS
+        from trundle.sim.sensors import MountedSensors
+
+        return MountedSensors(self.simulation, RENDERERS[self._renderer]) if self._has_sensors else None
+
+    @property
+    def sensors(self) -> "list[CameraSensor | InstrumentSensor]":
+        """Sensors of all models."""
+        return [] if self.mounted is None else [*self.mounted.cameras, *self.mounted.instruments]
+
+    @property
+    def image_count(self) -> int:
+        """Number of camera images that were drawn."""
+        return 0 if self.mounted is None else sum(camera.image_count for camera in self.mounted.cameras)
+
+    def robot(self, model: str) -> "Robot | None":
+        """Return the URDF that a model was spawned from."""
+        return next((robot for handle, robot in self._robots.items() if handle.name == model), None)
+
+    # -- parts
+
+    def start_sensors(self) -> None:
+        """Start all sensors, and from now on those of spawned models; each measures while it has a listener."""
+        self._starts_sensors = True
+        if self.mounted is not None:
+            self.mounted.start()
+
+    def join_graph(self, interfaces: "ModelInterfaces") -> None:
+        """Advertise the sensors' topics, and give each plugin that is loaded later a node."""
+        self._interfaces = interfaces
+        for model in self.simulation.models:
+            self._advertise(model)
+
+    def load_plugins(self) -> None:
+        """Load the plugins of the world and of its models, and from now on those of spawned models."""
+        self._loads_plugins = True
+        for model in self.simulation.models:
+            self._load_plugins_of(model)
+        make_node = None if self._interfaces is None else self._interfaces.node_maker(None)
+        load_world_plugins(self.simulation, make_node, self.environment, say=self._say)
+
+    def keep_timeline(self, limit_bytes: int) -> None:
+        """Keep the last minutes, to go back to; `limit_bytes` is the memory of the saved states."""
+        from trundle.sim.timeline import Timeline
+
+        self.timeline = Timeline(self.simulation, roots=self._plugin_list, limit_bytes=limit_bytes)
+
+    # -- commands
+
+    def advance(self, until_ns: int, simulate: Callable[[int], None] | None = None) -> None:
+        """Simulate up to a time [ns]; see `Simulation.advance`.
+
+        Args:
+            until_ns: time [ns].
+            simulate: simulates up to a time; None: `Simulation.advance`.
+        """
+        simulate = simulate or self.simulation.advance
+        if self.timeline is None:
+            simulate(until_ns)
+        else:
+            self._restart_timeline_if_due()
+            self.timeline.advance(until_ns, simulate)
+
+    def do(self, command: Callable[[Simulation], object]) -> None:
+        """Give the simulation a command, which the timeline repeats.
+
+        Raises:
+            TrundleError: of the command.
+        """
+        if self.timeline is None:
+            command(self.simulation)
+        else:
+            self._restart_timeline_if_due()
+            self.timeline.do(command)
+
+    def spawn(self, model: "Model", robot: "Robot | None" = None) -> None:
+        """Add a model; if it has sensors or plugins, the timeline begins again.
+
+        Args:
+            model: placed at its pose.
+            robot: URDF that it came from.
+
+        Raises:
+            TrundleError: the name is taken, or MuJoCo cannot simulate it; nothing has changed.
+        """
+        self._arriving = robot
+        try:
+            self._do_or_restart(model, lambda simulation: simulation.spawn(model))
+        finally:
+            self._arriving = None
+
+    def delete(self, name: str) -> None:
+        """Delete a model; if it has sensors or plugins, the timeline begins again.
+
+        Raises:
+            UsageError: no such model; the message lists the models there are.
+        """
+        self._do_or_restart(self.simulation[name].model, lambda simulation: simulation.delete(name))
+
+    def close(self) -> None:
+        """Shut down the plugins' nodes without waiting; from any thread."""
+        if self._interfaces is not None:
+            self._interfaces.close()
+
+    # -- inside
+
+    def _do_or_restart(self, model: "Model", command: Callable[[Simulation], object]) -> None:
+        """Do what a timeline repeats for a bare model, and after which it begins again for one with parts."""
+        if has_sensors_or_plugins(model):
+            command(self.simulation)
+            self._restart_timeline_if_due()
+        else:
+            self.do(command)
+
+    def _restart_timeline_if_due(self) -> None:
+        if self._is_timeline_due and self.timeline is not None:
+            self.timeline.restart(self._plugin_list)
+        self._is_timeline_due = False
+
+    @property
+    def _plugin_list(self) -> "list[Plugin]":
+        return [plugin for plugins in self._plugins.values() for plugin in plugins]
+
+    def _follow_models(self) -> None:
+        """Start what belongs to models that were spawned, and end what belongs to those that were deleted."""
+        before, models = self._known, self.simulation.models
+        self._known = list(models)
+        known, present = set(map(id, before)), set(map(id, models))
+        spawned = [model for model in models if id(model) not in known]
+        deleted = [model for model in before if id(model) not in present]
+        if not spawned and not deleted:
+            return
+        changes_parts = any(has_sensors_or_plugins(model.model) for model in (*spawned, *deleted))
+        self._is_timeline_due |= changes_parts
+        if self._starts_sensors and self.mounted is not None:
+            self.mounted.update()
+            self.mounted.start()
+        for model in deleted:
+            self._unload(model)
+        if self._arriving is not None:
+            self._robots[spawned[0]] = self._arriving
+        for model in spawned:
+            self._advertise(model)
+            if self._loads_plugins:
+                self._load_plugins_of(model)
+        if changes_parts:
+            self.on_parts()
+
+    def _advertise(self, model: ModelHandle) -> None:
+        if self._interfaces is not None and self.mounted is not None:
+            lone_robot = self._robots.get(model) if len(self._robots) == 1 else None
+            self._interfaces.advertise(model, *self.mounted.of_model(model), lone_robot)
+
+    def _load_plugins_of(self, model: ModelHandle) -> None:
+        make_node = None if self._interfaces is None else self._interfaces.node_maker(model)
+        plugins = load_plugins(self.simulation, make_node, self.environment, say=self._say, models=[model])
+        if plugins:
+            self._plugins[model] = plugins
+
+    def _unload(self, model: ModelHandle) -> None:
+        self._robots.pop(model, None)
+        for plugin in self._plugins.pop(model, []):
+            self.simulation.remove_hook(plugin)
+        if self._interfaces is not None:
+            self._interfaces.unload(model)

@@ -1,0 +1,95 @@
+"""ROS interfaces of the models of a world: topics of their sensors, nodes of their plugins."""
+
+from collections.abc import Callable, Sequence
+
+from trundle.gazebo.model_plugins import attach_sensor_plugins
+from trundle.robots.robot import Robot
+from trundle.ros import Endpoint, Node, StaticTransformBroadcaster
+from trundle.ros.bridge import FrameNames, make_camera_topics, make_sensor_topics
+from trundle.sim.sensors import CameraSensor, InstrumentSensor
+from trundle.sim.simulation import ModelHandle, Simulation
+
+
+class ModelInterfaces:
+    """Topics and nodes of the models of one simulation, which end with their model."""
+
+    def __init__(
+        self,
+        node: Node,
+        static_broadcaster: StaticTransformBroadcaster,
+        simulation: Simulation,
+        make_node: Callable[[str], Node],
+        *,
+        frames: FrameNames | None = None,
+    ) -> None:
+        """Prepare.
+
+        Args:
+            node: publishes the sensors' readings.
+            static_broadcaster: of the node's /tf_static.
+            simulation: of the models.
+            make_node: makes a plugin's node of a name.
+            frames: names of the sensors' frames; None: those that robot_state_publisher sends if a model is the only
+                robot, else scoped ones.
+        """
+        self._node = node
+        self._static_broadcaster = static_broadcaster
+        self._simulation = simulation
+        self._make_node = make_node
+        self._frames = frames
+        self._endpoints: dict[ModelHandle, list[Endpoint]] = {}
+        self._nodes: dict[ModelHandle | None, list[Node]] = {}
+        """Nodes of plugins; None: of the world's."""
+
+    def node_maker(self, model: ModelHandle | None) -> Callable[[str], Node]:
+        """Return a function that makes nodes for the plugins of a model; None: of the world."""
+
+        def make(name: str) -> Node:
+            node = self._make_node(name)
+            self._nodes.setdefault(model, []).append(node)
+            return node
+
+        return make
+
+    def advertise(
+        self,
+        model: ModelHandle,
+        cameras: Sequence[CameraSensor],
+        sensors: Sequence[InstrumentSensor],
+        lone_robot: Robot | None,
+    ) -> None:
+        """Advertise the topics of the sensors of a model.
+
+        Args:
+            model: with the sensors.
+            cameras: of the model.
+            sensors: the others.
+            lone_robot: URDF of the model, if it is the only robot.
+        """
+        if not cameras and not sensors:
+            return
+        names = self._frames
+        if names is None:
+            names = FrameNames() if lone_robot is None else FrameNames.from_robot(lone_robot)
+        node, simulation = self._node, self._simulation
+        with node.endpoints.record() as self._endpoints[model]:
+            silent_cameras = attach_sensor_plugins(cameras, node, simulation)
+            make_camera_topics(node, self._static_broadcaster, silent_cameras, names)
+            silent_sensors = attach_sensor_plugins(sensors, node, simulation)
+            make_sensor_topics(node, self._static_broadcaster, silent_sensors, names)
+
+    def unload(self, model: ModelHandle) -> None:
+        """Shut down the nodes of a deleted model; unregister its topics unless another model has them, too."""
+        for node in self._nodes.pop(model, []):
+            node.loop.run(node.shutdown())
+        endpoints = self._endpoints.pop(model, [])
+        shared = {id(each) for others in self._endpoints.values() for each in others}
+        for endpoint in endpoints:
+            if id(endpoint) not in shared:
+                endpoint.unregister()
+
+    def close(self) -> None:
+        """Shut down the plugins' nodes without waiting; from any thread."""
+        for node in (node for nodes in self._nodes.values() for node in nodes):
+            node.loop.spawn(node.shutdown())
+        self._nodes.clear()
