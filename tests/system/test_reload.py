@@ -64,3 +64,89 @@ def test_what_cannot_be_loaded_again_says_why(start, until, tmp_path) -> None:
     (url,) = re.findall(r"see it at (\S+)", running.output())
     with ProtocolClient(url) as client:
         assert "start it without --record" in _ask(client, 1)["error"]
+
+
+_ROBOT = """<robot name="cart"><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="0 0 {height}"/><geometry><box size="1 1 0.2"/></geometry></collision></link>
+<gazebo><plugin name="move" filename="libgazebo_ros_planar_move.so"><commandTopic>go</commandTopic></plugin></gazebo>
+</robot>"""
+_LAUNCH = """<launch>
+<param name="robot_description" command="xacro $(dirname)/robot.xacro"/>
+<node pkg="gazebo_ros" type="gzserver" name="gazebo" args="$(dirname)/w.world"/>
+<node pkg="gazebo_ros" type="gzclient" name="gzclient"/>
+<node pkg="gazebo_ros" type="spawn_model" name="spawn" args="-urdf -param robot_description -model cart"/>
+</launch>"""
+
+
+def _world_of(client: ProtocolClient) -> list[str]:
+    manifests = list(map(json.loads, client.payloads("trundle/world")))
+    return [model["name"] for model in manifests[-1]["models"]] if manifests else []
+
+
+def _request(client: ProtocolClient, number: int, request: str, **fields: Any) -> dict[str, Any]:
+    client.send("trundle/request", id=number, request=request, **fields)
+    client.until(lambda: any(each.get("id") == number for each in client.jsons))
+    return next(each for each in client.jsons if each.get("id") == number)
+
+
+def _state(client: ProtocolClient) -> dict[str, Any]:
+    client.until(lambda: client.payloads("trundle/state"))
+    return json.loads(client.payloads("trundle/state")[-1])
+
+
+def test_a_launch_goes_back_in_time_and_is_loaded_again_with_its_changed_files(start, master, until, tmp_path) -> None:
+    """The page stays; the robot's description, the world and the nodes are those of the files as they are now."""
+    (tmp_path / "robot.launch").write_text(_LAUNCH)
+    (tmp_path / "robot.xacro").write_text(_ROBOT.format(height=0.1))
+    _write(tmp_path / "w.world", "first", "one")
+    running = start("launch", "robot.launch", "--view-port", "0")
+    until("the page", lambda: "see it at" in running.output())
+    (url,) = re.findall(r"see it at (\S+)", running.output())
+    with ProtocolClient(url) as client:
+        for topic in ("trundle/world", "trundle/session", "trundle/state"):
+            client.subscribe(topic)
+        client.until(lambda: _world_of(client) == ["one", "cart"])
+        client.until(lambda: _state(client)["time_ns"] > 2_000_000_000)
+        begin = _state(client)["timeline"]["start_ns"]
+        assert _request(client, 1, "pause")["ok"] is True
+        assert _request(client, 2, "seek", time_ns=begin)["ok"] is True
+        client.until(lambda: _state(client)["time_ns"] == begin)
+
+        (tmp_path / "w.world").write_text("<sdf version='1.6'><world name='third'>")
+        refused = _request(client, 3, "reload")
+        assert refused["ok"] is False
+        assert "w.world:1" in refused["error"]
+        _write(tmp_path / "w.world", "second", "two")
+        (tmp_path / "robot.xacro").write_text(_ROBOT.format(height=0.2))
+        assert _request(client, 4, "reload")["ok"] is True
+        client.until(lambda: _world_of(client) == ["two", "cart"])
+        client.until(lambda: json.loads(client.payloads("trundle/session")[-1])["title"] == "second")
+        client.until(lambda: _state(client)["paused"] is False)
+    assert "0 0 0.2" in master.call("getParam", "/robot_description")
+    assert "the launch is loaded again" in running.output()
+    assert running.output().count("see it at") == 1
+    assert running.interrupt() == 130
+
+
+def test_gzserver_loads_its_world_again_with_the_models_that_were_spawned(start, trundle, until, tmp_path) -> None:
+    """The file's models are those of the file as it is now; what spawn_model brought comes back as it was."""
+    _write(tmp_path / "w.world", "first", "one")
+    (tmp_path / "box.sdf").write_text(f'<sdf version="1.6">{_MODEL.format("box")}</sdf>')
+    running = start("--as", "gazebo", "w.world")
+    until("the page", lambda: "see it at" in running.output())
+    (url,) = re.findall(r"see it at (\S+)", running.output())
+    assert (
+        trundle("--as", "rosrun", "gazebo_ros", "spawn_model", "-sdf", "-file", "box.sdf", "-model", "box").returncode
+        == 0
+    )
+    with ProtocolClient(url) as client:
+        for topic in ("trundle/world", "trundle/state"):
+            client.subscribe(topic)
+        client.until(lambda: _world_of(client) == ["one", "box"])
+        _write(tmp_path / "w.world", "second", "two")
+        assert _request(client, 1, "reload")["ok"] is True
+        client.until(lambda: _world_of(client) == ["two", "box"])
+        client.until(lambda: _state(client)["timeline"]["end_ns"] > 0)
+    assert running.output().count("see it at") == 1
+    assert running.interrupt() == 0

@@ -68,6 +68,11 @@ class Lockstep:
         """True if time may advance now."""
         return self._begun.is_set() and not self.over.is_set()
 
+    def hold(self) -> None:
+        """Hold time again, at the zero of nodes that start anew."""
+        self._begun.clear()
+        self.over.clear()
+
     def rewind(self) -> None:
         """Let time advance again after the end, to the same one."""
         self.over.clear()

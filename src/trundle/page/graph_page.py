@@ -47,7 +47,8 @@ class GraphPage:
             report: takes warnings about the files of the launch; the page shows them.
         """
         self._page = page
-        self._report = report
+        self.report = report
+        """Warnings that the page shows."""
         self._config: Path | None = None
         self._owner: Node | None = None
         self._move_slider: MoveJoint | None = None
@@ -144,8 +145,8 @@ class GraphPage:
             while server.alive and not node.closed.is_set():
                 self._handle_requests(server)
                 self.terminals.update(server)
-                if self._report is not None:
-                    self._page.show_findings(self._report)
+                if self.report is not None:
+                    self._page.show_findings(self.report)
                 await asyncio.sleep(_PERIOD_S)
         finally:
             self._page.release()

@@ -4,7 +4,7 @@ import asyncio
 import os
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from pathlib import Path
 
 from trundle.base.console import Console
@@ -40,7 +40,8 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
     console = Console(sys.stderr, report)
     with Graph.open(environment, host=_LOOPBACK) as graph:
         console.line(graph.summary)
-        node = Node("gazebo", loop=graph.loop, master_uri=graph.master_uri, host=_LOOPBACK)
+        shared = SharedPage(say=console.line, graph=GraphAddress(master_uri=graph.master_uri, host=graph.host))
+        reloads = _Reloads()
         world = GazeboWorld(
             graph=graph,
             start=Path.cwd(),
@@ -48,19 +49,49 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
             report=report,
             folder=logs / "spawned",
             say=console.line,
-            page=SharedPage(say=console.line, graph=GraphAddress(master_uri=graph.master_uri, host=graph.host)),
+            page=shared,
+            reload=lambda: graph.loop.call_soon(reloads.wanted.set),
         )
-        node.advertise_service(OPEN_WINDOW, "std_srvs/Trigger", lambda _: _open_window(world, node))
-        kind = "Gazebo" if window else "GazeboServer"
+        kind = BuiltinReplacement(f"trundle.gazebo.nodes.gazebo:{'Gazebo' if window else 'GazeboServer'}")
         printing = graph.loop.spawn(_print_findings(console))
         try:
-            host = NodeHost(simulator=world)
-            built_in = BuiltinReplacement(f"trundle.gazebo.nodes.gazebo:{kind}")
-            return graph.loop.run(run_builtin_node(built_in, node, list(arguments), host), None)
+            return graph.loop.run(reloads.run(lambda: _run_once(graph, world, kind, arguments), shared))
         finally:
             printing.cancel()
             world.close()
+            shared.close()
             console.findings()
+
+
+class _Reloads:
+    """Runs that a person at the page begins again; on the graph's loop."""
+
+    def __init__(self) -> None:
+        self.wanted = asyncio.Event()
+        """Set to end a run and begin the next."""
+
+    async def run(self, run_once: Callable[[], Coroutine[object, object, int]], page: SharedPage) -> int:
+        """Run until a run ends by itself; return its exit code."""
+        while True:
+            running = asyncio.create_task(run_once())
+            waiting = asyncio.create_task(self.wanted.wait())
+            try:
+                await asyncio.wait((running, waiting), return_when=asyncio.FIRST_COMPLETED)
+                if running.done():
+                    return running.result()
+                if page.url is not None:
+                    page.acquire(None)  # so that it stays between two runs
+            finally:
+                waiting.cancel()
+                running.cancel()
+                await asyncio.wait((running,))
+            self.wanted.clear()
+
+
+async def _run_once(graph: Graph, world: GazeboWorld, kind: BuiltinReplacement, arguments: Sequence[str]) -> int:
+    node = Node("gazebo", loop=graph.loop, master_uri=graph.master_uri, host=_LOOPBACK)
+    node.advertise_service(OPEN_WINDOW, "std_srvs/Trigger", lambda _: _open_window(world, node))
+    return await run_builtin_node(kind, node, list(arguments), NodeHost(simulator=world))
 
 
 def open_window(loop: GraphLoop, node: Node) -> str | None:

@@ -3,11 +3,12 @@
 import asyncio
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
-from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.base.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.page.shared_page import SharedPage
-from trundle.robots.description import load
+from trundle.robots.description import LoadedDescription, load
 from trundle.robots.model import World
 from trundle.robots.packages import Packages
 from trundle.ros import Node
@@ -77,7 +78,13 @@ class GazeboWorld:
         self._say = say
         self._renderer: RendererName = renderer
         self._timeline_mb = timeline_mb
-        self._window = GzclientPage(page, say, reload=reload)
+        self._ask_reload = reload
+        self._file = ""
+        self._spawned: dict[str, Callable[[], None]] = {}
+        """Spawned model → what spawns it again."""
+        self._returning: list[Callable[[], None]] | None = None
+        """What spawns the models again when the world is loaded again; None: it is opened for the first time."""
+        self._window = GzclientPage(page, say, reload=None if reload is None else self._reload)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
         self._stepper = GazeboStepper(graph.loop, self._thread, speed=speed, lockstep=steps, say=say)
@@ -99,10 +106,8 @@ class GazeboWorld:
         packages = Packages(self._env, start=self._start)
         self._stepper.paused = paused
         clock_hz = await clock_rate_hz(node)
-        file = find_world(name, packages, node)
-        loaded = await asyncio.to_thread(load, file, self._report, packages=packages)
-        if loaded.kind != "world":
-            raise UsageError(f"{file} is a model; a world is needed")
+        self._file = find_world(name, packages, node)
+        loaded = await asyncio.to_thread(self._read_world, packages, self._report)
         logs = None if record is None else Path(record).expanduser() if record else self._folder.parent / "gazebo"
         try:
             await self._thread.start(lambda: self._build(loaded.world, node, packages, clock_hz, logs))
@@ -111,6 +116,12 @@ class GazeboWorld:
             raise
         if paused:
             self._say("the world is paused; /gazebo/unpause_physics starts it")
+
+    def _read_world(self, packages: Packages, report: Diagnostics) -> LoadedDescription:
+        loaded = load(self._file, report, packages=packages)
+        if loaded.kind != "world":
+            raise UsageError(f"{self._file} is a model; a world is needed")
+        return loaded
 
     def begin(self) -> None:
         """Let time advance."""
@@ -190,11 +201,15 @@ class GazeboWorld:
         """Add a model."""
         assert self._contents is not None, "open() comes first"
         self._contents.spawn(xml, name=name, world_from_model=world_from_model, namespace=namespace)
+        self._spawned[name] = partial(
+            self.spawn, xml, name=name, world_from_model=world_from_model, namespace=namespace
+        )
         self._stepper.pacer.restart()
 
     def delete(self, name: str) -> None:
         """Remove a model."""
         self.live.delete(name)
+        self._spawned.pop(name, None)
         self._stepper.pacer.restart()
 
     def do(self, command: Callable[[Simulation], object]) -> None:
@@ -211,6 +226,17 @@ class GazeboWorld:
         self._stepper.restart(self.simulation.time_ns)
 
     # -- inside
+
+    def _reload(self) -> None:
+        """Ask to load the world again, if its file can be read.
+
+        Raises:
+            TrundleError: it cannot; the world goes on.
+        """
+        assert self._ask_reload is not None
+        self._read_world(self.live.packages, Diagnostics())
+        self._ask_reload()
+        self._returning = list(self._spawned.values())
 
     def _open_window(self, node: Node) -> None:
         if self._window.is_wanted and self.live.timeline is None and self._timeline_mb and self._setup is None:
@@ -250,3 +276,12 @@ class GazeboWorld:
             is_lockstep=self._stepper.is_lockstep,
         )
         self._contents.load(logs)
+        self._spawned.clear()
+        returning, self._returning = self._returning, None
+        if returning is not None:
+            for spawn in returning:
+                try:
+                    spawn()
+                except TrundleError as error:
+                    self._say(str(error))
+            self._open_window(node)

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from trundle.base.console import Console
-from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError
+from trundle.base.files import is_stream
 from trundle.base.signals import StopFlag, stop_flag
 from trundle.page.network_warning import warn_of_network
 from trundle.robots.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
@@ -45,13 +46,21 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     with stop_flag() as stop:
         if options.wait_for_master and not _wait_for_master(read.env, stop, show.line):
             return 130
+
+        def read_again() -> LoadedLaunch:
+            if any(word == "-" or is_stream(word) for word in words):
+                raise UsageError("the launch came through a pipe, which cannot be read again")
+            again = read_files(words, options, dict(os.environ if environment is None else environment))
+            assert again is not None
+            return again
+
         if options.pid_file is None:
-            return _run(read, options, stop)
+            return _run(read, options, stop, read_again)
         pid_file = options.pid_file.expanduser()
         pid_file.parent.mkdir(parents=True, exist_ok=True)
         pid_file.write_text(str(os.getpid()))
         try:
-            return _run(read, options, stop)
+            return _run(read, options, stop, read_again)
         finally:
             pid_file.unlink(missing_ok=True)
 
@@ -111,10 +120,10 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     return LoadedLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
 
 
-def _run(read: LoadedLaunch, options: LaunchOptions, stop: StopFlag) -> int:
+def _run(read: LoadedLaunch, options: LaunchOptions, stop: StopFlag, read_again: Callable[[], LoadedLaunch]) -> int:
     from .session import ClockWarning, LaunchSession
 
-    with LaunchSession(read, options) as session:
+    with LaunchSession(read, options, read_again=read_again) as session:
         running, clock = session.start(read.plan.nodes, is_ending=stop.is_set), session.clock
         duration = None
         if options.duration_s is not None:
@@ -122,14 +131,17 @@ def _run(read: LoadedLaunch, options: LaunchOptions, stop: StopFlag) -> int:
                 clock,
                 options.duration_s,
                 in_step=session.is_lockstep,
-                is_worldless=running.is_worldless,
+                is_worldless=lambda: running.is_worldless(),
                 say=read.show.line,
             )
         over = False
         silent = ClockWarning(clock, read.show.line)
         while not stop.wait(0.05) and not over and not (duration is not None and duration.is_over()):
-            read.show.findings()
+            session.show.findings()
             silent.check()
+            if session.is_reload_due:
+                running = session.reload(is_ending=stop.is_set)
+                session.show.line("the launch is loaded again")
             over = session.is_over or running.required_died or (running.is_over and not session.has_master)
             over = over or session.recording_broke_off
         required_died = running.required_died

@@ -55,5 +55,7 @@ class LaunchOptions:
     """Message types that the bag leaves out."""
     only: Literal["nodes", "files", "find-node", "args", "arguments", "params", "translation"] | None = None
     """Part of the launch to print instead of starting it."""
+    timeline_mb: int = 256
+    """Memory of the timeline, with a page [MB]; 0: none."""
     node: str = ""
     """Node of `find-node` and `args`."""

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from trundle.base.console import say
-from trundle.base.diagnostics import TrundleError
+from trundle.base.console import Console, say
+from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.base.garbage import no_garbage
 from trundle.base.http.page_address import PageAddress
 from trundle.base.supervisor import Event, ProcessTree, StopTimeouts
@@ -53,6 +53,7 @@ class LaunchSession:
         rosout: bool = True,
         listener: Listener = lambda _event, _text: None,
         setup: "WorldSetup | None" = None,
+        read_again: Callable[[], LoadedLaunch] | None = None,
     ) -> None:
         """Join or start a graph and set the parameters.
 
@@ -63,7 +64,11 @@ class LaunchSession:
             rosout: as `Graph.open`.
             listener: takes each node's events, on the graph's thread.
             setup: of the simulated world.
+            read_again: reads the launch again, for `reload`; called on the simulation's thread. None: it cannot be.
         """
+        self._read_again = read_again
+        self._reloaded: LoadedLaunch | None = None
+        """Launch that the page asked for, as read again."""
         self._setup = setup
         self._gazebo: GazeboWorld | None = None
         self._read = read
@@ -127,17 +132,23 @@ class LaunchSession:
 
             self._display = GraphPage(page, read.report)
         display = self._display
-        terminals = NodeTerminals(None if display is None else display.terminals, reads_keys=options.reads_keys)
-        self._open_things.callback(terminals.close)
-        tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
-        self.starter = NodeStarter(
-            graph=graph,
+        self._terminals = NodeTerminals(None if display is None else display.terminals, reads_keys=options.reads_keys)
+        self._open_things.callback(self._terminals.close)
+        self._tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
+        self.starter = self._make_starter(logs)
+
+    def _make_starter(self, logs: Path) -> NodeStarter:
+        read, options = self._read, self._options
+        self._logs = logs
+        simulator = self._simulator(logs) if _simulates(read.plan) else None
+        return NodeStarter(
+            graph=self.graph,
             packages=read.packages,
             env=read.env,
             report=read.report,
-            host=NodeHost(display=display, simulator=self._simulator(logs) if _simulates(read.plan) else None),
-            terminals=terminals,
-            tree=tree,
+            host=NodeHost(display=self._display, simulator=simulator),
+            terminals=self._terminals,
+            tree=self._tree,
             log_folder=logs,
             output=options.output,
             all_required=options.all_required,
@@ -268,6 +279,8 @@ class LaunchSession:
             page=self._page,
             speed=options.speed,
             renderer=options.renderer,
+            timeline_mb=options.timeline_mb,
+            reload=None if self._read_again is None else self._request_reload,
             steps=self._lockstep,
             setup=self._setup,
         )
@@ -315,6 +328,46 @@ class LaunchSession:
             url = None if page is None else await_url(page, lambda: is_ending() or running.is_over)
             self._say(what_runs(running.launched, url))
         return running
+
+    def _request_reload(self) -> None:
+        """Read the launch again; `reload` then starts it.
+
+        Raises:
+            TrundleError: it cannot be read; the launch goes on.
+        """
+        if self._options.record is not None:
+            raise UsageError("the bag of this launch has one run: start it without --record to load others")
+        assert self._read_again is not None
+        self._reloaded = self._read_again()
+
+    @property
+    def show(self) -> Console:
+        """Console that prints the findings of the launch's files."""
+        return self._read.show
+
+    @property
+    def is_reload_due(self) -> bool:
+        """True if the page has asked to load the launch again."""
+        return self._reloaded is not None
+
+    def reload(self, *, is_ending: Callable[[], bool]) -> RunningNodes:
+        """Stop all nodes, and start those of the launch as read again, on the same graph and page."""
+        read, self._reloaded = self._reloaded, None
+        assert read is not None
+        assert self._running is not None
+        assert self._page is not None, "the page has asked"
+        self._page.acquire(self._launcher)  # it stays to the end of the launch, as its windows close meanwhile
+        loop = self.graph.loop
+        loop.run(self._running.stop())
+        self._read = read
+        read.show.log_to(self._log.write)
+        if self._display is not None:
+            self._display.report = read.report
+        loop.run(set_params(self._launcher, read.plan, read.params))
+        if self._lockstep is not None:
+            self._lockstep.hold()
+        self.starter = self._make_starter(self._logs)
+        return self.start(read.plan.nodes, is_ending=is_ending)
 
     async def _show_terminals(self, display: "GraphPage") -> None:
         """Serve the page, whichever other windows the launch has."""
