@@ -63,6 +63,8 @@ class LiveWorld:
         self._robots: dict[ModelHandle, Robot] = {}
         self._plugins: dict[ModelHandle, list[Plugin]] = {}
         self._known = list(simulation.models)
+        self._seen_changes = 0
+        """`_interface_changes` when the timeline began."""
         self._starts_sensors = self._loads_plugins = self._is_timeline_due = False
         simulation.on_change(self._follow_models)
 
@@ -115,6 +117,7 @@ class LiveWorld:
         from trundle.sim.timeline import Timeline
 
         self.timeline = Timeline(self.simulation, roots=self._plugin_list, limit_bytes=limit_bytes)
+        self._seen_changes = self._interface_changes
 
     # -- commands
 
@@ -184,9 +187,15 @@ class LiveWorld:
             self.do(command)
 
     def _restart_timeline_if_due(self) -> None:
-        if self._is_timeline_due and self.timeline is not None:
+        """Begin the timeline again after a model with parts, or a plugin's controller with its topics, came or went."""
+        changes = self._interface_changes
+        if self.timeline is not None and (self._is_timeline_due or changes != self._seen_changes):
             self.timeline.restart(self._plugin_list)
-        self._is_timeline_due = False
+        self._is_timeline_due, self._seen_changes = False, changes
+
+    @property
+    def _interface_changes(self) -> int:
+        return 0 if self._interfaces is None else self._interfaces.changes
 
     @property
     def _plugin_list(self) -> "list[Plugin]":

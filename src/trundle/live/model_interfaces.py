@@ -88,6 +88,11 @@ class ModelInterfaces:
             if id(endpoint) not in shared:
                 endpoint.unregister()
 
+    @property
+    def changes(self) -> int:
+        """Number of topics and services that the plugins' nodes have added or removed so far."""
+        return sum(node.endpoints.changes for nodes in self._nodes.values() for node in nodes)
+
     def close(self) -> None:
         """Shut down the plugins' nodes without waiting; from any thread."""
         for node in (node for nodes in self._nodes.values() for node in nodes):

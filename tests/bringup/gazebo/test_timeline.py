@@ -1,11 +1,13 @@
 """The world behind /gazebo goes back to a moment of its last minutes, and on from there as it did the first time."""
 
 import queue
+import time
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
+from tests.plugins.ros_control.test_steering import ACKERMANN, BIKE, driving
 
 _CART = """<sdf version="1.6"><model name="as_written"><pose>0 0 0.2 0 0 0</pose><link name="link">
 <collision name="c"><geometry><box><size>1 1 0.4</size></box></geometry></collision></link>
@@ -83,3 +85,28 @@ def test_what_is_spawned_later_is_part_of_a_new_timeline(gazebo: Gazebo) -> None
     assert [model.name for model in gazebo.world.simulation.models] == ["ground_plane", "ball", "other"]
     gazebo.spawn(_CART, "cart")
     assert timeline.start_ns == timeline.end_ns >= 500_000_000
+
+
+def test_a_controller_drives_as_it_did_and_the_time_before_it_was_loaded_is_gone(gazebo: Gazebo) -> None:
+    """Its topic and its object are new, and could not come a second time."""
+    _on_its_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
+    with driving(gazebo, BIKE, ACKERMANN):
+        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+
+        def has_driven(metres: float) -> bool:
+            drive({"linear": {"x": 0.5}})
+            time.sleep(0.05)
+            return gazebo.state("car").pose.position.x > metres
+
+        until(lambda: has_driven(0.7))
+        gazebo.call("pause_physics")
+        timeline = gazebo.world.live.timeline
+        assert timeline is not None
+        assert timeline.start_ns > 0
+        ended, end_ns = _poses(gazebo), timeline.end_ns
+        _seek(gazebo, timeline.start_ns)
+        assert gazebo.state("car").pose.position.x == pytest.approx(0.0, abs=1e-3)
+        _seek(gazebo, end_ns)
+        assert _poses(gazebo) == ended
+        gazebo.call("unpause_physics")
+        until(lambda: has_driven(0.9))

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.robots.model import World
 from trundle.robots.packages import Packages
-from trundle.ros import Clock, Node, StaticTransformBroadcaster
+from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.ros.bridge import ClockTopic
 from trundle.sim.physics import BackgroundCutting
 from trundle.sim.renderers import RendererName
@@ -18,6 +18,7 @@ from trundle.spatial import Pose
 from ..graph import Graph
 from ..live_world import LiveWorld
 from ..model_interfaces import ModelInterfaces
+from ..simulation_clock import SimulationClock
 from ..state_logs import WorldRecorder
 from .models import read_spawned
 from .world_setup import WorldSetup
@@ -37,7 +38,6 @@ class GazeboContents:
         folder: Path,
         report: Diagnostics,
         renderer: RendererName,
-        clock: Clock,
         clock_hz: float | None,
         post: Callable[[Callable[[], object]], None],
         say: Callable[[str], None],
@@ -55,20 +55,21 @@ class GazeboContents:
             folder: keeps the text of each spawned model.
             report: takes findings of spawned models and physics.
             renderer: draws the cameras' images.
-            clock: time of the plugins' nodes.
             clock_hz: rate of /clock; None: the usual one.
             post: calls a function on this thread.
             say: prints which plugins are loaded, and where logs are.
             setup: seeds the simulation, begins with it, changes spawned models; None: they are spawned as read.
             is_lockstep: hollow meshes are cut before time goes on, so that runs repeat; else in the background.
         """
-        self._node, self._graph, self._clock, self._post = node, graph, clock, post
+        self._node, self._graph, self._post = node, graph, post
         self._folder, self._report, self._say = folder, report, say
         self._cutting = (
             None if is_lockstep else BackgroundCutting(say, lambda count: post(lambda: self._use_cuts(count)))
         )
         seed = 0 if setup is None else setup.seed
         simulation = Simulation(world, report, seed=seed, cutting=self._cutting)
+        self.clock = SimulationClock(graph.loop, simulation)
+        """Time of the plugins' nodes."""
         self._setup = setup
         if setup is not None:
             setup.start(simulation, node)
@@ -93,7 +94,7 @@ class GazeboContents:
             name,
             loop=graph.loop,
             master_uri=graph.master_uri,
-            clock=self._clock,
+            clock=self.clock,
             deliver=lambda callback: self._post(lambda: simulation.receive_input(callback)),
             host=graph.host,
         )

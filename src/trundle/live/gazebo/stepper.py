@@ -44,7 +44,7 @@ class GazeboStepper:
         self._say = say
         self.pacer = RealtimePacer(speed)
         self.clock = SimClock(loop)
-        """Time of the plugins' nodes."""
+        """Time of the plugins' nodes; zero before there is a world."""
         self.paused = False
         self.is_held = True
         """True until everything that others may call is registered."""

@@ -268,13 +268,13 @@ class GazeboWorld:
             folder=self._folder,
             report=self._report,
             renderer=self._renderer,
-            clock=self._stepper.clock,
             clock_hz=clock_hz,
             post=self.post,
             say=self._say,
             setup=self._setup,
             is_lockstep=self._stepper.is_lockstep,
         )
+        self._stepper.clock = self._contents.clock
         self._contents.load(logs)
         self._spawned.clear()
         returning, self._returning = self._returning, None

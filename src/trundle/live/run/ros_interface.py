@@ -3,28 +3,16 @@
 from collections.abc import Callable, Mapping
 from typing import Self
 
-from trundle.ros import GraphLoop, Node, SimClock, StaticTransformBroadcaster
+from trundle.ros import GraphLoop, Node, StaticTransformBroadcaster
 from trundle.ros.bridge import ClockTopic, FrameNames, JointStatesTopic, LinkTransforms
-from trundle.sim.simulation import Simulation
 
 from ..graph import DEFAULT_PORT, Graph
 from ..live_world import LiveWorld
 from ..model_interfaces import ModelInterfaces
+from ..simulation_clock import SimulationClock
 from ..world_setup import LoadedWorld
 
 NODE_NAME = "/trundle"
-
-
-class SimulationClock(SimClock):
-    """Simulation time, exact at every step; sleeping nodes wake at the end of a stride."""
-
-    def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
-        super().__init__(loop)
-        self._simulation = simulation
-
-    def now_ns(self) -> int:
-        """Simulation time [ns]."""
-        return self._simulation.time_ns
 
 
 class RosInterface:

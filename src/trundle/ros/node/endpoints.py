@@ -37,6 +37,8 @@ class NodeEndpoints:
         self._unregistering: set[tuple[str, str]] = set()
         """Pairs (method, name) of unregistrations queued or in progress."""
         self._recorder = EndpointRecorder()
+        self.changes = 0
+        """Number of endpoints that were added or removed so far."""
 
     # -- adding and removing: thread-safe
 
@@ -54,6 +56,7 @@ class NodeEndpoints:
                 self._recorder.add(there)
                 return there
             publisher = self._publishers[topic] = make()
+            self.changes += 1
         self._recorder.add(publisher)
         for listener in self._node.loop.local.on_publisher:
             self._node.loop.call_soon(lambda listener=listener: listener(publisher))
@@ -64,6 +67,7 @@ class NodeEndpoints:
         """Register a subscription."""
         with self._lock:
             self._subscriptions.setdefault(subscription.topic, []).append(subscription)
+            self.changes += 1
         self._recorder.add(subscription)
         self._registrations.add(lambda: self._register_subscriber(subscription.topic, subscription.type))
 
@@ -71,6 +75,7 @@ class NodeEndpoints:
         """Register a service; replaces an earlier one of that name."""
         with self._lock:
             self._services[service.name] = service
+            self.changes += 1
         self._recorder.add(service)
         self._registrations.add(lambda: self._register_service(service.name))
 
@@ -89,6 +94,7 @@ class NodeEndpoints:
             if self._publishers.get(publisher.topic) is not publisher:
                 return
             del self._publishers[publisher.topic]
+            self.changes += 1
         self._node.loop.call_soon(publisher.close)
         self._queue_unregister("unregisterPublisher", publisher.topic)
 
@@ -99,6 +105,7 @@ class NodeEndpoints:
             if subscription not in others:
                 return
             others.remove(subscription)
+            self.changes += 1
             if not others:
                 del self._subscriptions[subscription.topic]
         self._node.loop.call_soon(subscription.close)
@@ -111,6 +118,7 @@ class NodeEndpoints:
             if self._services.get(service.name) is not service:
                 return
             del self._services[service.name]
+            self.changes += 1
         self._node.loop.call_soon(service.close)
         self._queue_unregister("unregisterService", service.name)
 
