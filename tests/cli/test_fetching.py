@@ -2,6 +2,8 @@
 
 import os
 import pty
+import shutil
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -11,6 +13,7 @@ import pytest
 from tests.git_server import GitServer, git_server, manifest
 
 from trundle.app.cli.main import main
+from trundle.robots.packages import LENIENT
 
 LAUNCH = """<launch>
   <include file="$(find arm_bringup)/arm.launch"/>
@@ -19,6 +22,9 @@ LAUNCH = """<launch>
 XACRO = """<robot name="my" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:include filename="$(find hand)/hand.xacro"/>
 </robot>"""
+USB_CAM = """<launch><node pkg="usb_cam" type="usb_cam_node" name="usb_cam">
+  <param name="video_device" value="/dev/video9"/>
+</node></launch>"""
 HAND = '<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="palm"/></robot>'
 
 
@@ -29,12 +35,17 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[GitServer]:
         server.add("me/arm", {"noetic-devel": arm})
         server.add("me/arm_msgs", {"main": {"package.xml": manifest("arm_msgs")}})
         server.add("me/hand", {"main": {"package.xml": manifest("hand"), "hand.xacro": HAND}})
+        camera = {"package.xml": manifest("usb_cam", "image_view"), "launch/usb_cam-test.launch": USB_CAM}
+        server.add("me/usb_cam", {"main": camera})
         yield server
 
 
 @pytest.fixture
 def index(server: GitServer, tmp_path: Path) -> Path:
-    rows = {"arm_bringup": ("arm", "noetic-devel"), "arm_msgs": ("arm_msgs", "main"), "hand": ("hand", "main")}
+    rows = {
+        "arm_bringup": ("arm", "noetic-devel"),
+        **{name: (name, "main") for name in ("arm_msgs", "hand", "usb_cam", "image_view")},
+    }
     lines = [
         f"  {package}: {{source: {{type: git, url: '{server.address}/me/{name}', version: {branch}}}}}"
         for package, (name, branch) in rows.items()
@@ -77,6 +88,39 @@ def test_rosdep_fetches_what_a_workspace_needs(
     assert sorted(os.listdir(workspace / "src")) == ["my_robot"], "the workspace is as it was"
 
 
+def test_a_hostile_repository_and_index_reach_nothing(
+    workspace: Path, server: GitServer, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By `rosdep install` as by `pack get`: links, submodules and setup files of a package, rows of the index."""
+    (tmp_path / "secret").write_text("mine")
+    ran = tmp_path / "ran"
+    evil = {
+        "package.xml": manifest("evil", "arm_msgs"),
+        "setup.py": f"open({str(ran)!r}, 'w')\n",
+        ".gitmodules": f'[submodule "a"]\n\tpath = a\n\turl = file://{tmp_path}\n\tupdate = !touch {ran}\n',
+    }
+    server.add("you/evil", {"main": evil}, {"secret": str(tmp_path / "secret")})
+    rows = {
+        "evil": (f"{server.address}/you/evil", "main"),
+        "local": (f"file://{server.folder}/me/arm", "noetic-devel"),
+        "option": (f"{server.address}/me/arm", "--upload-pack=touch ran"),
+        "program": (f"ext::sh -c 'touch {ran}'", "main"),
+    }
+    with index.open("a") as file:
+        for name, (url, version) in rows.items():
+            file.write(f'  {name}: {{source: {{type: git, url: "{url}", version: "{version}"}}}}\n')
+    (workspace / "src/my_robot/package.xml").write_text(manifest("my_robot", "arm_bringup", "hand", *rows))
+    data = tmp_path / "data/trundle/packages"
+
+    for words in (["--as", "rosdep", "install", "--from-paths", "src", "-y"], ["pack", "get", "-y", *rows]):
+        assert main([*words, "--index", str(index)]) == 0
+        assert "of the system, if they are needed: local option program\n" in capsys.readouterr().out
+        assert not ran.exists()
+        assert sorted(os.listdir(data / "you/evil")) == [".git", ".gitmodules", "package.xml", "setup.py"]
+        assert (data / "me/arm_msgs/package.xml").is_file()
+        shutil.rmtree(data)
+
+
 @pytest.mark.usefixtures("workspace")
 def test_nothing_is_fetched_unasked(index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["pack", "get", "hand", "--index", str(index)]) == 1
@@ -98,7 +142,7 @@ def test_all_that_a_launch_needs_is_fetched(index: Path, tmp_path: Path, capsys:
 def test_a_launch_offers_to_fetch_on_a_terminal(
     workspace: Path, server: GitServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Asked for each round: the xacro file is read once the includes are there."""
+    """Asked once, also for what only the robot's file names."""
     here, there = pty.openpty()
     code = (
         "import sys; from trundle.robots import repositories; from trundle.robots.repositories import Entry, Index\n"
@@ -107,14 +151,14 @@ def test_a_launch_offers_to_fetch_on_a_terminal(
         "repositories.shipped_index = lambda: index\n"
         "from trundle.app.cli.main import main; sys.exit(main(['launch', 'my_robot', 'my.launch', '--dump-params']))"
     )
-    os.write(here, b"\ny\n")
+    os.write(here, b"\n")
     words = [sys.executable, "-c", code]
     done = subprocess.run(words, stdin=there, stdout=subprocess.PIPE, stderr=there, cwd=workspace, check=False)
     os.close(there)
     said = os.read(here, 100_000).decode()
     os.close(here)
 
-    assert "fetch 1 repository? [Y/n]" in said
+    assert said.count("fetch 2 repositories? [Y/n]") == said.count("[Y/n]") == 1
     assert done.returncode == 0, said
     assert "palm" in done.stdout.decode()
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
@@ -128,6 +172,91 @@ def test_a_missing_package_names_the_commands_that_help(capsys: pytest.CaptureFi
 
     last = capsys.readouterr().err.splitlines()[-1]
     assert last == "trundle pack get turtlebot3_gazebo fetches them; --lenient leaves out what needs them"
+
+
+@pytest.mark.usefixtures("workspace")
+def test_all_missing_packages_are_named_at_once(capsys: pytest.CaptureFixture[str], workspace: Path) -> None:
+    """Those of launch files, nodes, the robot's file and its meshes, each with its line and address."""
+    package = workspace / "src/my_robot"
+    (package / "my.launch").write_text(
+        """<launch>
+  <include file="$(find turtlebot3_gazebo)/a.launch"/>
+  <node pkg="rosapi" type="rosapi_node" name="rosapi"/>
+  <node pkg="tf2_web_republisher" type="tf2_web_republisher" name="tf2_web"/>
+  <node pkg="image_proc" type="image_proc" name="proc"/>
+  <param name="robot_description" command="xacro $(find my_robot)/my.urdf.xacro"/>
+</launch>"""
+    )
+    (package / "my.urdf.xacro").write_text(
+        """<robot name="my" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find ur_description)/ur.xacro"/>
+  <xacro:include filename="$(find no_such_hand)/hand.xacro"/>
+  <link name="a"><visual><geometry><mesh filename="package://pr2_description/a.dae"/></geometry></visual></link>
+</robot>"""
+    )
+    names = {
+        "turtlebot3_gazebo": "my.launch:2",
+        "image_proc": "my.launch:5",
+        "ur_description": "my.urdf.xacro:2",
+        "no_such_hand": "my.urdf.xacro:3",
+        "pr2_description": "my.launch:6",
+    }
+    published = {"turtlebot3_gazebo", "image_proc", "ur_description", "pr2_description"}
+
+    assert main(["launch", "my_robot", "my.launch"]) == 1
+
+    *_, last = lines = capsys.readouterr().err.splitlines()
+    errors = {line.split("'")[1]: line for line in lines if ": error: no package" in line}
+    assert set(errors) == set(names)
+    for name, at in names.items():
+        assert errors[name].startswith(f"{package}/{at}: error: no package '{name}'")
+        assert ("; it is published at https://github.com/" in errors[name]) == (name in published)
+    assert set(last.partition(" fetches them")[0].split()[3:]) == published
+
+
+def test_files_of_a_package_whose_nodes_have_stand_ins_are_fetched(
+    workspace: Path, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Only when they are asked for: a package that merely depends on it needs none."""
+    launch = workspace / "camera.launch"
+    launch.write_text('<launch><include file="$(find usb_cam)/launch/usb_cam-test.launch"/></launch>')
+    assert main(["launch", str(launch)]) == 1
+    said = capsys.readouterr().err
+    assert f"{launch}:1: error: no package 'usb_cam'; " in said
+    assert said.splitlines()[-1].startswith("trundle pack get usb_cam fetches them; ")
+    (workspace / "src/my_robot/package.xml").write_text(manifest("my_robot", "usb_cam"))
+    assert main(["--as", "rosdep", "install", "my_robot", "-y", "--index", str(index)]) == 0
+    assert fetched(tmp_path) == []
+
+    assert main(["pack", "get", "-y", "--index", str(index), "--missing", str(launch)]) == 0
+
+    assert fetched(tmp_path) == ["me/usb_cam"], "its image_view has a stand-in, and nobody asked for its files"
+    capsys.readouterr()
+    assert main(["launch", str(launch), "--dump-params"]) == 0
+    assert "/usb_cam/video_device: /dev/video9" in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("workspace")
+def test_nodes_of_a_machine_that_was_left_out_are_left_out_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv(LENIENT, "0")  # restored after the test
+    launch = tmp_path / "a.launch"
+    launch.write_text(
+        """<launch>
+  <machine name="far" address="localhost" env-loader="$(find no_such_robot)/env.sh"/>
+  <node machine="far" pkg="topic_tools" type="relay" name="there" args="a b"/>
+  <node pkg="topic_tools" type="relay" name="here" args="c d"/>
+</launch>"""
+    )
+    assert (
+        main(["launch", str(launch), "--headless", "--port", str(_free_port()), "--duration", "0.1", "--lenient"]) == 0
+    )
+    out, err = capsys.readouterr()
+    assert f"{launch}:2: warning: no package 'no_such_robot'; <machine> far is left out" in err
+    assert f"{launch}:3: warning: node 'there': no machine 'far', so it cannot be launched" in err
+    assert "stand-in  /here" in out
+    assert "/there" not in out
 
 
 def test_apt_fetches_packages_of_ros(index: Path, workspace: Path, tmp_path: Path) -> None:
@@ -171,3 +300,9 @@ def test_lists_of_repositories_are_fetched_into_the_workspace(workspace: Path, s
     other = workspace / "other"
     assert main(["--as", "rosinstall", str(other), str(workspace / "src/.rosinstall")]) == 0
     assert (other / "grip/hand/package.xml").is_file()
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

@@ -17,6 +17,9 @@ class NoPackages:
 
     is_lenient = False
 
+    def absent_package(self, _file: Path, /) -> str | None:
+        return None
+
     def why_not_found(self, name: str, /) -> str:
         return f"no package {name!r}"
 

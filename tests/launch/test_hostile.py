@@ -19,6 +19,9 @@ class OnePackage:
 
     is_lenient = False
 
+    def absent_package(self, _file: Path, /) -> str | None:
+        return None
+
     def why_not_found(self, name: str, /) -> str:
         return f"no package {name!r}"
 

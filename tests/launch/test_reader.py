@@ -19,6 +19,9 @@ class Folders:
     def find_folder(self, name: str, /) -> Path | None:
         return self._folders.get(name)
 
+    def absent_package(self, _file: Path, /) -> str | None:
+        return None
+
     def why_not_found(self, name: str, /) -> str:
         return f"no package {name!r}"
 

@@ -23,6 +23,9 @@ class OneFolder:
 
     is_lenient = False
 
+    def absent_package(self, _file: Path, /) -> str | None:
+        return None
+
     def why_not_found(self, name: str, /) -> str:
         return f"no package {name!r}"
 
@@ -117,6 +120,9 @@ def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared:
             return next(iter(found)) if len(found) == 1 else None
 
         is_lenient = False
+
+        def absent_package(self, _file: Path, /) -> str | None:
+            return None
 
         def why_not_found(self, name: str, /) -> str:
             return f"no package {name!r}"

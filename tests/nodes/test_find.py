@@ -139,6 +139,13 @@ def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
     )
 
 
+def test_a_node_of_a_published_package_is_named_with_its_repository() -> None:
+    found = find_node("turtlebot3_example", "turtlebot3_client", lambda _: None, env={})
+    assert isinstance(found, MissingNode)
+    address = "https://github.com/ROBOTIS-GIT/turtlebot3"
+    assert found.why.endswith(f"; it is published at {address}: trundle pack get turtlebot3_example")
+
+
 def test_rosserial_s_own_node_in_python_is_named() -> None:
     found = find_node("rosserial_arduino", "serial_node.py", lambda _: None, env={})
     assert isinstance(found, MissingNode)

@@ -70,22 +70,27 @@ def fetch_folder(args: argparse.Namespace) -> Path:
     return fetched_folder(os.environ) if args.into is None else args.into.expanduser().absolute()
 
 
-def fetch_packages(names: Iterable[str], args: argparse.Namespace) -> int:
+def fetch_packages(names: Iterable[str], args: argparse.Namespace, *, for_files: bool = False) -> int:
     """Show what would be fetched, ask, fetch, and print what is left to do by hand; return the exit code.
+
+    Args:
+        names: of packages.
+        args: options that `add_fetch_options` declared.
+        for_files: packages are wanted for their files, also where their nodes have stand-ins.
 
     Raises:
         UsageError: standard input is no terminal, and -y is not given.
     """
     fetcher = make_fetcher(args)
     names = list(dict.fromkeys(names))
-    plan = fetcher.plan(names)
+    plan = fetcher.plan(names, for_files=for_files)
     print_plan(plan, fetch_folder(args))
     if not plan.checkouts:
         _print_rest(plan.python_libraries, plan.unknown)
         return 0
     if not args.yes and not ask(plan):
         return 1
-    result = fetcher.fetch(names)
+    result = fetcher.fetch(names, for_files=for_files)
     _print_result(result)
     return 1 if result.errors else 0
 
@@ -93,7 +98,7 @@ def fetch_packages(names: Iterable[str], args: argparse.Namespace) -> int:
 def offer(names: Sequence[str]) -> bool:
     """Name the command that fetches missing packages; on a terminal, ask and fetch; True if there are new ones."""
     fetcher = make_fetcher(argparse.Namespace(**defaults()))
-    plan = fetcher.plan(names)
+    plan = fetcher.plan(names, for_files=True)
     published = [name for needed in plan.checkouts.values() for name in needed]
     if not published:
         print("--lenient leaves out what needs missing packages", file=sys.stderr)
@@ -108,7 +113,7 @@ def offer(names: Sequence[str]) -> bool:
         print(f"  {' '.join(needed)}: {wanted.url.removesuffix('.git')}", file=sys.stderr)
     if not ask(plan):
         return False
-    result = fetcher.fetch(published)
+    result = fetcher.fetch(published, for_files=True)
     _print_result(result)
     return bool(result.folders)
 

@@ -82,12 +82,12 @@ def _get(args: argparse.Namespace, _: Packages) -> int:
     if not args.names:
         raise UsageError("give packages, or --missing and a launch file")
     if not args.missing:
-        return fetch_packages(args.names, args)
-    from trundle.live.missing_packages import missing_packages
+        return fetch_packages(args.names, args, for_files=True)
+    from trundle.live.launch.missing_packages import missing_packages
 
     asked: set[str] = set()
     while names := [name for name in missing_packages(args.names, os.environ) if name not in asked]:
-        if code := fetch_packages(names, args):
+        if code := fetch_packages(names, args, for_files=True):
             return code
         asked.update(names)
         args.yes = True  # what the packages need in turn was part of the question

@@ -171,8 +171,8 @@ KEYBOARDS = frozenset(
 CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
 """Nodes that open the page of the simulated world."""
 
-OURS_ALWAYS = frozenset({"gazebo_ros"})
-"""Packages that are replaced even if installed, since their programs would start another simulator."""
+OURS_ALWAYS = frozenset({"gazebo_ros", "sound_play"})
+"""Packages that are replaced even if installed: their programs would start another simulator, or want GStreamer."""
 
 _IN_PYTHON = (
     "arbotix_",

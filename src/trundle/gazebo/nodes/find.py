@@ -9,12 +9,15 @@ from pathlib import Path
 from typing import TypeAlias, cast
 
 from trundle.robots.packages import (
+    STOCK,
+    STOCK_WITH_FILES,
     cmake_programs,
     compiled_fault,
     package_in_container,
     program_folders,
     source_in_container,
 )
+from trundle.robots.repositories import repository_hint
 from trundle.ros import Node
 
 from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
@@ -117,7 +120,10 @@ def find_node(
         return MissingNode(f"{why}{hint}{way_out}")
     known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
     there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
-    return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{there_is}")
+    is_fetched = package in STOCK_WITH_FILES or package not in (*STOCK, *ALTERNATIVES)
+    published = repository_hint(package) if is_fetched else ""
+    fetched = f"{published}: trundle pack get {package}" if published else ""
+    return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{fetched}{there_is}")
 
 
 def _rosrun(package: str, name: str, words: Sequence[str]) -> str:

@@ -3,6 +3,7 @@
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from trundle.base.console import Console
@@ -69,14 +70,27 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     """Read the files of the command line; None: --nodes or the like printed them, and nothing is to run.
 
     Raises:
-        TrundleError: an invalid file or request.
+        TrundleError: an invalid file or request; an error on a missing package names all that are.
     """
     if options.master_port is not None:
         env["ROS_MASTER_URI"] = f"http://localhost:{options.master_port}"
-    report = Diagnostics(strict=options.strict)
-    show = Console(sys.stderr, report)
     packages = Packages(env, start=Path.cwd())
     request = LaunchRequest() if options.core_only else read_request(words, packages)
+    try:
+        return _read(request, options, packages, env)
+    except DescriptionError as error:
+        if not error.missing_packages:
+            raise
+        from .missing_packages import with_all_missing
+
+        raise with_all_missing(error, request, env) from None
+
+
+def _read(
+    request: LaunchRequest, options: LaunchOptions, packages: Packages, env: dict[str, str]
+) -> LoadedLaunch | None:
+    report = Diagnostics(strict=options.strict)
+    show = Console(sys.stderr, report)
     start = request.files[0] if request.files else Path.cwd()
     packages = packages.around(start)
     for package, variables in packages.hook_variables().items():
@@ -114,9 +128,11 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     if options.only == "params":
         print(printing.parameters(params))
         return None
-    for node in plan.nodes:
-        if node.address is None:
-            raise DescriptionError(node.at, f"node {node.name!r}: there is no machine {node.machine!r}")
+    placed = tuple(node for node in plan.nodes if node.address is not None)
+    if len(placed) < len(plan.nodes) and not packages.is_lenient:
+        node = next(node for node in plan.nodes if node.address is None)
+        raise DescriptionError(node.at, f"node {node.name!r}: there is no machine {node.machine!r}")
+    plan = replace(plan, nodes=placed)  # --lenient may have left the machine out
     return LoadedLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
 
 

@@ -65,18 +65,25 @@ class Fetcher:
         path = environment.get("ROS_PACKAGE_PATH", "")
         self._environment = {**environment, "ROS_PACKAGE_PATH": os.pathsep.join(filter(None, [path, str(folder)]))}
 
-    def plan(self, names: Iterable[str]) -> FetchPlan:
-        """Sort names of packages by where they come from."""
-        return plan_fetch(names, packages=self._packages(), index=self._index, distro=self._distro)
+    def plan(self, names: Iterable[str], *, for_files: bool = False) -> FetchPlan:
+        """Sort names of packages by where they come from; `for_files` as for `plan_fetch`."""
+        packages = self._packages()
+        return plan_fetch(names, packages=packages, index=self._index, distro=self._distro, for_files=for_files)
 
-    def fetch(self, names: Iterable[str]) -> FetchResult:
-        """Fetch packages and those that they need to run; a repository that fails does not stop the others."""
+    def fetch(self, names: Iterable[str], *, for_files: bool = False) -> FetchResult:
+        """Fetch packages and those that they need to run; a repository that fails does not stop the others.
+
+        Args:
+            names: of packages.
+            for_files: as for `plan_fetch`, of these; what they need in turn runs by stand-ins where there are some.
+        """
         result = FetchResult()
         asked: set[str] = set()
         waiting = list(dict.fromkeys(names))
         while waiting:
             asked.update(waiting)
-            plan = self.plan(waiting)
+            plan = self.plan(waiting, for_files=for_files)
+            for_files = False
             result.built_in += plan.built_in
             result.python_libraries += plan.python_libraries
             result.unknown += plan.unknown

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from trundle.robots.packages import STOCK, Packages
+from trundle.robots.packages import STOCK, STOCK_WITH_FILES, Packages
 from trundle.robots.repositories import Checkout, Index, python_library
 
 from .built_in import BUILT_IN
@@ -25,7 +25,9 @@ class FetchPlan:
     """Names that neither the index nor PyPI has: mostly libraries of the system."""
 
 
-def plan_fetch(names: Iterable[str], *, packages: Packages, index: Index, distro: str) -> FetchPlan:
+def plan_fetch(
+    names: Iterable[str], *, packages: Packages, index: Index, distro: str, for_files: bool = False
+) -> FetchPlan:
     """Sort names of packages, as package.xml and apt give them.
 
     Args:
@@ -33,10 +35,12 @@ def plan_fetch(names: Iterable[str], *, packages: Packages, index: Index, distro
         packages: those that are here.
         index: of published packages.
         distro: whose branches are preferred.
+        for_files: packages are wanted for their files, also where their nodes have stand-ins.
     """
     plan = FetchPlan()
+    built_in = BUILT_IN | (STOCK - STOCK_WITH_FILES if for_files else STOCK)
     for name in dict.fromkeys(names):
-        if name in BUILT_IN or name in STOCK:
+        if name in built_in:
             plan.built_in.append(name)
         elif packages.find_package(name) is not None:
             plan.present.append(name)

@@ -70,9 +70,10 @@ class Attributes:
         """Read a file that an attribute names.
 
         Raises:
-            DescriptionError: it may not be read.
+            DescriptionError: it may not be read, or its package is missing.
             ValueError: it does not exist or cannot be read.
         """
+        self._substitution.refuse_absent(name, self.at)
         return self._substitution.files.read(name, self.at)
 
     def required(self, name: str, *, empty: bool = False) -> str:

@@ -11,6 +11,10 @@ class PackageFinder(Protocol):
         """Folder that `$(find name)` stands for; None if the package is unknown."""
         ...
 
+    def absent_package(self, file: Path, /) -> str | None:
+        """Package whose absence is why a file below a `find_folder` is missing; None: another reason, or it is here."""
+        ...
+
     @property
     def is_lenient(self) -> bool:
         """True if elements that need missing packages are left out."""

@@ -284,6 +284,7 @@ class _Reader:
         given = passed.declared
         passed.declared = set()
         self._files.check(file, node.at)
+        self._substitution.refuse_absent(file, node.at)
         if not os.path.exists(file):
             raise DescriptionError(node.at, f"no launch file {file!r} to include")
         try:

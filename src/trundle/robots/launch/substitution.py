@@ -69,6 +69,19 @@ class Substitution:
         if self.packages.is_lenient and (match := _IN_MISSING.search(text)):
             raise MissingPackageError(at, f"no package {match[1]!r}")
 
+    def refuse_absent(self, file: str, at: Source) -> None:
+        """Refuse a file that is missing because its package is.
+
+        Raises:
+            MissingPackageError: it is; stand-ins of the package's nodes bring no files.
+        """
+        name = self.packages.absent_package(Path(file))
+        if name is None:
+            return
+        if self.missing is not None:
+            self.missing.add(name, at)
+        raise MissingPackageError(at, f"{self.packages.why_not_found(name)}; its stand-in has no {Path(file).name}")
+
     def _replace(self, text: str, commands: tuple[str, ...], scope: Scope, at: Source) -> str:
         def value(match: re.Match[str]) -> str:
             body: str = match[1]

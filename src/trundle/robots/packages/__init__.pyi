@@ -22,4 +22,5 @@ from .ros2 import refuse_ros2_language as refuse_ros2_language
 from .ros_packages import fetched_folder as fetched_folder
 from .rule_exports import exported_rules as exported_rules
 from .stock import STOCK as STOCK
+from .stock import STOCK_WITH_FILES as STOCK_WITH_FILES
 from .workspace import program_folders as program_folders

@@ -29,6 +29,7 @@ LENIENT = "TRUNDLE_LENIENT"
 HELD = ".held"
 """Ending of uploaded files of code, which are no plugins until a person agrees."""
 
+_OWN_PACKAGES = ASSETS / "ros_packages"
 _LONGEST = 200
 """Longest name or URI in a message."""
 _FUEL_MODEL = re.compile(r"/models/([^/]+)(?:/(?:\d+|tip)(?:/files(/.*[^/]))?)?/?$")
@@ -78,18 +79,18 @@ class Packages:
         if found is not None and found not in self._cache.configured and not found.is_relative_to(ASSETS):
             self._cache.configured[found] = write_configured_files(found, replace=False)
         found = found or DESCRIPTIONS.get(name)
-        return found or (ASSETS / "ros_packages" / name if name in STOCK else None)
+        return found or (_OWN_PACKAGES / name if name in STOCK else None)
 
     def stand_in_package(self, path: Path) -> str | None:
         """Return the package that a shipped file, existing or not, substitutes; None for other files."""
         return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
 
-    def is_absent(self, file: Path) -> bool:
-        """True if a file is missing because its package is, whose substitute lacks it."""
-        is_ours = self.stand_in_package(file) is not None or any(
-            file.is_relative_to(ASSETS / "ros_packages" / n) for n in STOCK
-        )
-        return is_ours and not os.path.exists(file)
+    def absent_package(self, file: Path) -> str | None:
+        """Return the package whose absence is why a file is missing; None: another reason, or it is there."""
+        if os.path.exists(file):
+            return None
+        parts = file.relative_to(_OWN_PACKAGES).parts if file.is_relative_to(_OWN_PACKAGES) else ()
+        return parts[0] if parts and parts[0] in STOCK else self.stand_in_package(file)
 
     @property
     def is_lenient(self) -> bool:

@@ -13,13 +13,16 @@ _TOOLS = (
     "gazebo_ros_pkgs rosbag roscpp roslaunch roslib rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostopic"
 )
 _NODES = """
-    arbotix_controllers arbotix_python controller_manager cv_camera depthimage_to_laserscan dynamic_reconfigure
-    gscam image_view joint_state_publisher joint_state_publisher_gui joy map_server nodelet pointcloud_to_laserscan
-    robot_localization robot_pose_publisher robot_state_publisher rosapi rosbridge_server rqt_bag rqt_console
+    arbotix_controllers arbotix_python controller_manager dynamic_reconfigure joint_state_publisher
+    joint_state_publisher_gui map_server nodelet robot_state_publisher rosapi rosbridge_server rqt_bag rqt_console
     rqt_graph rqt_gui rqt_image_view rqt_joint_trajectory_controller rqt_plot rqt_publisher rqt_reconfigure
-    rqt_robot_monitor rqt_robot_steering rqt_service_caller rqt_tf_tree rqt_topic rviz sound_play teleop_twist_joy
-    teleop_twist_keyboard tf tf2_ros tf2_tools tf2_web_republisher topic_tools turtlebot3_teleop turtlebot_teleop
-    turtlesim twist_mux usb_cam web_video_server
+    rqt_robot_monitor rqt_robot_steering rqt_service_caller rqt_tf_tree rqt_topic rviz tf tf2_ros tf2_tools
+    tf2_web_republisher topic_tools turtlesim twist_mux
+"""
+_NODES_WITH_FILES = """
+    cv_camera depthimage_to_laserscan gscam image_view joy pointcloud_to_laserscan robot_localization
+    robot_pose_publisher sound_play teleop_twist_joy teleop_twist_keyboard turtlebot3_teleop turtlebot_teleop usb_cam
+    web_video_server
 """
 _PLUGINS = """
     gazebo_grasp_plugin gazebo_plugins gazebo_ros_control gazebo_ros_link_attacher hector_gazebo_plugins
@@ -32,6 +35,8 @@ _CONTROLLERS = """
     joint_trajectory_controller mecanum_drive_controller position_controllers velocity_controllers
 """
 _DESCRIPTIONS = ASSETS / "descriptions"
-STOCK = frozenset(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
+STOCK_WITH_FILES = frozenset(_NODES_WITH_FILES.split())
+"""Packages with launch files, parameters or modules that people use: fetched when asked for by name."""
+STOCK = STOCK_WITH_FILES.union(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
 DESCRIPTIONS = {name: _DESCRIPTIONS / name for name in sorted(os.listdir(_DESCRIPTIONS))}
 """Substitutes for sensor description packages: name → folder."""

@@ -35,9 +35,11 @@ def description_error(error: Exception, at: Source, top: Path, files: Iterable[s
     inner: object = error
     expression = None
     what = ""
+    missing = missing_package(error)
+    names = () if missing is None else (missing.name,)
     while inner is not None:
         if isinstance(inner, DescriptionError):  # refused within an expression
-            at, what = inner.at, inner.what
+            at, what, names = inner.at, inner.what, inner.missing_packages
         elif isinstance(inner, OSError):
             what = _why_unreadable(inner)
         elif found := _EXPRESSION.match(str(getattr(inner, "suffix", ""))):
@@ -46,10 +48,10 @@ def description_error(error: Exception, at: Source, top: Path, files: Iterable[s
     what = what or re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
     what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
     place = None if expression is None else _find_place(f"${{{expression}}}", {at.file, *files})
-    missing, place = missing_package(error), place or at
+    place = place or at
     if _UNDEFINED.match(what) and place.file == str(top):
         what = f"{what}; is the file a part to include, not a robot? what includes it defines the name"
-    return DescriptionError(place, what, missing_packages=() if missing is None else (missing.name,))
+    return DescriptionError(place, what, missing_packages=names)
 
 
 def _why_unreadable(error: OSError) -> str:

@@ -293,9 +293,10 @@ def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget)
 
 
 def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
-    package = packages.stand_in_package(file)
-    if package is not None and packages.is_absent(file):
-        raise DescriptionError(at, f"{packages.why_not_found(package)}; its stand-in has no {file.name}")
+    package = packages.absent_package(file)
+    if package is not None:
+        what = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
+        raise DescriptionError(at, what, missing_packages=(package,))
 
 
 def _data(name: str) -> bytes:

@@ -1,6 +1,5 @@
 """Handling of missing packages: their includes and macro calls are left out, with a warning each."""
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -51,7 +50,7 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
             left_out.append(spec)
             report.warn(place_of(node), f"{missing}; the include is left out")
             return iter(())
-        if files and not os.path.exists(files[0]) and packages.is_absent(Path(files[0])):
+        if files and packages.absent_package(Path(files[0])) is not None:
             left_out.append(spec)
             report.warn(
                 place_of(node),
