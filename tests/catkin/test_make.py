@@ -2,7 +2,9 @@
 
 import os
 import re
+import socket
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,15 @@ from trundle.ros.catkin import NewPackage, create_package
 
 _ORIGINAL = Path("/usr/bin/catkin_make")
 _VARIABLES = ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")
+
+
+_DRIVE = """#include <ros/ros.h>
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "drive");
+  ros::NodeHandle own("~");
+  ROS_INFO("%s drives at %d", ros::this_node::getName().c_str(), own.param("speed", 0));
+}
+"""
 
 
 @pytest.fixture
@@ -53,6 +64,75 @@ def test_a_workspace_gets_its_devel_space(workspace: Path, capsys: pytest.Captur
     assert (workspace / "src/CMakeLists.txt").exists()
     assert (workspace / ".catkin_workspace").exists()
     assert _make() == 0, "a second time it is the same"
+
+
+@pytest.mark.parametrize(
+    ("needed", "known", "said"),
+    [
+        (
+            "no_such_arm",
+            "catkin libno-such-arm-dev",
+            "apt install catkin libno-such-arm-dev, and then /usr/bin/catkin_make compiles them",
+        ),
+        ("no_such_arm", "libroscpp-dev", "there is neither a C++ compiler nor catkin here, which ROS 1 brings"),
+        ("zeta", "catkin", "apt install catkin, and then /usr/bin/catkin_make compiles them"),
+    ],
+    ids=["Debian has all", "Debian lacks it", "the workspace has it"],
+)
+def test_debian_s_packages_that_a_build_needs_are_named(
+    workspace: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    needed: str,
+    known: str,
+    said: str,
+) -> None:
+    cmake = workspace / "src/alpha/CMakeLists.txt"
+    cmake.write_text(f"find_package({needed} REQUIRED)\n{cmake.read_text()}")
+    programs = workspace / "programs"
+    programs.mkdir()
+    (programs / "apt-cache").write_text(f'#!/bin/sh\n[ "$1" = pkgnames ] && printf "%s\\n" {known}\n')
+    (programs / "apt-cache").chmod(0o755)
+    monkeypatch.setenv("PATH", str(programs))
+
+    assert _make() == 0
+
+    assert capsys.readouterr().err == f"-- 2 C++ targets are not built; all else runs as it is; {said}\n"
+
+
+@pytest.mark.slow
+@pytest.mark.real_ros
+def test_a_node_that_debian_s_catkin_compiled_runs_in_a_launch(tmp_path: Path) -> None:
+    """First it is named with its source, as the launch goes on without it."""
+    if not _ORIGINAL.exists():
+        pytest.skip("Debian's catkin is not installed (make system)")
+    package = tmp_path / "ws/src/drive"
+    list(create_package(package.parent, NewPackage(name="drive", dependencies=("roscpp",))))
+    with (package / "CMakeLists.txt").open("a") as file:
+        file.write("add_executable(drive src/drive.cpp)\ntarget_link_libraries(drive ${catkin_LIBRARIES})\n")
+    (package / "src").mkdir(exist_ok=True)
+    (package / "src/drive.cpp").write_text(_DRIVE)
+    launch = tmp_path / "drive.launch"
+    launch.write_text(
+        '<launch><node pkg="drive" type="drive" name="left" ns="r1" output="screen" required="true">'
+        '<param name="speed" value="3"/></node></launch>'
+    )
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        uri = f"http://127.0.0.1:{probe.getsockname()[1]}"
+    env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "ROS_PACKAGE_PATH": str(package.parent)}
+
+    def run(*words: str | Path) -> str:
+        there = {**env, "ROS_MASTER_URI": uri}
+        done = subprocess.run(words, cwd=tmp_path / "ws", env=there, capture_output=True, text=True, check=False)
+        return done.stdout + done.stderr
+
+    command = (sys.executable, "-m", "trundle", "launch", launch, "--headless")
+    assert f"C++ not compiled yet: {package}/CMakeLists.txt:" in run(*command)
+    run(_ORIGINAL)
+    said = run(*command)
+    assert f"process  /r1/left  {tmp_path}/ws/devel/lib/drive/drive" in said
+    assert "/r1/left drives at 3" in said
 
 
 @pytest.mark.parametrize("shell", ["sh", "bash"])

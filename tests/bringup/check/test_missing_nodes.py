@@ -51,6 +51,19 @@ def test_a_program_of_a_workspace_is_found(tmp_path: Path) -> None:
     assert checked(package, '<node pkg="robot" type="drive.py" name="n"/>').report.findings == []
 
 
+def test_the_command_for_a_container_has_a_nodelets_name_and_remappings(tmp_path: Path) -> None:
+    """Loaded by its own process, with what the manager would have given it."""
+    arguments = "load image_proc/rectify manager --no-bond _queue:=3"
+    node = (
+        f'<node pkg="nodelet" type="nodelet" name="rectify" ns="r1" args="{arguments}"><remap from="a" to="b"/></node>'
+    )
+
+    (warning,) = checked(tmp_path, node).report.warnings
+
+    words = "standalone image_proc/rectify _queue:=3 a:=b __name:=rectify __ns:=/r1"
+    assert f"rosrun nodelet nodelet {words}'" in warning
+
+
 def test_the_command_for_a_container_has_the_nodes_name_and_remappings(tmp_path: Path) -> None:
     """Under its own name it would find none of the launch's private parameters."""
     node = '<node pkg="move_base" type="move_base" name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'

@@ -102,7 +102,7 @@ def find_node(
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
-        missing = _nodelet(arguments, find_package, env) if type_name == "nodelet" else None
+        missing = _nodelet(arguments, find_package, env, words) if type_name == "nodelet" else None
         return missing or BuiltinReplacement(target)
     for built in () if folder is None else _built(package, type_name, folder, env):
         if (fault := compiled_fault(built, env)) is None:
@@ -150,13 +150,20 @@ def _programs_there(package: str, folder: Path, env: Mapping[str, str]) -> str:
     return f"; its programs: {', '.join(names[:_PROGRAMS_NAMED])}{more}" if names else ""
 
 
-def missing_nodelet(name: str, find_package: FindPackage, env: Mapping[str, str]) -> str:
-    """Error message for a nodelet without replacement; `find_package` and `env` are those of `find_node`."""
+def missing_nodelet(name: str, find_package: FindPackage, env: Mapping[str, str], words: Sequence[str] = ()) -> str:
+    """Error message for a nodelet without replacement.
+
+    Args:
+        name: of its class.
+        find_package: as `find_node`.
+        env: as `find_node`.
+        words: its arguments, remappings and name, for advice to run it elsewhere.
+    """
     what = f"nodelet {name}: compiled code without a stand-in; available: {', '.join(NODELETS)}"
     package, slash, _ = name.partition("/")
     if not slash:
         return what
-    folder, command = find_package(package), f"rosrun nodelet nodelet standalone {shlex.quote(name)}"
+    folder, command = find_package(package), _rosrun("nodelet", "nodelet", ["standalone", name, *words])
     if folder is None or not os.path.isfile(folder / "CMakeLists.txt"):
         line = package_in_container(package, command, env)
     else:
@@ -164,11 +171,15 @@ def missing_nodelet(name: str, find_package: FindPackage, env: Mapping[str, str]
     return f"{what}; {OVER_THE_WIRE}: {line}"
 
 
-def _nodelet(arguments: str, find_package: FindPackage, env: Mapping[str, str]) -> MissingNode | None:
+def _nodelet(
+    arguments: str, find_package: FindPackage, env: Mapping[str, str], words: Sequence[str]
+) -> MissingNode | None:
     """Missing nodelet class of a nodelet command line; None if it is available."""
+    after = [word for word in words if not word.startswith("--")]
     match arguments.split():
-        case ["load" | "standalone", name, *_] if name not in NODELETS:
-            return MissingNode(missing_nodelet(name, find_package, env))
+        case ["load" | "standalone" as how, name, *_] if name not in NODELETS:
+            rest = after[3 if how == "load" else 2 :]  # the class, and the manager that would load it
+            return MissingNode(missing_nodelet(name, find_package, env, rest))
         case _:
             return None
 

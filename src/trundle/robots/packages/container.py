@@ -6,6 +6,7 @@ from pathlib import Path
 
 IMAGE = "ros:noetic-ros-base"
 _MASTER = "http://localhost:11311"
+_ADDRESSES = ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME")
 _RUN = "docker run --rm -it --network host"
 
 
@@ -38,4 +39,5 @@ def _debian(package: str) -> str:
 
 
 def _master(env: Mapping[str, str]) -> str:
-    return f"-e ROS_MASTER_URI={shlex.quote(env.get('ROS_MASTER_URI', _MASTER))}"
+    own = {"ROS_MASTER_URI": _MASTER, **{name: env[name] for name in _ADDRESSES if env.get(name)}}
+    return " ".join(f"-e {name}={shlex.quote(value)}" for name, value in own.items())

@@ -1,3 +1,4 @@
+from .apt import debian_packages as debian_packages
 from .build_report import CppTarget as CppTarget
 from .build_report import PackageBuild as PackageBuild
 from .build_report import report_package as report_package

@@ -53,8 +53,15 @@ class PackageBuild:
     """Packages that its CMakeLists.txt has to find and that are not installed."""
 
 
-def report_package(name: str, folder: Path, environment: Mapping[str, str]) -> PackageBuild:
-    """Look at a package's files and the targets of its CMakeLists.txt."""
+def report_package(packages: Mapping[str, Path], name: str, environment: Mapping[str, str]) -> PackageBuild:
+    """Look at a package's files and the targets of its CMakeLists.txt.
+
+    Args:
+        packages: of the workspace, by name; they are built together.
+        name: of the package.
+        environment: names the folders of what is installed.
+    """
+    folder = packages[name]
     counts: Counter[str] = Counter()
     for root, folders, files in os.walk(folder):
         folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
@@ -76,7 +83,9 @@ def report_package(name: str, folder: Path, environment: Mapping[str, str]) -> P
     return PackageBuild(
         ready=tuple(f"{count} {kind}" for kind, count in sorted(counts.items())),
         targets=(*programs, *libraries),
-        missing=tuple(each for each in required if not _is_installed(each, [*prefixes, "/usr"])),
+        missing=tuple(
+            each for each in required if each not in packages and not _is_installed(each, [*prefixes, "/usr"])
+        ),
     )
 
 

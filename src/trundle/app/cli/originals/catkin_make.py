@@ -4,6 +4,7 @@ import argparse
 import os
 import shutil
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -57,7 +58,8 @@ def main(args: argparse.Namespace) -> int:
     for name, space in (("Base path", base), ("Source space", workspace.source), ("Build space", workspace.build)):
         print(f"{name}: {space}")
     print(f"Devel space: {workspace.devel}\nInstall space: {workspace.install}")
-    packages = _chosen(workspace, [*args.pkg, *args.only_pkg_with_deps])
+    known = workspace.packages()
+    packages = _chosen(known, [*args.pkg, *args.only_pkg_with_deps])
     if not (workspace.source / "CMakeLists.txt").exists():
         print(init_workspace(workspace.source, os.environ))
     is_ours = write_devel_space(workspace, os.environ)
@@ -67,17 +69,20 @@ def main(args: argparse.Namespace) -> int:
     print(f"{_LINE}\n-- ~~  traversing {len(packages)} packages in topological order:")
     print("".join(f"-- ~~  - {name}\n" for name in packages) + _LINE)
     unbuilt: list[CppTarget] = []
+    missing: list[str] = []
     for name, folder in packages.items():
         print(f"-- +++ processing catkin package: '{name}'")
         for path in write_configured_files(folder, replace=True):
             print(f"--   configured: {os.path.relpath(path, workspace.base)}")
-        build = report_package(name, folder, os.environ)
+        build = report_package(known, name, os.environ)
         print("\n".join(_lines(build, workspace)))
-        unbuilt += [target for target in build.targets if target.built is None or target.fault is not None]
+        left = [target for target in build.targets if target.built is None or target.fault is not None]
+        unbuilt += left
+        missing += build.missing if left else ()
     for target in args.targets:
         print(f"-- target {target!r} is not run: nothing is compiled here", file=sys.stderr)
     if unbuilt:
-        print(_way_out(unbuilt), file=sys.stderr)
+        print(_way_out(len(unbuilt), missing), file=sys.stderr)
     print(f"-- source {workspace.devel}/setup.bash makes the packages known to this shell")
     return 0
 
@@ -86,8 +91,7 @@ def _last(words: list[str], prefix: str) -> str | None:
     return next((word.removeprefix(prefix) for word in reversed(words) if word.startswith(prefix)), None)
 
 
-def _chosen(workspace: "Workspace", names: list[str]) -> dict[str, Path]:
-    packages = workspace.packages()
+def _chosen(packages: Mapping[str, Path], names: list[str]) -> dict[str, Path]:
     unknown = [name for name in names if name not in packages]
     if names and len(unknown) == len(names):
         raise UsageError(f'Packages "{", ".join(unknown)}" not found in the workspace')
@@ -110,12 +114,28 @@ def _lines(build: "PackageBuild", workspace: "Workspace") -> list[str]:
     return lines
 
 
-def _way_out(unbuilt: "list[CppTarget]") -> str:
-    """Return a line on what is left out, and how it could be built here."""
-    count = f"{len(unbuilt)} C++ target{'s are' if len(unbuilt) > 1 else ' is'} not built; all else runs as it is"
+def _way_out(unbuilt: int, missing: list[str]) -> str:
+    """Return a line on how the rest could be built here.
+
+    Args:
+        unbuilt: number of programs and libraries that are not built.
+        missing: what CMake has to find for them and this machine lacks.
+    """
+    from trundle.ros.catkin import debian_packages
+
+    them = "them" if unbuilt > 1 else "it"
+    count = f"{unbuilt} C++ target{'s are' if unbuilt > 1 else ' is'} not built; all else runs as it is"
     original = find_own("catkin_make")
+    lacking = list(dict.fromkeys(missing if original else [*missing, "catkin"]))
+    packages = debian_packages(lacking) if lacking else {}
+    if original is not None and not lacking:
+        return f"-- {count}; {original} compiles {them}"
+    if len(packages) == len(lacking):
+        install = f"apt install {' '.join(sorted(packages.values()))}"
+        return f"-- {count}; {install}, and then {original or '/usr/bin/catkin_make'} compiles {them}"
     if original is not None:
-        return f"-- {count}; {original} compiles them"
+        without = ", ".join(name for name in lacking if name not in packages)
+        return f"-- {count}; {original} compiles {them}, once there is {without}, which apt does not have"
     compiler = next((found for name in _COMPILERS if (found := shutil.which(name))), None)
     has = f"there is a compiler, {compiler}, but no" if compiler else "there is neither a C++ compiler nor"
     return f"-- {count}; {has} catkin here, which ROS 1 brings"

@@ -1,0 +1,42 @@
+"""The command lines that run a missing node's real program in a container: what is inside runs, by its name here."""
+
+import re
+import shlex
+from itertools import pairwise
+from pathlib import Path
+
+LAUNCH = """<launch>
+  <node pkg="move_base" type="move_base" name="planner" ns="r1" args="-v 'two words'">
+    <remap from="goal" to="/elsewhere/goal"/>
+    <param name="rate" value="5"/>
+  </node>
+</launch>"""
+REAL = """#!/usr/bin/env python3
+import rospy
+rospy.init_node("its_own_name")
+print(rospy.get_name(), rospy.get_param("~rate"), rospy.resolve_name("goal"), rospy.myargv()[1:])
+"""
+
+
+def test_the_real_node_has_the_launchs_name_parameters_and_remappings(start, trundle, until, tmp_path: Path) -> None:
+    """A twin of the real program stands in for the one that the container would install."""
+    program = tmp_path / "installed/move_base/scripts/move_base"
+    program.parent.mkdir(parents=True)
+    (program.parents[1] / "package.xml").write_text("<package><name>move_base</name></package>")
+    program.write_text(REAL)
+    program.chmod(0o755)
+    (tmp_path / "a.launch").write_text(LAUNCH)
+    launch = start("launch", "a.launch", "--headless", "--no-summary", ROS_HOSTNAME="127.0.0.1")
+    until("the table", lambda: "missing  /r1/planner" in launch.output())
+
+    found = re.search(r"docker run --rm -it --network host .*", launch.output().partition("WHAT RUNS")[2])
+    assert found is not None
+    *outside, script = shlex.split(found[0])
+    variables = dict(word.split("=", 1) for before, word in pairwise(outside) if before == "-e")
+    *_, (program_name, *words) = [shlex.split(each) for each in script.split(" && ")]
+    assert program_name == "rosrun"
+    assert set(variables) == {"ROS_MASTER_URI", "ROS_HOSTNAME"}
+    ran = trundle("exec", *words, ROS_PACKAGE_PATH=str(tmp_path / "installed"), **variables)
+
+    assert ran.stdout.splitlines()[0] == "/r1/planner 5 /elsewhere/goal ['-v', 'two words']", ran.stderr
+    assert launch.interrupt() == 130
