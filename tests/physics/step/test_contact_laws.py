@@ -138,6 +138,24 @@ def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tm
     assert _looks_ahead(model), "for others that step this model"
 
 
+CASED = """<model name="robot"><pose>0 0 1 0 0 0</pose><link name="l"><inertial><mass>2</mass><inertia><ixx>0.01</ixx>
+<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name="casing"><geometry><box><size>0.2 0.2 0.1</size>
+</box></geometry></collision><collision name="sheet"><pose>{} 0 -0.04 0 0 0</pose><geometry><box>
+<size>0.1 0.1 0.0002</size></box></geometry></collision></link></model>"""
+
+
+@pytest.mark.parametrize(("at_x", "looks"), [(0.05, False), (0.5, True)], ids=["in its casing", "on an arm"])
+def test_a_thin_part_within_a_thick_one_is_not_looked_ahead_for(tmp_path: Path, at_x: float, looks: bool) -> None:
+    """Worlds of thousands of thin shapes, as a building's walls, step many times faster without."""
+    sim = _load(tmp_path, CASED.format(at_x) + PLATE)
+    assert _looks_ahead(sim.engine.compiled.model) == looks
+
+    sim["robot"].set_twist(Twist(linear=(0.0, 0.0, -10.0)))
+    sim.step(1000)
+
+    assert sim["robot"].pose.position[2] > 0.0, "nothing went through the plate"
+
+
 def test_a_world_with_something_thin_looks_ahead_after_its_state_was_written(tmp_path: Path) -> None:
     sim = _load(tmp_path, SMALL_BALL + PLATE)
     with _noted_steps() as steps:
