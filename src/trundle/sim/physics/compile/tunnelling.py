@@ -5,8 +5,8 @@ contact pushes it out on the far side. MuJoCo's speculative contacts prevent tha
 ten of them 14 % and a furnished house 25 %: only worlds that need them pay, and only while a body has at least half the
 critical speed (`cpp/tunnelling.cc`), which leaves room for the acceleration of a step and for two moving bodies.
 
-A thin shape beside a thick one of its body, as within the casing of a robot, goes nowhere without it: the thick one is
-stopped.
+A thin shape beside a thicker one of its body, as a piece of a robot's casing, goes nowhere without it: the thicker one
+is stopped.
 """
 
 from collections.abc import Iterable
@@ -34,23 +34,30 @@ def enable_ccd(model: mujoco.MjModel, shapes: Iterable[ShapeEntry]) -> None:
     moving = np.array([model.geom(shape.name).id for shape in touching if not shape.fixed], dtype=int)
     if not standing.size or not moving.size:
         return
-    step_m = _DEEP * model.opt.timestep
-    thinnest = float(halves[standing].min())
-    moving = moving[~_are_beside_thick_ones(model, moving, halves[moving] + thinnest >= _FASTEST * step_m)]
-    if moving.size:
-        speed = (thinnest + float(halves[moving].min())) / step_m
+    thickness = float(halves[standing].min()) + float(_thickest_around(model, moving, halves[moving]).min())
+    speed = thickness / (_DEEP * model.opt.timestep)
+    if speed < _FASTEST:
         find_table(model, "laws")[0, 8] = max(speed / 2, _SLOWEST)
         model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_SPECULATIVE
 
 
-def _are_beside_thick_ones(
-    model: mujoco.MjModel, shapes: npt.NDArray[np.int_], are_thick: npt.NDArray[np.bool_]
-) -> npt.NDArray[np.bool_]:
-    """Return for each shape whether it is thick, or its middle is in the bounding sphere of a thick one of its body."""
-    beside = are_thick.copy()
+def _thickest_around(
+    model: mujoco.MjModel, shapes: npt.NDArray[np.int_], halves: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    """Return the largest half thickness among each shape and those of its body in whose bounding sphere its middle is.
+
+    Args:
+        model: as compiled.
+        shapes: numbers of geoms, (n,).
+        halves: their half thicknesses [m], (n,).
+    """
+    largest = halves.copy()
     bodies = model.geom_bodyid[shapes]
-    for thick in shapes[are_thick & np.isin(bodies, bodies[~are_thick])]:
-        same = bodies == model.geom_bodyid[thick]
-        distances = np.linalg.norm(model.geom_pos[shapes] - model.geom_pos[thick], axis=1)
-        beside |= same & (distances <= model.geom_rbound[thick])
-    return beside
+    order = np.argsort(bodies, kind="stable")
+    for group in np.split(order, np.flatnonzero(np.diff(bodies[order])) + 1):
+        middles = model.geom_pos[shapes[group]]
+        for each in group if len(group) > 1 else ():
+            distances = np.linalg.norm(middles - model.geom_pos[shapes[each]], axis=1)
+            around = group[distances <= model.geom_rbound[shapes[each]]]
+            largest[around] = np.maximum(largest[around], halves[each])
+    return largest
