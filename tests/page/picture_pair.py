@@ -24,8 +24,7 @@ from tests.page_client import page_url
 
 from trundle.page import PageServer, Session
 from trundle.page.session import RvizFile
-from trundle.ros import StaticTransformBroadcaster
-from trundle.ros.clients.tf_buffer import Transform
+from trundle.ros import StaticTransformBroadcaster, Transform
 
 OUT = Path(__file__).parents[2] / "out" / "rviz_pictures"
 MESHES = Path(__file__).parents[1] / "data"

@@ -5,8 +5,7 @@ import random
 from pathlib import Path
 from typing import Any
 
-from trundle.ros.clients.tf_buffer import Transform, TransformBuffer
-from trundle.ros.errors import TransformError
+from trundle.ros import Transform, TransformBuffer, TransformError
 
 FILE = Path(__file__).parents[2] / "web/test/frames/tf_lookups.json"
 MS = 1_000_000
@@ -52,6 +51,7 @@ def lookups() -> dict[str, Any]:
 
 def answer(buffer: TransformBuffer, target: str, source: str, stamp: int) -> dict[str, Any]:
     try:
+        buffer.path(target, source)  # two trees: the client says so at any time, tf2 where the time is in both
         found = buffer.lookup_transform(target, source, stamp)
     except TransformError as error:
         return {"error": next(words for words in WORDS if words in str(error))}

@@ -59,9 +59,9 @@ def test_nothing_is_guessed_outside_what_is_known() -> None:
     buffer = TransformBuffer()
     buffer.set_transform(_at(1, 0.0))
     buffer.set_transform(_at(2, 0.0))
-    with pytest.raises(TransformError, match="extrapolation into the future"):
+    with pytest.raises(TransformError, match="into the future"):
         buffer.lookup_transform("odom", "base", 3 * S)
-    with pytest.raises(TransformError, match="extrapolation into the past"):
+    with pytest.raises(TransformError, match="into the past"):
         buffer.lookup_transform("odom", "base", 1)
 
 
@@ -80,10 +80,28 @@ def test_ten_seconds_are_kept_and_static_transforms_for_ever() -> None:
     buffer.set_transform(_at(1, 0.0))
     buffer.set_transform(_at(20, 0.0))
     buffer.set_transform(_at(1, 0.0, parent="base", child="laser"), static=True)
-    with pytest.raises(TransformError, match="past"):
+    with pytest.raises(TransformError, match="only time 20"):
         buffer.lookup_transform("odom", "base", 5 * S)
     assert not buffer.set_transform(_at(5, 0.0))
     assert buffer.can_transform("odom", "laser")
+
+
+def test_the_first_transform_of_a_stamp_is_kept() -> None:
+    """As tf2 does, which names repeated data and ignores it."""
+    buffer = TransformBuffer()
+    assert buffer.set_transform(_at(1, 2.0))
+    assert not buffer.set_transform(_at(1, 3.0))
+    assert buffer.lookup_transform("odom", "base").translation[0] == 2.0
+
+
+def test_a_common_ancestor_is_found_where_the_frames_above_it_lack_the_time() -> None:
+    """tf2 looks between two frames no farther up than where they meet."""
+    buffer = TransformBuffer()
+    buffer.set_transform(_at(1, 0.0, parent="odom", child="base"))
+    for child, x in (("left", 1.0), ("right", 3.0)):
+        for seconds in (4, 6):
+            buffer.set_transform(_at(seconds, x, parent="base", child=child))
+    assert buffer.lookup_transform("left", "right", 5 * S).translation == (2.0, 0.0, 0.0)
 
 
 def test_a_leading_slash_is_stripped() -> None:
@@ -114,8 +132,9 @@ def test_a_loop_is_found() -> None:
     buffer = TransformBuffer()
     buffer.set_transform(_at(1, 0.0, parent="a", child="b"))
     buffer.set_transform(_at(1, 0.0, parent="b", child="a"))
+    buffer.set_transform(_at(1, 0.0))
     with pytest.raises(TransformError, match="loop"):
-        buffer.lookup_transform("a", "b")
+        buffer.lookup_transform("odom", "b")
 
 
 def test_a_loop_of_an_earlier_time_is_found() -> None:
@@ -129,11 +148,11 @@ def test_a_loop_of_an_earlier_time_is_found() -> None:
         buffer.lookup_transform("odom", "a", S)
 
 
-def test_a_frame_that_hung_elsewhere_at_that_time_is_named() -> None:
+def test_a_frame_of_another_tree_at_that_time_is_not_connected() -> None:
     buffer = TransformBuffer()
     buffer.set_transform(_at(1, 0.0, parent="map"))
     buffer.set_transform(_at(2, 0.0, parent="odom"))
-    with pytest.raises(TransformError, match="'map' had no parent"):
+    with pytest.raises(TransformError, match="'odom' and 'base' because they are not part of the same tree"):
         buffer.lookup_transform("odom", "base", S)
 
 

@@ -25,7 +25,6 @@ from .clients.reconfigure_server import Option as Option
 from .clients.reconfigure_server import Options as Options
 from .clients.reconfigure_server import OptionValue as OptionValue
 from .clients.reconfigure_server import ReconfigureServer as ReconfigureServer
-from .clients.tf_buffer import Transform as Transform
 from .clients.tf_buffer import TransformBuffer as TransformBuffer
 from .clients.tf_nodes import StaticTransformBroadcaster as StaticTransformBroadcaster
 from .clients.tf_nodes import TransformBroadcaster as TransformBroadcaster
@@ -34,6 +33,8 @@ from .clients.topic_series import TopicSeries as TopicSeries
 from .clients.topic_series import recent_curves as recent_curves
 from .clients.topic_series import spread_fields as spread_fields
 from .clients.topic_series import subscribe_series as subscribe_series
+from .clients.transform_history import Transform as Transform
+from .clients.transform_tree import check_frame_name as check_frame_name
 from .core.core import Core as Core
 from .core.logs import PYTHON_LOG_BACKUPS as PYTHON_LOG_BACKUPS
 from .core.logs import PYTHON_LOG_BYTES as PYTHON_LOG_BYTES
@@ -41,6 +42,9 @@ from .core.logs import python_log_line as python_log_line
 from .distro import DISTROS as DISTROS
 from .distro import NOETIC as NOETIC
 from .distro import Distro as Distro
+from .errors import ConnectivityError as ConnectivityError
+from .errors import ExtrapolationError as ExtrapolationError
+from .errors import FrameNameError as FrameNameError
 from .errors import MasterError as MasterError
 from .errors import MasterUnreachableError as MasterUnreachableError
 from .errors import MessageError as MessageError

@@ -9,7 +9,11 @@ TrundleError
     ├── MessageError             no such type or field, or a value that does not fit it
     │   └── DefinitionError      the definition of a type cannot be parsed
     ├── ServiceError             a service answered with an error, or could not be reached
-    ├── TransformError           no such frame, or no transform at that time
+    ├── TransformError           no such transform
+    │   ├── FrameNameError       an empty name, or one with a leading slash
+    │   ├── UnknownFrameError    no such frame
+    │   ├── ConnectivityError    the frames are in different trees
+    │   └── ExtrapolationError   the time is outside the history
     └── WireError                a peer violated the protocol; never leaves this package
 """
 
@@ -67,6 +71,22 @@ class ServiceError(RosError):
 
 class TransformError(RosError):
     """A frame that does not exist, is not connected, or has no transform at the requested time."""
+
+
+class FrameNameError(TransformError):
+    """A frame name that is empty or starts with a slash."""
+
+
+class UnknownFrameError(TransformError):
+    """A frame that does not exist."""
+
+
+class ConnectivityError(TransformError):
+    """Two frames in different trees."""
+
+
+class ExtrapolationError(TransformError):
+    """A time outside the history."""
 
 
 class WireError(RosError):

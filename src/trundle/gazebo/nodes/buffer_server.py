@@ -10,11 +10,15 @@ from trundle.robots.parameters import RosParameters
 from trundle.ros import (
     ActionOutcome,
     ActionServer,
+    ConnectivityError,
+    ExtrapolationError,
+    FrameNameError,
     Node,
     Transform,
     TransformBuffer,
     TransformError,
     TransformListener,
+    check_frame_name,
     to_nsec,
 )
 from trundle.spatial import Pose
@@ -26,6 +30,11 @@ if TYPE_CHECKING:
 
 _ACTION = "tf2_buffer_server"
 _NO_ERROR, _LOOKUP_ERROR, _CONNECTIVITY_ERROR, _EXTRAPOLATION_ERROR, _INVALID_ARGUMENT_ERROR = 0, 1, 2, 3, 4
+_ERRORS: dict[type[TransformError], int] = {
+    ConnectivityError: _CONNECTIVITY_ERROR,
+    ExtrapolationError: _EXTRAPOLATION_ERROR,
+    FrameNameError: _INVALID_ARGUMENT_ERROR,
+}
 _POLL_S = 0.02
 
 
@@ -72,7 +81,7 @@ class BufferServer:
     def _lookup(self, goal: "tf2_msgs.LookupTransformGoal") -> Transform:
         buffer, source_ns = self._buffer, to_nsec(goal.source_time)
         for what in ("target_frame", "source_frame", "fixed_frame")[: 3 if goal.advanced else 2]:
-            _check_frame(getattr(goal, what), what)
+            check_frame_name(getattr(goal, what), "lookupTransform", what)
         if not goal.advanced and goal.target_frame == goal.source_frame:
             return self._identity(goal.source_frame, source_ns)
         if not goal.advanced:
@@ -101,25 +110,8 @@ class BufferServer:
         return {"frame_yaml": yaml.safe_dump(frames)}
 
 
-def _check_frame(name: str, what: str) -> None:
-    """Reject invalid frame names, with tf2's error texts."""
-    text = f"passed to lookupTransform argument {what} in tf2 frame_ids cannot"
-    if not name:
-        raise TransformError(f"Invalid argument {text} be empty")
-    if name.startswith("/"):
-        raise TransformError(f"Invalid argument \"{name}\" {text} start with a '/' like: ")
-
-
 def _error(error: TransformError) -> dict[str, Any]:
-    text = str(error)
-    for part, number in (
-        ("Invalid argument", _INVALID_ARGUMENT_ERROR),
-        ("Lookup would require extrapolation", _EXTRAPOLATION_ERROR),
-        ("Could not find a connection", _CONNECTIVITY_ERROR),
-    ):
-        if text.startswith(part):
-            return {"error": number, "error_string": text}
-    return {"error": _LOOKUP_ERROR, "error_string": text}
+    return {"error": _ERRORS.get(type(error), _LOOKUP_ERROR), "error_string": str(error)}
 
 
 def _stamped(transform: Transform) -> dict[str, Any]:

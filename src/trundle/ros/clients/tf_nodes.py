@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any
 from ..messages.raw_message import Message
 from ..node.clock import SimClock, to_nsec
 from ..node.node import Node
-from .tf_buffer import Transform, TransformBuffer
+from .tf_buffer import TransformBuffer
+from .transform_history import Transform
 
 if TYPE_CHECKING:
     from ..message_types import tf2_msgs

@@ -1,5 +1,6 @@
 """Buffer of transforms, without ROS' communication."""
 
+import contextlib
 import math
 import sys
 import threading
@@ -7,11 +8,12 @@ import threading
 from geometry_msgs.msg import TransformStamped
 
 import rospy
+from trundle.ros.clients.transform_history import Transform
+from trundle.ros.clients.transform_tree import TransformTree
+from trundle.ros.errors import FrameNameError, TransformError, UnknownFrameError
+from trundle.spatial import Pose
 
-from .exceptions import InvalidArgumentException, LookupException, TransformException
-from .history import FixedFrame, History, Sample
-from .rigid import compose, with_matrix_sign
-from .tree import FrameTree
+from .exceptions import LookupException, TransformException, of_error
 
 
 class BufferCore:
@@ -20,17 +22,17 @@ class BufferCore:
     def __init__(self, cache_time=None):
         """Start empty; `cache_time` is a rospy.Duration, 10 s if None."""
         self._cache_ns = 10 * 10**9 if cache_time is None else _nanoseconds(cache_time)
-        self._tree = FrameTree()
+        self._tree = TransformTree(self._cache_ns)
         self._authorities = {}
         self._lock = threading.RLock()
 
     def set_transform(self, transform, authority):
         """Add a TransformStamped, said by `authority`."""
-        self._set(transform, authority, History)
+        self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform, authority):
         """Add a TransformStamped that is valid at every time."""
-        self._set(transform, authority, FixedFrame)
+        self._set(transform, authority, static=True)
 
     def lookup_transform_core(self, target_frame, source_frame, time):
         """TransformStamped of the source in the target frame; time 0 is the latest common time.
@@ -39,9 +41,10 @@ class BufferCore:
             TransformException: there is no such transform.
         """
         _check_types(target_frame, source_frame)
-        with self._lock:
+        stamp_ns = _nanoseconds(time)
+        with self._lock, _tf2_exceptions():
             self._check(("target_frame", target_frame), ("source_frame", source_frame))
-            stamp, pose = self._tree.transform(target_frame, source_frame, _nanoseconds(time))
+            stamp, pose = self._tree.lookup(target_frame, source_frame, stamp_ns)
         return _message(target_frame, source_frame, stamp, pose)
 
     def lookup_transform_full_core(self, target_frame, target_time, source_frame, source_time, fixed_frame):
@@ -51,19 +54,19 @@ class BufferCore:
             TransformException: there is no such transform.
         """
         _check_types(target_frame, source_frame, fixed_frame)
-        with self._lock:
+        with self._lock, _tf2_exceptions():
             self._check(("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame))
-            _, fixed_from_source = self._tree.transform(fixed_frame, source_frame, _nanoseconds(source_time))
-            stamp, target_from_fixed = self._tree.transform(target_frame, fixed_frame, _nanoseconds(target_time))
-        translation, rotation = compose(target_from_fixed, fixed_from_source)
-        return _message(target_frame, source_frame, stamp, (translation, with_matrix_sign(rotation)))
+            _, fixed_from_source = self._tree.lookup(fixed_frame, source_frame, _nanoseconds(source_time))
+            stamp, target_from_fixed = self._tree.lookup(target_frame, fixed_frame, _nanoseconds(target_time))
+        pose = target_from_fixed @ fixed_from_source
+        return _message(target_frame, source_frame, stamp, Pose(pose.position, _with_matrix_sign(pose.quaternion)))
 
     def can_transform_core(self, target_frame, source_frame, time):
         """(1, '') if the lookup would succeed, else (0, why)."""
         _check_types(target_frame, source_frame)
         return self._try(
             (("target_frame", target_frame), ("source_frame", source_frame)),
-            lambda: self._tree.transform(target_frame, source_frame, _nanoseconds(time)),
+            lambda: self._tree.lookup(target_frame, source_frame, _nanoseconds(time)),
         )
 
     def can_transform_full_core(self, target_frame, target_time, source_frame, source_time, fixed_frame):
@@ -71,8 +74,8 @@ class BufferCore:
         _check_types(target_frame, source_frame, fixed_frame)
 
         def look_up():
-            self._tree.transform(target_frame, fixed_frame, _nanoseconds(target_time))
-            self._tree.transform(fixed_frame, source_frame, _nanoseconds(source_time))
+            self._tree.lookup(target_frame, fixed_frame, _nanoseconds(target_time))
+            self._tree.lookup(fixed_frame, source_frame, _nanoseconds(source_time))
 
         return self._try(
             (("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame)), look_up
@@ -91,14 +94,13 @@ class BufferCore:
                     raise LookupException(f'"{frame}" passed to get_latest_common_time does not exist. ')
             try:
                 return rospy.Time(0, self._tree.latest_common_time(source_frame, dest_frame))
-            except TransformException as error:
+            except TransformError as error:
                 raise TransformException(str(error)) from None
 
     def clear(self):
         """Drop all but static transforms."""
         with self._lock:
-            for history in self._tree.histories.values():
-                history.clear()
+            self._tree.clear()
 
     def all_frames_as_yaml(self):
         """Parent, broadcaster, rate and times of each frame, as YAML."""
@@ -142,12 +144,12 @@ class BufferCore:
 
     def _chain(self, target_frame, target_time, source_frame, source_time, fixed_frame):
         """Frames on the way from the source to the target."""
-        with self._lock:
+        with self._lock, _tf2_exceptions():
             self._check(("target_frame", target_frame), ("source_frame", source_frame), ("fixed_frame", fixed_frame))
             to_fixed = self._tree.chain(fixed_frame, source_frame, _nanoseconds(source_time))
             return [*to_fixed, *self._tree.chain(target_frame, fixed_frame, _nanoseconds(target_time))[1:]]
 
-    def _set(self, transform, authority, kind):
+    def _set(self, transform, authority, *, static):
         """Check a transform and add it to the frame's history; faults go to stderr."""
         parent, child = (name.removeprefix("/") for name in (transform.header.frame_id, transform.child_frame_id))
         t, q = transform.transform.translation, transform.transform.rotation
@@ -157,15 +159,16 @@ class BufferCore:
         if fault:
             print(f"{fault}, said by {authority}; ignored", file=sys.stderr)
             return
-        pose = (t.x, t.y, t.z), (q.x / norm, q.y / norm, q.z / norm, q.w / norm)
+        clean = Transform(
+            parent=parent,
+            child=child,
+            stamp_ns=stamp,
+            translation=(t.x, t.y, t.z),
+            rotation=(q.w / norm, q.x / norm, q.y / norm, q.z / norm),
+        )
         with self._lock:
-            history = self._tree.histories.get(child)
-            if not isinstance(history, kind):
-                history = self._tree.histories[child] = kind(self._cache_ns) if kind is History else kind()
-            self._tree.names.setdefault(child)
-            self._tree.names.setdefault(parent)
-            if not history.add(Sample(stamp, parent, pose)):
-                newest = history.latest()[0]
+            if not self._tree.add(clean, static=static):
+                newest = self._tree.histories[child].newest_stamp
                 why = (
                     "TF_REPEATED_DATA: its stamp is there already"
                     if newest - stamp <= self._cache_ns
@@ -179,22 +182,22 @@ class BufferCore:
 
     def _check(self, *arguments):
         for argument, frame in arguments:
-            self._tree.check_name(frame, "lookupTransform", argument)
+            self._tree.check_frame(frame, "lookupTransform", argument)
 
     def _try(self, arguments, look_up):
         """(1, '') if the names are good and `look_up` succeeds, else (0, why)."""
         with self._lock:
             for argument, frame in arguments:
                 try:
-                    self._tree.check_name(frame, "canTransform", argument)
-                except InvalidArgumentException as error:
+                    self._tree.check_frame(frame, "canTransform", argument)
+                except FrameNameError as error:
                     print(error, file=sys.stderr)
                     return 0, ""
-                except LookupException:
+                except UnknownFrameError:
                     return 0, f"canTransform: {argument} {frame} does not exist."
             try:
                 look_up()
-            except TransformException as error:
+            except TransformError as error:
                 return 0, str(error)
         return 1, ""
 
@@ -203,12 +206,11 @@ class BufferCore:
         with self._lock:
             rows = []
             for frame, history in self._tree.histories.items():
-                newest, parent = history.latest()
-                if parent is None:
+                if history.latest is None:
                     continue
-                oldest = history.oldest_stamp()
-                rate = history.count() / max((newest - oldest) / 1e9, 0.0001)
-                rows.append((frame, parent, self._authorities[frame], rate, newest / 1e9, oldest / 1e9))
+                newest, oldest = history.newest_stamp, history.oldest_stamp
+                rate = len(history) / max((newest - oldest) / 1e9, 0.0001)
+                rows.append((frame, history.latest.parent, self._authorities[frame], rate, newest / 1e9, oldest / 1e9))
             return rows
 
 
@@ -252,5 +254,21 @@ def _message(target, source, stamp, pose):
     message.header.stamp = rospy.Time(stamp // 10**9, stamp % 10**9)
     message.child_frame_id = source
     t, q = message.transform.translation, message.transform.rotation
-    (t.x, t.y, t.z), (q.x, q.y, q.z, q.w) = pose
+    # Adding 0.0 makes no -0.0, which would be printed.
+    t.x, t.y, t.z = (v + 0.0 for v in pose.position)
+    q.w, q.x, q.y, q.z = (v + 0.0 for v in pose.quaternion)
     return message
+
+
+def _with_matrix_sign(q):
+    """Of q and -q, the one that a rotation matrix gives: w > 0 if the trace is positive, else the largest axis is."""
+    decisive = q[0] if abs(q[0]) > 0.5 else max(q[1:], key=abs)
+    return tuple(-v for v in q) if decisive < 0.0 else q
+
+
+@contextlib.contextmanager
+def _tf2_exceptions():
+    try:
+        yield
+    except TransformError as error:
+        raise of_error(error) from None

@@ -8,6 +8,8 @@ TransformException
 └── TimeoutException
 """
 
+from trundle.ros import errors
+
 
 class TransformException(Exception):
     """A transform cannot be given."""
@@ -38,3 +40,15 @@ for _class in (
     TimeoutException,
 ):  # fmt: skip
     _class.__module__ = "tf2"  # tracebacks name it, as those of the original's compiled module
+
+_CLASSES = {
+    errors.ConnectivityError: ConnectivityException,
+    errors.ExtrapolationError: ExtrapolationException,
+    errors.FrameNameError: InvalidArgumentException,
+    errors.UnknownFrameError: LookupException,
+}
+
+
+def of_error(error):
+    """Make tf2's exception of a TransformError."""
+    return _CLASSES.get(type(error), TransformException)(str(error))
