@@ -10,16 +10,14 @@ from dataclasses import dataclass, field
 
 from aiohttp import ClientConnectionError, WSMsgType, web
 
-from trundle.base.http.access import Access, PageRequest, Refusal
-
-from .refusals import Refusals
+from .access import Access, PageRequest
+from .guard import Guard
 from .send_buffer import SendBuffer
 
 _MAX_MESSAGE_BYTES = 64 * 1024 * 1024
 """Longest message of a client."""
 _SHUTDOWN_S = 0.2
 _NO_SNIFFING = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"}
-_ONCE = ("Host", "Origin")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,7 +97,7 @@ class WebServer:
         self._clients = 0
         self._streams = 0
         self._max_streams = max_streams
-        self._refusals = Refusals()
+        self._guard = Guard(access)
         self._runner: web.AppRunner | None = None
 
     async def start(self, listening: socket.socket, certificate: ssl.SSLContext | None = None) -> None:
@@ -119,26 +117,19 @@ class WebServer:
             await self._runner.cleanup()
 
     async def _answer(self, request: web.Request) -> web.StreamResponse:
-        asked = PageRequest(
-            target=request.raw_path,
-            host=request.headers.get("Host"),
-            origin=request.headers.get("Origin"),
-            cookie="; ".join(request.headers.getall("Cookie", [])),
-        )
-        repeated = [name for name in _ONCE if len(request.headers.getall(name, [])) > 1]
-        refusal = Refusal(f"the field {repeated[0]} stands twice") if repeated else self._access.refusal(asked)
-        if refusal is not None:
-            return await self._refusals.answer(request, refusal)
+        if (refused := await self._guard.refuse(request)) is not None:
+            return refused
         if request.headers.get("Upgrade", "").lower() == "websocket":
             return await self._serve_socket(request)
         page = self._pages.get(request.path)
         if page is None:
             return _text(404, "no such page\n")
         reply = await page(dict(request.query))
+        fields = self._fields(self._guard.read(request))
         if reply.parts is None:
-            fields = {"Content-Type": reply.content_type, **self._fields(asked), **reply.fields}
-            return web.Response(status=reply.status, body=reply.body, headers=fields)
-        return await self._stream(request, reply, reply.parts, self._fields(asked))
+            headers = {"Content-Type": reply.content_type, **fields, **reply.fields}
+            return web.Response(status=reply.status, body=reply.body, headers=headers)
+        return await self._stream(request, reply, reply.parts, fields)
 
     def _fields(self, asked: PageRequest) -> dict[str, str]:
         """Return fields that let pages of this machine show the answer, and those let in by name read it."""

@@ -10,11 +10,10 @@ from typing import Protocol
 import msgspec
 from aiohttp import MultipartReader, WSMessage, WSMsgType, web
 from aiohttp.http_exceptions import HttpProcessingError
-from multidict import CIMultiDictProxy
 
 from trundle.base.diagnostics import UsageError
-from trundle.base.http.access import Access, PageRequest, Refusal
-from trundle.base.http.refusals import Refusals
+from trundle.base.http.access import Access
+from trundle.base.http.guard import Guard
 
 from ..clients.connection import Connection
 from ..clients.outbox import CLOSE, PONG, Outbox
@@ -36,9 +35,6 @@ _log = logging.getLogger(__name__)
 _TEXT = "text/plain"
 _KEPT = "private, max-age=31536000, immutable"
 """For files whose name holds a hash of their content."""
-_ONCE = ("Host", "Origin")
-_OTHER_SITES = ("cross-site", "same-site")
-"""The latter: another port of this host."""
 
 
 class Page(Protocol):
@@ -86,12 +82,12 @@ class HttpServer:
         self._files = files
         self._places = Places()
         self._lookers_pictures = 0
-        self._refusals = Refusals(has_link=True)
+        self._guard = Guard(access, is_page=True)
 
     async def start(self, listening: socket.socket) -> None:
         """Serve connections of a listening socket."""
         logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it answers nonsense from the net with tracebacks
-        app = web.Application(middlewares=[self._guard])
+        app = web.Application(middlewares=[self._answer])
         app.router.add_get("/session.json", self._session)
         app.router.add_get("/world/{name:.*}", self._world_file)
         app.router.add_get("/camera.png", self._camera)
@@ -104,23 +100,25 @@ class HttpServer:
         await web.SockSite(runner, listening).start()
 
     @web.middleware
-    async def _guard(
+    async def _answer(
         self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
     ) -> web.StreamResponse:
-        """Refuse what `Access` refuses, and add the header fields of the others."""
-        refusal = _repeated(request.headers) or self._access.refusal(_page_request(request))
-        if refusal is not None:
-            return await self._refusals.answer(request, refusal)
+        """Refuse what the guard refuses, and add the header fields of the others."""
+        if (refused := await self._guard.refuse(request)) is not None:
+            return refused
         try:
             response = await handler(request)
         except web.HTTPException as error:
             response = web.Response(status=error.status, text=f"{error.reason}\n", content_type=_TEXT)
         if not response.prepared:
-            response.headers.update(response_fields(self._access, _page_request(request), path=request.path))
+            response.headers.update(response_fields(self._access, self._guard.read(request), path=request.path))
         return response
 
+    def _is_view_only(self, request: web.Request) -> bool:
+        return self._access.is_view_only(self._guard.read(request))
+
     async def _session(self, request: web.Request) -> web.StreamResponse:
-        session = self._page.session_json(self._access.is_view_only(_page_request(request)))
+        session = self._page.session_json(self._is_view_only(request))
         return _fresh(web.Response(body=session, content_type="application/json"))
 
     async def _world_file(self, request: web.Request) -> web.StreamResponse:
@@ -149,7 +147,7 @@ class HttpServer:
         Raises:
             PictureError: those that clients who may only look can have are taken.
         """
-        count = int(self._access.is_view_only(_page_request(request)))
+        count = int(self._is_view_only(request))
         if self._lookers_pictures + count > _MAX_LOOKERS_PICTURES:
             raise PictureError(f"{_MAX_LOOKERS_PICTURES} pictures are being drawn already")
         self._lookers_pictures += count
@@ -165,7 +163,7 @@ class HttpServer:
         return await self._render_model(request, "shape", "model/gltf-binary")
 
     async def _render_model(self, request: web.Request, kind: str, media_type: str) -> web.StreamResponse:
-        if self._access.is_view_only(_page_request(request)):
+        if self._is_view_only(request):
             raise web.HTTPForbidden(reason=REFUSAL)
         try:
             model = msgspec.convert({**request.query, "kind": kind}, RenderModel)
@@ -178,7 +176,7 @@ class HttpServer:
         return web.Response(body=drawn, content_type=media_type, headers=headers)
 
     async def _upload(self, request: web.Request) -> web.StreamResponse:
-        if self._access.is_view_only(_page_request(request)):
+        if self._is_view_only(request):
             return web.Response(status=403, text=f"{REFUSAL}\n", content_type=_TEXT)
         try:
             if request.content_type != "multipart/form-data":
@@ -206,7 +204,7 @@ class HttpServer:
         offered = [name.strip() for name in request.headers.get("Sec-WebSocket-Protocol", "").split(",")]
         if not any(name in SUBPROTOCOLS for name in offered):
             raise web.HTTPBadRequest(reason=f"this page speaks {', '.join(SUBPROTOCOLS)}")
-        is_view_only = self._access.is_view_only(_page_request(request))
+        is_view_only = self._is_view_only(request)
         if not self._places.has_room(is_view_only=is_view_only):
             raise web.HTTPServiceUnavailable(reason=f"{MAX_CONTROLLING} clients are served already")
         web_socket = web.WebSocketResponse(
@@ -252,23 +250,6 @@ class HttpServer:
             case _:
                 return False
         return True
-
-
-def _page_request(request: web.Request) -> PageRequest:
-    return PageRequest(
-        target=request.raw_path,
-        host=request.headers.get("Host"),
-        origin=request.headers.get("Origin"),
-        cookie="; ".join(request.headers.getall("Cookie", [])),
-        is_embedded=request.headers.get("Sec-Fetch-Mode") == "no-cors"
-        and request.headers.get("Sec-Fetch-Site") in _OTHER_SITES,
-    )
-
-
-def _repeated(headers: CIMultiDictProxy[str]) -> Refusal | None:
-    """Return the refusal of a request in which a field that decides stands twice."""
-    repeated = [name for name in _ONCE if len(headers.getall(name, [])) > 1]
-    return Refusal(f"the field {repeated[0]} stands twice") if repeated else None
 
 
 def _fresh(response: web.Response) -> web.Response:
