@@ -309,3 +309,32 @@ def test_urdf_parser_py_and_angles_and_every_library_import(tmp_path: Path) -> N
 def test_submodules_of_roslib_need_no_import_of_their_own(tmp_path: Path) -> None:
     code = "import roslib\nprint(roslib.message.get_message_class('std_msgs/String').__name__, hasattr(roslib, 'no'))"
     assert _run(code, tmp_path) == "String False\n"
+
+
+def test_rates_and_bandwidths_of_topics_are_measured(tmp_path: Path) -> None:
+    """Programs give rostopic's meters to subscribers; after a reset of time the first message starts anew."""
+    code = """
+import rospy
+from rostopic import ROSTopicBandwidth, ROSTopicHz
+hz, now = ROSTopicHz(10, filter_expr=lambda m: m != "other"), [0.0]
+rospy.get_rostime = lambda: rospy.Time.from_sec(now[0])
+for now[0], message in ((1.0, "a"), (1.5, "b"), (1.7, "other"), (2.5, "c")):
+    hz.callback_hz(message)
+print(hz.get_hz(), hz.get_hz())
+hz.print_hz()
+for now[0] in (0.0, 5.0, 5.25):
+    hz.callback_hz("a")
+hz.print_hz()
+bw = ROSTopicBandwidth()
+for size in (10, 30):
+    bw.callback(rospy.AnyMsg().deserialize(bytes(size)))
+print(bw.get_bw()[1:])
+"""
+    assert _run(code, tmp_path).splitlines() == [
+        f"({1 / 0.75}, 0.5, 1.0, 0.25, 3) None",
+        "no new messages",
+        "time has reset, resetting counters",
+        "average rate: 4.000",
+        "\tmin: 0.250s max: 0.250s std dev: 0.00000s window: 2",
+        "(20.0, 10, 30, 2)",
+    ]

@@ -29,6 +29,9 @@ from .clients.tf_buffer import TransformBuffer as TransformBuffer
 from .clients.tf_nodes import StaticTransformBroadcaster as StaticTransformBroadcaster
 from .clients.tf_nodes import TransformBroadcaster as TransformBroadcaster
 from .clients.tf_nodes import TransformListener as TransformListener
+from .clients.topic_meters import BandwidthMeter as BandwidthMeter
+from .clients.topic_meters import DelayMeter as DelayMeter
+from .clients.topic_meters import RateMeter as RateMeter
 from .clients.topic_series import TopicSeries as TopicSeries
 from .clients.topic_series import recent_curves as recent_curves
 from .clients.topic_series import spread_fields as spread_fields

@@ -14,8 +14,7 @@ import pytest
 from tests.cli.conftest import PATIENCE_S
 
 import trundle.app.cli.topic.pub as topic_pub
-from trundle.app.cli.topic.measure import TopicDelay
-from trundle.ros import Messages, WallClock
+from trundle.ros import DelayMeter, Messages, WallClock
 
 STRING = "std_msgs/String"
 
@@ -331,7 +330,7 @@ class _Standing(WallClock):
 
 def test_delays_are_measured_by_the_headers_stamp() -> None:
     clock, messages = _Standing(), Messages()
-    delay = TopicDelay(clock, -1)
+    delay = DelayMeter(clock, -1)
     assert delay.text() is None
     for now, stamp in ((100.0, 99.0), (101.0, 100.75), (102.0, 101.25)):
         clock.now = round(now * 1e9)

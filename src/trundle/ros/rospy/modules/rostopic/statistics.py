@@ -1,12 +1,9 @@
 """Rates of topics."""
 
-import threading
 import time
-from collections import deque
-from statistics import pstdev
 from typing import Any
 
-_MAX_WINDOW = 50_000
+from trundle.ros.clients.topic_meters import BandwidthMeter, RateMeter
 
 
 class ROSTopicHz:
@@ -20,71 +17,50 @@ class ROSTopicHz:
             filter_expr: takes a message; False for those that do not count.
             use_wtime: wall time instead of ROS time.
         """
-        self.lock = threading.Lock()
-        self.last_printed_tn = 0.0
-        self.msg_tn = 0.0
         self.use_wtime = use_wtime
         self.filter_expr = filter_expr
-        self.times: deque[float] = deque(maxlen=window_size if window_size > 0 else _MAX_WINDOW)
+        self._meter = RateMeter(self, window_size)
 
     def callback_hz(self, m: Any, topic: str | None = None) -> None:
         """Count a message."""
         del topic
-        if self.filter_expr is not None and not self.filter_expr(m):
-            return
-        now = self._now()
-        with self.lock:
-            if self.msg_tn and now >= self.msg_tn:
-                self.times.append(now - self.msg_tn)
-            elif self.msg_tn:  # time jumped back
-                self.times.clear()
-            self.msg_tn = now
+        if self.filter_expr is None or self.filter_expr(m):
+            self._meter.add_message(m)
 
     def get_hz(self, topic: str | None = None) -> tuple[float, float, float, float, int] | None:
         """Rate [Hz], shortest and longest interval and their standard deviation [s], number; None if nothing is new."""
         del topic
-        with self.lock:
-            if not self.times or self.msg_tn == self.last_printed_tn:
-                return None
-            times = list(self.times)
-            self.last_printed_tn = self.msg_tn
-        mean = sum(times) / len(times)
-        return 1.0 / mean if mean > 0 else 0.0, min(times), max(times), pstdev(times), len(times) + 1
+        found = self._meter.statistics()
+        return None if found is None else (found.rate_hz, found.min, found.max, found.deviation, found.window)
 
     def print_hz(self, topics: Any = None) -> None:
         """Print the rate."""
         del topics
-        found = self.get_hz()
-        if found is None:
-            print("no new messages")
-            return
-        rate, shortest, longest, deviation, window = found
-        print(f"average rate: {rate:.3f}")
-        print(f"\tmin: {shortest:.3f}s max: {longest:.3f}s std dev: {deviation:.5f}s window: {window}")
+        print(self._meter.text())
 
-    def _now(self) -> float:
+    def now_ns(self) -> int:
+        """Time of an arrival [ns]."""
         if self.use_wtime:
-            return time.time()
+            return time.time_ns()
         import rospy
 
-        return rospy.get_time()
+        return rospy.get_rostime().to_nsec()
 
 
 class ROSTopicBandwidth:
     """Bandwidth of messages: a callback that takes AnyMsg."""
 
     def __init__(self, window_size: int = 100) -> None:
-        self._seen: deque[tuple[float, int]] = deque(maxlen=window_size if window_size > 0 else _MAX_WINDOW)
+        self._meter = BandwidthMeter(window_size)
 
     def callback(self, data: Any) -> None:
         """Count a message."""
-        self._seen.append((time.time(), len(data._buff)))
+        self._meter.add_bytes(len(data._buff))
 
     def get_bw(self) -> tuple[float, float, int, int, int] | None:
         """Bandwidth [B/s], mean, smallest and largest message [B], number; None without messages."""
-        seen = list(self._seen)
-        if len(seen) < 2:
+        found = self._meter.statistics()
+        if found is None:
             return None
-        sizes = [size for _, size in seen]
-        total = sum(sizes)
-        return total / (time.time() - seen[0][0]), total / len(sizes), min(sizes), max(sizes), len(sizes)
+        rate, sizes = found
+        return rate, sizes.mean, int(sizes.min), int(sizes.max), sizes.window

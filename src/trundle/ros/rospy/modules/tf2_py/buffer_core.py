@@ -261,7 +261,7 @@ def _message(target, source, stamp, pose):
 
 
 def _with_matrix_sign(q):
-    """Of q and -q, the one that a rotation matrix gives: w > 0 if the trace is positive, else the largest axis is."""
+    """Return q or -q, as a rotation matrix gives it: w > 0 if the trace is positive, else the largest axis is."""
     decisive = q[0] if abs(q[0]) > 0.5 else max(q[1:], key=abs)
     return tuple(-v for v in q) if decisive < 0.0 else q
 
