@@ -102,55 +102,26 @@ class RqtPlot(Window):
         display.plot([self._node.resolve(word) for word in words if word])
 
 
-class RqtBag(Window):
-    """rqt_bag: the timeline."""
+class PanelWindow:
+    """A program whose window is one panel of the page; called as a class of nodes is."""
 
-    panel = "rqt_bag"
+    def __init__(self, program: str, summary: str) -> None:
+        self._program = program
+        self.__doc__ = f"{program}: {summary}."
 
-
-class RqtConsole(Window):
-    """rqt_console: the log."""
-
-    panel = "rqt_console"
-
-
-class RqtGraph(Window):
-    """rqt_graph: nodes and topics."""
-
-    panel = "rqt_graph"
+    def __call__(self, node: Node, arguments: list[str], host: NodeHost) -> Window:
+        """Make a window that opens the panel."""
+        window = Window(node, arguments, host)
+        window.panel = self._program
+        return window
 
 
-class RqtPublisher(Window):
-    """rqt_publisher: publishes messages typed in."""
-
-    panel = "rqt_publisher"
-
-
-class RqtReconfigure(Window):
-    """rqt_reconfigure and reconfigure_gui: the options of all nodes."""
-
-    panel = "rqt_reconfigure"
-
-
-class RqtRobotMonitor(Window):
-    """rqt_robot_monitor: diagnostics."""
-
-    panel = "rqt_robot_monitor"
-
-
-class RqtServiceCaller(Window):
-    """rqt_service_caller: calls services."""
-
-    panel = "rqt_service_caller"
-
-
-class RqtTfTree(Window):
-    """rqt_tf_tree: frames and their parents."""
-
-    panel = "rqt_tf_tree"
-
-
-class RqtTopic(Window):
-    """rqt_topic: topics with rate, bandwidth and messages."""
-
-    panel = "rqt_topic"
+RqtBag = PanelWindow("rqt_bag", "the timeline")
+RqtConsole = PanelWindow("rqt_console", "the log")
+RqtGraph = PanelWindow("rqt_graph", "nodes and topics")
+RqtPublisher = PanelWindow("rqt_publisher", "publishes messages typed in")
+RqtReconfigure = PanelWindow("rqt_reconfigure", "the options of all nodes")
+RqtRobotMonitor = PanelWindow("rqt_robot_monitor", "diagnostics")
+RqtServiceCaller = PanelWindow("rqt_service_caller", "calls services")
+RqtTfTree = PanelWindow("rqt_tf_tree", "frames and their parents")
+RqtTopic = PanelWindow("rqt_topic", "topics with rate, bandwidth and messages")
