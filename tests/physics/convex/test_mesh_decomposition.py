@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from trundle.gazebo.check.check import check
 from trundle.sim.physics.convex import decomposition, jobs, mesh_decomposition, pieces
-from trundle.sim.physics.convex.cache import load_pieces, save_pieces
-from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
+from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces, load_pieces, save_pieces
 from trundle.sim.physics.convex.native_output import native_output_hidden
 from trundle.sim.physics.convex.pieces import ConcavePart, Detail, decompose_part, split_mesh
 from trundle.sim.physics.convex.progress import DecompositionProgress

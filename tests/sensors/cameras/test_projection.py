@@ -11,8 +11,13 @@ from trundle.robots.model import CameraOptics, Distortion, Lens, PixelIntrinsics
 from trundle.sim.render import Intrinsics, Picture
 from trundle.sim.sensors.cameras.lens import fits
 from trundle.sim.sensors.cameras.pixel_formats import FORMATS, pixels_in
-from trundle.sim.sensors.cameras.projection import CameraProjection, PinholeProjection, projection_of
-from trundle.sim.sensors.cameras.undistort import distorted, undistorted
+from trundle.sim.sensors.cameras.projection import (
+    CameraProjection,
+    PinholeProjection,
+    distorted,
+    projection_of,
+    undistorted,
+)
 from trundle.spatial import Pose
 
 WIDTH, HEIGHT, FOV = 64, 48, 1.2

@@ -16,15 +16,22 @@ from trundle.live.world_setup import load_world
 from trundle.robots.lint.empty_scene import empty_reason
 from trundle.robots.model import World
 from trundle.robots.packages import Packages
-from trundle.sim.render import Intrinsics, Picture, report_unreadable_textures, scene_from_world, update_skins
+from trundle.robots.robot import Robot, root_from_links
+from trundle.sim.render import (
+    Intrinsics,
+    Picture,
+    Scene,
+    report_unreadable_textures,
+    scene_from_world,
+    update_skins,
+)
 from trundle.sim.renderers import RENDERERS, RendererName
 from trundle.sim.sensors import CameraProjection, CameraSensor, PinholeProjection, mount_cameras
 from trundle.sim.simulation import Simulation, Snapshot
 from trundle.sim.three_quarter_view import BACKDROP, FIELD_OF_VIEW, STUDIO_LIGHT, scene_corners, three_quarter_pose
-from trundle.spatial import pose_from_row
+from trundle.spatial import pose_from_row, rows_from_poses
 
 from .lowest_point import lowest_point
-from .urdf_preview import add_robot
 
 DEFAULT_SIZE = (800, 600)
 _SAMPLES = 2
@@ -82,7 +89,7 @@ class PictureRenderer:
         robot = loaded.robot if options.camera is None and not _is_seen(loaded.flat) else None
         if robot is not None and any(link.visuals for link in robot.links):
             self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
-            scene, self._written = add_robot(scene, robot, packages, report)
+            scene, self._written = _add_robot(scene, robot, packages, report)
         if options.camera is None:
             scene = replace(scene, ambient=STUDIO_LIGHT, background=BACKDROP)
         self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
@@ -167,3 +174,24 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
             return camera
     there = ", ".join(repr(camera.name) for camera in cameras) or "none"
     raise UsageError(f"no camera {name!r}; cameras there: {there}")
+
+
+def _add_robot(
+    scene: Scene, robot: Robot, packages: Packages, report: Diagnostics
+) -> tuple[Scene, NDArray[np.float64]]:
+    """Preview a URDF that cannot be simulated, such as one without masses, on the ground, its joints at zero.
+
+    Returns:
+        the scene with the robot's links as further bodies; their (links, 7) poses in the world.
+    """
+    from .robot_scene import robot_scene  # slow to load; other pictures do not need it
+
+    drawn = robot_scene(robot, packages, report)
+    poses = root_from_links(robot, {})
+    links = [poses[name] for name in drawn.bodies]
+    heights = [lowest_point(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
+    rows = rows_from_poses(links)
+    rows[:, 2] -= min(heights, default=0.0)
+    first = len(scene.bodies)
+    moved = tuple(replace(shape, body=shape.body + first) for shape in drawn.shapes)
+    return replace(scene, bodies=(*scene.bodies, *drawn.bodies), shapes=(*scene.shapes, *moved)), rows

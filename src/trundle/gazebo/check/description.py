@@ -1,22 +1,22 @@
 """`trundle check` of a robot, a model or a world."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from trundle.base.diagnostics import DescriptionError, Diagnostics
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.robots.description import LoadedDescription
 from trundle.robots.lint.description_lint import lint_description
 from trundle.robots.lint.empty_scene import empty_reason
 from trundle.robots.lint.physics_precheck import physics_accepts
 from trundle.robots.load_input import Piped, load_input
-from trundle.robots.model import World, flattened
+from trundle.robots.model import Model, World, flattened
+from trundle.robots.names import is_legal_base_name, ros_name
 from trundle.robots.packages import Packages
 from trundle.sim.physics import report_wheels
 
 from ..model_plugins import report_missing_plugins
-from .ros_names import report_ros_names
 
 if TYPE_CHECKING:
     from trundle.base.drawing.tree import TreeNode
@@ -82,7 +82,7 @@ def check_description(
     loaded = load_input(file, report, packages=packages, start=start, piped=piped)
     flat = flattened(loaded.world)
     lint_description(loaded, report)
-    report_ros_names(flat, report)
+    _report_ros_names(flat, report)
     _report_silent_sensors(flat, report)
     report_missing_plugins(flat, environment, report)
     _report_physics(flat, report, collisions=collisions)
@@ -109,3 +109,19 @@ def _report_silent_sensors(flat: World, report: Diagnostics) -> None:
     for sensor in sensors:
         if sensor.type not in SIMULATED_CAMERAS:
             report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
+
+
+def _report_ros_names(flat: World, report: Diagnostics) -> None:
+    """Report each illegal name of what moves, with the name that the graph and tf have for it."""
+    for model in flat.models:
+        if model.static:
+            continue
+        for name, at in _named(model):
+            if not is_legal_base_name(name.replace("::", "_")):
+                report.info(at, f"{name!r} is not a legal ROS name; on the graph and in tf it is {ros_name(name)!r}")
+
+
+def _named(model: Model) -> Iterator[tuple[str, Source]]:
+    yield model.name, model.at
+    for each in (*model.links, *model.joints):
+        yield each.name, each.at

@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from typing import Any, cast
 
-from trundle.ros import Node, StaticTransformBroadcaster
+from trundle.ros import Node, StaticTransformBroadcaster, Transform
 from trundle.sim.sensors import AltimeterSensor, ContactSensor, ForceTorqueSensor, InstrumentSensor, SonarSensor
+from trundle.spatial import Pose
 
-from .frame_names import WORLD_FRAME, FrameNames
-from .sensor_frames import output_topic, send_sensor_frame
+from .frame_names import WORLD_FRAME, FrameNames, sensor_topic
 from .sensor_topics import outputs_of
 
 _TF = "tf2_msgs/TFMessage"
@@ -34,7 +34,7 @@ class InstrumentTopics:
         main = outputs[0].name
         self._topics = [
             (
-                node.advertise(output_topic(sensor, row.name, main=main), row.type, queue_size=row.queue_size),
+                node.advertise(_output_topic(sensor, row.name, main=main), row.type, queue_size=row.queue_size),
                 row.encoder(sensor),
                 row.type == _TF,
             )
@@ -62,13 +62,29 @@ def _send_frame(sensor: InstrumentSensor, static_broadcaster: StaticTransformBro
         case AltimeterSensor() | ContactSensor():
             return WORLD_FRAME
         case ForceTorqueSensor():
-            own = send_sensor_frame(sensor, sensor.link_from_sensor, static_broadcaster, names)
+            own = _send_sensor_frame(sensor, sensor.link_from_sensor, static_broadcaster, names)
             parent = sensor.joint.parent
             return {
                 "child": names.link(sensor.model, sensor.link.name),
                 "parent": WORLD_FRAME if parent == "world" else names.link(sensor.model, parent),
             }.get(sensor.settings.frame, own)
         case SonarSensor():  # x along the beam
-            return send_sensor_frame(sensor, sensor.link_from_beam, static_broadcaster, names)
+            return _send_sensor_frame(sensor, sensor.link_from_beam, static_broadcaster, names)
         case _:
-            return send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+            return _send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)
+
+
+def _send_sensor_frame(
+    sensor: InstrumentSensor, link_from_sensor: Pose, static_broadcaster: StaticTransformBroadcaster, names: FrameNames
+) -> str:
+    """Send the static transform of the sensor's frame on its link; return the frame."""
+    frame = names.sensor(sensor.model, sensor.parent_name, sensor.sensor)
+    carrier = names.link(sensor.model, sensor.link.name)
+    place, turn = link_from_sensor.position, link_from_sensor.quaternion
+    static_broadcaster.send_transform(Transform(parent=carrier, child=frame, translation=place, rotation=turn))
+    return frame
+
+
+def _output_topic(sensor: InstrumentSensor, output: str, *, main: str | None = None) -> str:
+    """Topic of one of a sensor's outputs; see `sensor_topic`."""
+    return sensor_topic(sensor.model, sensor.parent_name, sensor.sensor, output, main=main or output)

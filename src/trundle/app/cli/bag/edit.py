@@ -1,17 +1,32 @@
 """`trundle bag filter`, `compress`, `decompress` and `reindex`: rewrite bags."""
 
 import argparse
+import shutil
 import sys
+import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from itertools import chain, islice
 from pathlib import Path
 
 from trundle.base.diagnostics import UsageError
-from trundle.ros import BagError, BagMessage, BagReader, Messages, MessageView, open_bag, recover_messages, replaced_bag
+from trundle.ros import (
+    BagError,
+    BagMessage,
+    BagReader,
+    Messages,
+    MessageView,
+    byte_text,
+    open_bag,
+    recover_messages,
+    replaced_bag,
+)
 
 from ..expression import Expression, expression
-from .progress_meter import ProgressMeter
+
+_EVERY_S = 1.0
+_BESIDE_PATH = 37
+"""Columns besides the path."""
 
 
 def filter_bag(args: argparse.Namespace) -> int:
@@ -26,7 +41,7 @@ def filter_bag(args: argparse.Namespace) -> int:
     wanted, printed = Expression(args.expression), expression(args.print)
     messages = Messages(bare=True)
     with open_bag(source) as bag:
-        meter = ProgressMeter(args.outbag, _size(bag), is_quiet=printed is not None)
+        meter = _ProgressMeter(args.outbag, _size(bag), is_quiet=printed is not None)
         with replaced_bag(target) as out:
             for message in bag.messages():
                 connection = message.connection
@@ -104,8 +119,52 @@ def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, opened:
         raise UsageError(f"Skipping {path}. Backup path {backup} already exists.")
     replaced = replaced_bag(target, compression=compression, backup=backup if is_in_place else None)
     with replaced as out, opened(path) as (size, messages):
-        meter = ProgressMeter(str(target), size, is_quiet=args.quiet)
+        meter = _ProgressMeter(str(target), size, is_quiet=args.quiet)
         for message in messages:
             out.write(message)
             meter.step(len(message.data))
     meter.finish()
+
+
+class _ProgressMeter:
+    """Prints progress and remaining time on one line."""
+
+    def __init__(self, path: str, total: int, *, is_quiet: bool = False) -> None:
+        """Start; `total` [bytes]."""
+        self._path = path
+        self._total = total
+        self._is_quiet = is_quiet
+        self._done = 0
+        self._start_s = self._printed_s = time.monotonic()
+        self._print(0)
+
+    def step(self, size: int) -> None:
+        """Add processed bytes."""
+        self._done += size
+        if time.monotonic() - self._printed_s > _EVERY_S:
+            self._print(self._done)
+
+    def finish(self) -> None:
+        """Print 100% and a newline."""
+        self._print(max(self._done, self._total))
+        if not self._is_quiet:
+            print()
+
+    def _print(self, done: int) -> None:
+        self._printed_s = time.monotonic()
+        if not self._is_quiet:
+            print(f"\r {self._line(done, self._printed_s - self._start_s)}", end="", flush=True)
+
+    def _line(self, done: int, elapsed_s: float) -> str:
+        width = max(4, shutil.get_terminal_size().columns - _BESIDE_PATH)
+        path = self._path if len(self._path) <= width else f"...{self._path[3 - width :]}"
+        total = byte_text(self._total)
+        if done >= self._total:
+            return f"{path:<{width}} 100% {total:>19} {_clock(elapsed_s)}    "
+        left = _clock(elapsed_s * (self._total / done - 1.0)) if done else "--:--"
+        return f"{path:<{width}} {100 * done // self._total:3}% {byte_text(done):>8} / {total:>8} {left} ETA"
+
+
+def _clock(seconds: float) -> str:
+    minutes = int(seconds / 60)
+    return "--:--" if minutes > 99 else f"{minutes:02}:{int(seconds % 60):02}"

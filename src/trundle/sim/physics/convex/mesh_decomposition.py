@@ -16,7 +16,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from .cache import load_pieces, save_pieces
+from trundle.robots.meshes import RawPart, load_parts, save_parts
+
 from .jobs import SHORT_S, decompose_parts
 from .pieces import (
     MAX_PIECES,
@@ -24,6 +25,7 @@ from .pieces import (
     ConcavePart,
     ConvexPieces,
     Detail,
+    HullError,
     MeshSplit,
     as_single_hull,
     hull_of_part,
@@ -183,3 +185,33 @@ def _cache(memory: dict[_K, _V], key: _K, value: _V) -> None:
 def convex_pieces(vertices: _Points, faces: _Faces, *, fixed: bool) -> ConvexPieces:
     """Decompose one mesh, or return the cached pieces."""
     return WorldDecomposition().pieces_of(vertices, faces, fixed=fixed).pieces
+
+
+def save_pieces(key: str, pieces: ConvexPieces) -> None:
+    """Save pieces on disk under a key, atomically."""
+    none = np.zeros((0, 3), dtype=np.int64)
+    errors = [
+        (np.nan if m.volume_ratio is None else m.volume_ratio, m.distance, float(m.is_filled)) for m in pieces.errors
+    ]
+    parts = [RawPart(names=("misfits",), vertices=np.array(errors, dtype=float).reshape(-1, 3), faces=none)]
+    parts += [RawPart(names=("piece",), vertices=corners, faces=none) for corners in pieces.corners]
+    save_parts(_cache_name(key), parts)
+
+
+def load_pieces(key: str) -> ConvexPieces | None:
+    """Load the pieces of a key; None if missing or invalid."""
+    parts = load_parts(_cache_name(key))
+    if not parts or any(part.vertices.ndim != 2 or part.vertices.shape[1] != 3 for part in parts):
+        return None
+    errors, *pieces = (np.asarray(part.vertices, dtype=float) for part in parts)
+    if not pieces or not all(len(corners) and np.isfinite(corners).all() for corners in pieces):
+        return None
+    found = [
+        HullError(None if np.isnan(times) else times, away, is_filled=bool(is_filled))
+        for times, away, is_filled in errors.tolist()
+    ]
+    return ConvexPieces(pieces, found)
+
+
+def _cache_name(key: str) -> str:
+    return f"pieces-{key}"
