@@ -1,13 +1,23 @@
 """Start a ROS 1 launch file."""
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from trundle.base.diagnostics import UsageError
 from trundle.ros import DISTROS
 
-from .options import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access
+from .options import (
+    add_allow_outside,
+    add_lenient,
+    add_page_access,
+    add_renderer,
+    add_timeline,
+    field_option,
+    page_access,
+    read_options,
+)
 from .quiet_imports import quiet_imports
 from .speed import read_speed
 
@@ -25,18 +35,17 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    add = parser.add_argument
-    add(
+    parser.add_argument(
         "words",
         nargs="*",
         metavar="[PKG] FILE [ARG:=VALUE]",
         help="launch file ('-': standard input) and its arguments",
     )
-    add(
-        "--headless", action="store_true", help="no browser page; rviz idles, a node that wants a terminal has this one"
-    )
-    add("--duration", type=float, metavar="S", help="stop after S seconds of ROS time")
-    add("--speed", type=read_speed, default=1.0, metavar="X|max", help="real-time factor (1); max: as fast as possible")
+    add = field_option(parser)
+    headless = "no browser page; rviz idles, a node that wants a terminal has this one"
+    add("--headless", action="store_true", help=headless)
+    add("--duration", type=float, dest="duration_s", metavar="S", help="stop after S seconds of ROS time")
+    add("--speed", type=read_speed, metavar="X|max", help="real-time factor (1); max: as fast as possible")
     add(
         "--record",
         type=Path,
@@ -44,23 +53,27 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="record all topics in a bag, or in FILE.mcap; with --speed max and all nodes within trundle, bags are "
         "reproducible byte by byte, without /rosout and topics of other programs",
     )
+    add_timeline(parser)
     add("--distro", choices=DISTROS, help="ROS distribution to emulate (the master's, or noetic)")
-    add("-p", "--port", type=int, metavar="N", help="the master's port (that of ROS_MASTER_URI, 11311)")
+    port = "the master's port (that of ROS_MASTER_URI, 11311)"
+    add("-p", "--port", type=int, dest="master_port", metavar="N", help=port)
     add("--view-port", type=int, metavar="N", help="the page's port (8080 or a free one); Gazebo's beside rviz: N + 1")
-    add("--host", default="127.0.0.1", help="address that everything binds (127.0.0.1)")
+    add("--host", help="address that everything binds (127.0.0.1)")
     add("--strict", action="store_true", help="treat warnings about the file as errors")
-    add("--screen", action="store_true", help="show the output of every node")
-    add("--log", action="store_true", help="log the output of every node, overriding the file and --screen")
-    add("--required", action="store_true", help="stop the launch when any node ends")
-    add("--wait", action="store_true", help="wait for a master")
-    add("--local", action="store_true", help="no remote nodes, as always here")
-    add("--core", action="store_true", help="master, parameter server and rosout only")
-    add("--pid", type=Path, metavar="FILE", help="write the process id there")
+    add("--screen", action="store_const", const="screen", dest="output", help="show the output of every node")
+    what = "log the output of every node, overriding the file and --screen"
+    parser.add_argument("--log", action="store_true", help=what)
+    add("--required", action="store_true", dest="all_required", help="stop the launch when any node ends")
+    add("--wait", action="store_true", dest="wait_for_master", help="wait for a master")
+    parser.add_argument("--local", action="store_true", help="no remote nodes, as always here")
+    add("--core", action="store_true", dest="core_only", help="master, parameter server and rosout only")
+    add("--pid", type=Path, dest="pid_file", metavar="FILE", help="write the process id there")
     add("-q", "--quiet", action="store_true", help="print problems only")
     add("-v", dest="verbose", action="store_true", help="print files read and parameters set")
-    add("--no-summary", action="store_true", help="do not show parameters and nodes at the start")
-    add("--sigint-timeout", type=float, default=15.0, metavar="S", help="wait for a node after SIGINT (15)")
-    add("--sigterm-timeout", type=float, default=2.0, metavar="S", help="wait for a node after SIGTERM (2)")
+    add("--no-summary", action="store_false", dest="summary", help="do not show parameters and nodes at the start")
+    interrupt, terminate = (f"wait for a node after {signal}" for signal in ("SIGINT (15)", "SIGTERM (2)"))
+    add("--sigint-timeout", type=float, dest="interrupt_s", metavar="S", help=interrupt)
+    add("--sigterm-timeout", type=float, dest="terminate_s", metavar="S", help=terminate)
     only = parser.add_argument_group("print and end").add_mutually_exclusive_group()
     only.add_argument("--nodes", action="store_const", dest="only", const="nodes", help="the names of the nodes")
     only.add_argument("--find-node", metavar="NODE", help="launch file that defines a node")
@@ -96,44 +109,30 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Launch until the duration is over, a required node dies, or Ctrl-C."""
-    if args.core and args.words:
-        args.refuse("--core launches no files")
-    if not (args.core or args.words or args.child or args.server_uri or args.run_id):
-        args.refuse("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
-    if not min(args.sigint_timeout, args.sigterm_timeout) > 0.0:
-        raise UsageError("--sigint-timeout and --sigterm-timeout must be > 0 s")
     with quiet_imports():
         from trundle.live.launch.launch import launch
         from trundle.live.launch.options import LaunchOptions
 
-    options = LaunchOptions(
-        headless=args.headless or args.core,
-        duration_s=args.duration,
-        master_port=args.port,
-        view_port=args.view_port,
-        host=args.host,
+    options = read_options(
+        LaunchOptions,
+        args,
         allowed=page_access(args),
-        view_only=args.view_only,
-        opens_browser=not args.no_browser,
-        renderer=args.renderer,
-        output="log" if args.log else "screen" if args.screen else None,
         reads_keys=True,
-        all_required=args.required,
-        wait_for_master=args.wait,
-        summary=not (args.no_summary or args.quiet),
-        quiet=args.quiet,
-        distro=args.distro,
-        speed=args.speed,
-        record=args.record,
-        verbose=args.verbose,
-        core_only=args.core,
-        pid_file=args.pid,
-        interrupt_s=args.sigint_timeout,
-        terminate_s=args.sigterm_timeout,
-        strict=args.strict,
         only="find-node" if args.find_node else "args" if args.args else args.only,
         node=args.find_node or args.args or "",
     )
+    if args.log:
+        options = replace(options, output="log")
+    if options.quiet:
+        options = replace(options, summary=False)
+    if options.core_only:
+        options = replace(options, headless=True)
+        if args.words:
+            args.refuse("--core launches no files")
+    if not (options.core_only or args.words or args.child or args.server_uri or args.run_id):
+        args.refuse("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
+    if not min(options.interrupt_s, options.terminate_s) > 0.0:
+        raise UsageError("--sigint-timeout and --sigterm-timeout must be > 0 s")
     if args.child or args.server_uri or args.run_id:
         return _child(args, options)
     return launch(args.words, options)
@@ -142,7 +141,7 @@ def main(args: argparse.Namespace) -> int:
 def _child(args: argparse.Namespace, options: "LaunchOptions") -> int:
     if not (args.child and args.server_uri and args.run_id):
         args.refuse("--child, --server_uri and --run_id go together: roslaunch gives its children all three")
-    if args.words or args.core or args.port is not None:
+    if args.words or options.core_only or options.master_port is not None:
         args.refuse("a child launches what its parent sends, at the parent's master: no files, --core or --port")
     from trundle.live.launch.child import run_child
     from trundle.live.launch.parent import ParentLaunch

@@ -1,10 +1,51 @@
 """Options shared by several commands."""
 
 import argparse
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from dataclasses import fields
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from trundle.base.http.page_address import AllowedNames
+
+_Options = TypeVar("_Options")
+
+
+def field_option(parser: argparse.ArgumentParser) -> Callable[..., argparse.Action]:
+    """Return a function that declares an option of which `dest` names a field; `read_options` knows its default."""
+    return partial(parser.add_argument, default=argparse.SUPPRESS)
+
+
+def read_options(kind: type[_Options], args: argparse.Namespace, **more: object) -> _Options:
+    """Make the options of a command from its arguments.
+
+    Args:
+        kind: dataclass of the options, with their defaults.
+        args: those that have the name of a field are its value.
+        more: further fields.
+    """
+    names = {each.name for each in fields(kind)}  # type: ignore[arg-type]
+    given: dict[str, Any] = {name: value for name, value in vars(args).items() if name in names}
+    return kind(**given | more)
+
+
+def add_timeline(parser: argparse.ArgumentParser) -> None:
+    """Declare the option of commands whose page goes back in time."""
+    field_option(parser)(
+        "--timeline",
+        type=_megabytes,
+        dest="timeline_mb",
+        metavar="MB",
+        help="memory for the last minutes, which the page goes back to; 0: none (256)",
+    )
+
+
+def _megabytes(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} is not a size; give megabytes, such as 256")
+    return value
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:
@@ -29,7 +70,7 @@ def add_page_access(parser: argparse.ArgumentParser) -> None:
     what = "print a second link, which only allows looking"
     parser.add_argument("--view-only", action="store_true", help=what)
     what = "print the page's URL only; else it is opened where a terminal has a display"
-    parser.add_argument("--no-browser", action="store_true", help=what)
+    field_option(parser)("--no-browser", action="store_false", dest="opens_browser", help=what)
 
 
 def page_access(args: argparse.Namespace) -> "AllowedNames":

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from .options import add_allow_outside, add_page_access, page_access
+from .options import add_allow_outside, add_page_access, field_option, page_access, read_options
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
@@ -17,10 +17,11 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", metavar="FILE", type=Path, help="state log of `trundle run --record`, .bag or .mcap")
-    parser.add_argument("--speed", type=_positive, default=1.0, metavar="X", help="real-time factor (1)")
-    parser.add_argument("--pause", action="store_true", help="start paused")
-    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
-    parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+    add = field_option(parser)
+    add("--speed", type=_positive, metavar="X", help="real-time factor (1)")
+    add("--pause", action="store_true", dest="paused", help="start paused")
+    add("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    add("--host", help="address that the page binds (127.0.0.1)")
     add_page_access(parser)
     add_allow_outside(parser)
 
@@ -30,16 +31,7 @@ def main(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.app.play import PlayOptions, play
 
-    options = PlayOptions(
-        host=args.host,
-        port=args.port,
-        allowed=page_access(args),
-        view_only=args.view_only,
-        opens_browser=not args.no_browser,
-        speed=args.speed,
-        paused=args.pause,
-    )
-    return play(args.file, options)
+    return play(args.file, read_options(PlayOptions, args, allowed=page_access(args)))
 
 
 def _positive(text: str) -> float:

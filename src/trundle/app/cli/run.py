@@ -7,7 +7,16 @@ from pathlib import Path
 
 from trundle.base.diagnostics import DescriptionError, Diagnostic, Source, TrundleError
 
-from .options import add_allow_outside, add_lenient, add_page_access, add_renderer, page_access
+from .options import (
+    add_allow_outside,
+    add_lenient,
+    add_page_access,
+    add_renderer,
+    add_timeline,
+    field_option,
+    page_access,
+    read_options,
+)
 from .quiet_imports import quiet_imports
 from .speed import read_speed
 
@@ -23,33 +32,24 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", metavar="FILE|DIR|model://NAME|package://PKG/FILE", help="file to simulate")
-    parser.add_argument("--headless", action="store_true", help="no browser page")
-    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
-    parser.add_argument("--host", default="127.0.0.1", help="address that the page and the ROS graph bind (127.0.0.1)")
-    parser.add_argument("--duration", type=_positive, metavar="S", help="stop after S seconds of simulation time")
-    parser.add_argument(
-        "--speed", type=read_speed, default=1.0, metavar="X|max", help="real-time factor; max: as fast as possible (1)"
-    )
-    parser.add_argument("--pause", action="store_true", help="start paused")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all random numbers (0)")
-    parser.add_argument("--no-ros", action="store_true", help="no ROS graph, no open ports")
-    parser.add_argument("--no-sensors", action="store_true", help="switch every sensor off")
-    add_renderer(parser)
-    parser.add_argument("--strict", action="store_true", help="treat warnings about the file as errors")
-    parser.add_argument(
-        "--on-instability",
-        choices=("pause", "reset", "exit"),
-        help="action when the physics diverges (pause with a page, exit without)",
-    )
-    parser.add_argument("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
-    parser.add_argument(
-        "--timeline",
-        type=_megabytes,
-        default=256,
-        metavar="MB",
-        help="memory for the last minutes, which the page goes back to; 0: none (256)",
-    )
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
+    add = field_option(parser)
+    add("--headless", action="store_true", help="no browser page")
+    add("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    add("--host", help="address that the page and the ROS graph bind (127.0.0.1)")
+    duration = "stop after S seconds of simulation time"
+    add("--duration", type=_positive, dest="duration_s", metavar="S", help=duration)
+    add("--speed", type=read_speed, metavar="X|max", help="real-time factor; max: as fast as possible (1)")
+    add("--pause", action="store_true", dest="paused", help="start paused")
+    add("--seed", type=int, metavar="N", help="seed of all random numbers (0)")
+    add("--no-ros", action="store_false", dest="ros", help="no ROS graph, no open ports")
+    add("--no-sensors", action="store_false", dest="sensors", help="switch every sensor off")
+    add_renderer(parser)
+    add("--strict", action="store_true", help="treat warnings about the file as errors")
+    reaction = "action when the physics diverges (pause with a page, exit without)"
+    add("--on-instability", choices=("pause", "reset", "exit"), help=reaction)
+    add("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
+    add_timeline(parser)
     add_page_access(parser)
     add_allow_outside(parser)
     add_lenient(parser)
@@ -61,25 +61,7 @@ def main(args: argparse.Namespace) -> int:
         from trundle.live.run.run import run
         from trundle.live.run.run_options import RunOptions
 
-    options = RunOptions(
-        headless=args.headless,
-        host=args.host,
-        allowed=page_access(args),
-        view_only=args.view_only,
-        opens_browser=not args.no_browser,
-        port=args.port,
-        duration_s=args.duration,
-        speed=args.speed,
-        paused=args.pause,
-        seed=args.seed,
-        ros=not args.no_ros,
-        sensors=not args.no_sensors,
-        renderer=args.renderer,
-        strict=args.strict,
-        record=args.record,
-        timeline_mb=args.timeline,
-        on_instability=args.on_instability,
-    )
+    options = read_options(RunOptions, args, allowed=page_access(args))
     try:
         outcome = run(args.file, options)
     except TrundleError as error:
@@ -104,11 +86,4 @@ def _positive(text: str) -> float:
     value = float(text)
     if not value > 0:
         raise argparse.ArgumentTypeError(f"{text} is not a duration; give seconds, such as 10")
-    return value
-
-
-def _megabytes(text: str) -> int:
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"{text} is not a size; give megabytes, such as 256")
     return value

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from .graph_command import interrupted_by_signals
+from .options import read_options
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
@@ -23,12 +24,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
     text = "show the output of every node; write no result files"
     parser.add_argument("-t", "--text", action="store_true", help=text)
     parser.add_argument("--package", metavar="PKG", help="package of the results (that of FILE)")
-    parser.add_argument("--pkgdir", type=Path, metavar="DIR", help="package folder, for result names relative to it")
     parser.add_argument(
-        "--results-filename", type=_file_name, metavar="NAME", help="name of the results file, in rostest's folder"
+        "--pkgdir",
+        type=Path,
+        dest="package_folder",
+        metavar="DIR",
+        help="package folder, for result names relative to it",
+    )
+    parser.add_argument(
+        "--results-filename",
+        type=_file_name,
+        dest="results_name",
+        metavar="NAME",
+        help="name of the results file, in rostest's folder",
     )
     where = "folder with a subfolder of results per package, instead of ROS_TEST_RESULTS_DIR"
-    parser.add_argument("--results-base-dir", type=Path, metavar="DIR", help=where)
+    parser.add_argument("--results-base-dir", type=Path, dest="results_folder", metavar="DIR", help=where)
     reuse = "use the master at ROS_MASTER_URI instead of one per test"
     parser.add_argument("-r", "--reuse-master", action="store_true", help=reuse)
     parser.add_argument("-c", "--clear", action="store_true", help="with -r: delete its parameters before each test")
@@ -49,18 +60,8 @@ def main(args: argparse.Namespace) -> int:
         from trundle.live.launch.tests import run_tests
 
     options = LaunchOptions(headless=True, output="screen" if args.text else None, strict=args.strict)
-    how = LaunchTestOptions(
-        junit=args.junit,
-        text=args.text,
-        package=args.package,
-        package_folder=args.pkgdir,
-        results_name=args.results_filename,
-        results_folder=args.results_base_dir,
-        reuse_master=args.reuse_master,
-        clear=args.clear,
-    )
     with interrupted_by_signals():
-        return run_tests(args.words, options, how)
+        return run_tests(args.words, options, read_options(LaunchTestOptions, args))
 
 
 def _file_name(text: str) -> str:

@@ -2,7 +2,7 @@
 
 import argparse
 
-from .options import add_allow_outside, add_page_access, page_access
+from .options import add_allow_outside, add_page_access, field_option, page_access, read_options
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
@@ -14,10 +14,11 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("-d", "--display-config", metavar="FILE", help="an .rviz file")
-    parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="fixed frame")
-    parser.add_argument("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
-    parser.add_argument("--host", default="127.0.0.1", help="address that the page binds (127.0.0.1)")
+    add = field_option(parser)
+    add("-d", "--display-config", dest="config", metavar="FILE", help="an .rviz file")
+    add("-f", "--fixed-frame", metavar="FRAME", help="fixed frame")
+    add("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
+    add("--host", help="address that the page binds (127.0.0.1)")
     add_page_access(parser)
     add_allow_outside(parser)
 
@@ -27,13 +28,4 @@ def main(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.app.view import ViewOptions, view
 
-    options = ViewOptions(
-        config=args.display_config,
-        fixed_frame=args.fixed_frame,
-        host=args.host,
-        port=args.port,
-        allowed=page_access(args),
-        view_only=args.view_only,
-        opens_browser=not args.no_browser,
-    )
-    return view(options)
+    return view(read_options(ViewOptions, args, allowed=page_access(args)))
