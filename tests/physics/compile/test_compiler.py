@@ -158,6 +158,23 @@ def test_moments_that_belong_to_no_body_are_used_unless_they_are_far_off(
     assert sorted(turning) == pytest.approx(used)
 
 
+def test_moments_of_flat_plates_add_up_however_they_are_rounded() -> None:
+    """Of 3.5e-5 and 5e-6 the sum is the largest double below 4e-5."""
+    report = Diagnostics()
+    plates = [(float(f"{a}e-6"), float(f"{b}e-6"), float(f"{a + b}e-6")) for a in range(1, 12) for b in range(30, 50)]
+    links = [
+        Link(name=f"l{number}", at=AT, inertial=Inertial(mass=1.0, moments=moments))
+        for number, moments in enumerate(plates)
+    ]
+
+    world = compiled(model(*links), report=report)
+
+    assert any(a + b < c for a, b, c in plates)
+    assert report.warnings == []
+    inertias = [sorted(world.model.body(f"m::l{number}").inertia) for number in range(len(plates))]
+    assert inertias == [pytest.approx(moments, rel=1e-12) for moments in plates]
+
+
 def test_a_plausible_inertia_is_taken_as_written_whatever_its_axes() -> None:
     tilted = Inertial(mass=2.0, link_from_com=Pose((0.1, 0.2, 0.3)), moments=(2.0, 2.0, 3.0), products=(0.5, 0.0, 0.0))
     world = compiled(model(Link(name="a", at=AT, inertial=tilted)))

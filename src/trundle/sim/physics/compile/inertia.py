@@ -13,6 +13,8 @@ SMALLEST_MASS = 1e-6
 SMALLEST_MOMENT = 1e-9
 """Smallest principal moment [kg·m²]."""
 _ROUNDING = 1e-12
+_MARGIN = 1e-15
+"""Share of a moment by which sums are above it, however they are rounded."""
 _MAX_RATIO = 10.0
 """Largest difference of two moments over the third one; 1 in rigid bodies, and the gyroscopic torque grows with it."""
 
@@ -55,8 +57,8 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
 def possible_moments(moments: tuple[float, float, float]) -> tuple[float, float, float]:
     """Return moments, ascending, that MuJoCo's compiler accepts: the two smaller are raised if they must be."""
     one, two, three = moments
-    excess = three - one - two
-    rise = excess / 2 * (1 + 1e-9) if excess > _ROUNDING * three else 0.0
+    excess = three - (one + two)
+    rise = excess / 2 * (1 + 1e-9) + _MARGIN * three if excess > 0.0 else 0.0
     return one + rise, two + rise, three
 
 
