@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from tests.plugins.stage import load
 
+import trundle
 from trundle.gazebo.plugins.mimic_joint import MimicJoint
 from trundle.sim.simulation import Simulation
 
@@ -76,4 +77,44 @@ def _count_strides(sim: Simulation) -> list[int]:
         return step(count, each)
 
     sim.engine.step = counted  # type: ignore[method-assign]
+    return strides
+
+
+_LIGHT = """<link name="{0}"><inertial><origin xyz="0.03 0 0"/><mass value="0.03"/>
+<inertia ixx="4e-5" ixy="0" ixz="0" iyy="5e-6" iyz="0" izz="3.5e-5"/></inertial></link>
+<joint name="{1}" type="continuous"><parent link="{2}"/><child link="{0}"/><axis xyz="0 0 1"/><origin xyz="{3} 0 0"/>
+<limit effort="{4}" velocity="100"/></joint>"""
+_COUPLED = """<gazebo><plugin name="{0}" filename="libroboticsgroup_gazebo_mimic_joint_plugin.so"><joint>lead</joint>
+<mimicJoint>{0}</mimicJoint><multiplier>{1}</multiplier></plugin></gazebo>"""
+
+
+def test_light_followers_of_a_gripper_move_as_one_with_its_finger(tmp_path: Path) -> None:
+    """A finger of four bars: the tip turns back on a follower, each with an effort limit that its motor would have."""
+    file = tmp_path / "gripper.urdf"
+    file.write_text(
+        '<robot name="gripper"><link name="world"/>'
+        + _LIGHT.format("finger", "lead", "world", 0, 1000)
+        + _LIGHT.format("knuckle", "inner", "world", 0.06, 0.1)
+        + _LIGHT.format("end", "tip", "knuckle", 0.05, 0.1)
+        + _COUPLED.format("inner", 1)
+        + _COUPLED.format("tip", -1)
+        + "</robot>"
+    )
+    sim = trundle.load(str(file), plugins=True)
+    lead, inner, tip = (sim["gripper"].joint(name) for name in ("lead", "inner", "tip"))
+    lead.command_position(0.8)
+
+    for _ in range(30):
+        sim.run(0.1)
+        assert inner.position == pytest.approx(lead.position, abs=2e-3)
+        assert tip.position == pytest.approx(-lead.position, abs=2e-3)
+
+    assert lead.position == pytest.approx(0.8, abs=0.01)
+    assert abs(tip.velocity) < 0.05
+    assert _count_strides_of(sim, 100) == [100], "no plugin acts between the steps"
+
+
+def _count_strides_of(sim: Simulation, steps: int) -> list[int]:
+    strides = _count_strides(sim)
+    sim.step(steps)
     return strides

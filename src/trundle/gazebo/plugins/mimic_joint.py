@@ -19,8 +19,8 @@ _LAG_STEPS = 5
 class MimicJoint(Plugin):
     """Holds <mimicJoint> at <multiplier> (1) times the position of <joint>, plus <offset> (0).
 
-    With <hasPID> its effort is at most <maxEffort> (1) [N·m or N], else unlimited, as the original sets the position.
-    Errors below <sensitiveness> (0) [rad or m] are ignored.
+    With <hasPID> its effort is at most <maxEffort> (1) [N·m or N], else unlimited, as the original sets the position;
+    in a URDF the joints are coupled then, as by <mimic>. Errors below <sensitiveness> (0) [rad or m] are ignored.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, tag: PluginTag) -> None:
@@ -33,6 +33,8 @@ class MimicJoint(Plugin):
         self._multiplier, self._offset = parameters.number("multiplier", 1.0), parameters.number("offset", 0.0)
         self._sensitiveness, max_effort = parameters.number("sensitiveness", 0.0), parameters.number("maxEffort", 1.0)
         self._max_effort = max_effort if "hasPID" in parameters else math.inf
+        axis = self._follower.joint.axis
+        self._is_coupled = axis is not None and axis.mimic is not None
         self._sim = sim
         self._action: MimicAction | None = None
         sim.on_change(self._forget_action)
@@ -44,6 +46,10 @@ class MimicJoint(Plugin):
         """See `Plugin.load`."""
         del node
         return cls(sim, model, tag)
+
+    def is_wanted(self) -> bool:
+        """Return False where the engine couples the joints."""
+        return not self._is_coupled
 
     def before_step(self, sim: Simulation) -> None:
         """Set the follower's velocity."""

@@ -5,8 +5,7 @@ URDF's colours, which Gazebo drops, are kept.
 """
 
 import math
-import re
-from collections.abc import Container, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
@@ -53,6 +52,7 @@ from ..sdf.context import Context, RawPose
 from ..sdf.frames import MODEL, FrameGraph
 from ..sdf.version import Version
 from ..shape_names import is_lumped_name, shape_name
+from .followers import plugin_followers
 from .gazebo_tags import GazeboTags
 from .lump import WORLD, Lump, follow_lumps, lump_links, lumped_inertial
 from .massless import massless_lumps
@@ -64,8 +64,6 @@ _TYPES = {
     "fixed": JointType.FIXED,
     "planar": JointType.PLANAR,
 }
-_HELD_BY_PLUGIN = re.compile(r"<mimicJoint>\s*(.*?)\s*</mimicJoint>")
-"""Pattern of joints that a plugin lets follow; their URDF mimic is dropped."""
 
 
 def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages, report: Diagnostics) -> World:
@@ -111,11 +109,12 @@ class _Lowering:
             if lump.name not in dropped and lump.name != WORLD
         )
         plugins = self.tags.plugins("")
-        held = {name for plugin in plugins for name in _HELD_BY_PLUGIN.findall(plugin.node.xml())}
+        followers = plugin_followers(plugins)
         joints = tuple(
             lowered
             for joint in self.robot.joints
-            if self.lump_of[joint.child] not in dropped and (lowered := self._joint(joint, poses, held)) is not None
+            if self.lump_of[joint.child] not in dropped
+            and (lowered := self._joint(joint, poses, followers)) is not None
         )
         canonical = self._first({link.name for link in links}) if links else None
         graph = FrameGraph(MODEL, self.report, canonical)
@@ -276,7 +275,9 @@ class _Lowering:
             self.report.warn(error.at, f"{error.what}; the {what} is left out")
             return None
 
-    def _joint(self, joint: RobotJoint, poses: Mapping[str, Pose], held: Container[str]) -> Joint | None:
+    def _joint(
+        self, joint: RobotJoint, poses: Mapping[str, Pose], followers: Mapping[str, Mimic | None]
+    ) -> Joint | None:
         parent, child = self.lump_of[joint.parent], self.lump_of[joint.child]
         if parent == child:
             return None
@@ -287,9 +288,8 @@ class _Lowering:
             return None
         type_ = _TYPES[joint.type]
         axis = None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child])
-        if axis is not None and joint.mimic and type_ is not JointType.PLANAR and joint.name not in held:
-            leader = joint.mimic
-            axis = replace(axis, mimic=Mimic(joint=leader.joint, multiplier=leader.multiplier, offset=leader.offset))
+        if axis is not None and type_ is not JointType.PLANAR:
+            axis = replace(axis, mimic=followers.get(joint.name, _own_mimic(joint)))
         return Joint(
             name=joint.name,
             type=type_,
@@ -325,3 +325,8 @@ class _Lowering:
 def _bound(value: float) -> float:
     """Return an effort or velocity limit; in SDF a negative one is unlimited."""
     return math.inf if value < 0 or value >= UNLIMITED else value
+
+
+def _own_mimic(joint: RobotJoint) -> Mimic | None:
+    leader = joint.mimic
+    return None if leader is None else Mimic(joint=leader.joint, multiplier=leader.multiplier, offset=leader.offset)
